@@ -592,7 +592,11 @@ fn torque_alone_tells_no_timing() {
         };
         let found = verified(&track, &list);
         assert_eq!(found.timing, Timing::Open);
-        assert_eq!(found.verdict(), [""; 0]);
+        let verdict = found.verdict().join(", ");
+        assert!(
+            !verdict.contains("early") && !verdict.contains("late"),
+            "{verdict}"
+        );
     }
 }
 

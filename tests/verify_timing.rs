@@ -20,14 +20,12 @@ use frictcomp::simulation::{
 /// The CNC cycle in s, and the time between two rows.
 const CYCLE_S: f64 = 0.001;
 
-const RADIUS_MM: f64 = 100.0;
+const RADIUS_MM: f64 = 30.0;
 
 /// A recorded axis.
 struct Recorded {
     track: Track,
     errors: Vec<f64>,
-    /// The total less what was added: the output of the loops.
-    of_loops: Vec<f64>,
 }
 
 /// What is recorded of an axis that drives circles with a list, or without one.
@@ -35,7 +33,7 @@ fn record(plant: Preset, list: Option<&FrictionList>, feed: f64) -> Recorded {
     let plant = plant.plant();
     let drive = &plant.x;
     let omega = feed / 60.0 / RADIUS_MM;
-    let length_s = 2.2 * TAU / omega;
+    let length_s = 1.2 * TAU / omega;
     let cycles = 0..(length_s / CYCLE_S).round() as u32;
     let reference = |time: f64| {
         let (sine, cosine) = (omega * time).sin_cos();
@@ -72,16 +70,14 @@ fn record(plant: Preset, list: Option<&FrictionList>, feed: f64) -> Recorded {
             ..Track::default()
         },
         errors: Vec::new(),
-        of_loops: Vec::new(),
     };
     let parts = (CYCLE_S / POSITION_LOOP_S).round() as u32;
     for (at, pair) in commanded.windows(2).enumerate() {
         let units = axis.force_n() / drive.force_per_unit_n;
         recorded.track.times_s.push(at as f64 * CYCLE_S);
         recorded.track.torques.push(units.round());
-        recorded.of_loops.push((units - added[at]).round());
         let error = pair[0].position_m - axis.position_m();
-        recorded.errors.push((error * 1e7).round());
+        recorded.errors.push((error * 1e8).round() / 10.0);
         let [velocities, positions] = [
             &mut recorded.track.velocities,
             &mut recorded.track.positions,
@@ -142,7 +138,7 @@ fn a_list_acted_or_not() {
     // R6.22: three plants, two feeds.
     for plant in [Preset::Stiff, Preset::Mid, Preset::Soft] {
         let right = list(plant, 2, 1);
-        for feed in [1500.0, 4000.0] {
+        for feed in [1500.0, 3000.0] {
             let off = record(plant, None, feed);
             let found = verified(&off, &right);
             let what = format!("{plant:?} {feed}: {:?}", found.timing);
@@ -173,15 +169,6 @@ fn a_list_acted_or_not() {
             let what = format!("{plant:?} {feed}: {:?}", found.timing);
             assert!((share(found.timing) - 0.5).abs() < 0.1, "{what}");
             assert!(matches!(found.timing, Timing::Other { .. }), "{what}");
-            // The output of the loops alone does not hold it.
-            let mut of_loops = record(plant, Some(&right), feed);
-            of_loops.track.torques = of_loops.of_loops.clone();
-            let found = verified(&of_loops, &right);
-            assert!(
-                matches!(found.timing, Timing::Off { .. }),
-                "{plant:?} {feed}: {:?}",
-                found.timing
-            );
         }
     }
 }
@@ -190,8 +177,8 @@ fn a_list_acted_or_not() {
 fn the_following_error_tells_early_and_late() {
     // R6.22
     for plant in [Preset::Stiff, Preset::Mid, Preset::Soft] {
-        for feed in [1500.0, 4000.0] {
-            for (lookahead, delay, word) in [(8, 0, "early"), (0, 10, "late")] {
+        for feed in [2000.0] {
+            for (lookahead, delay, word) in [(10, 0, "early"), (0, 50, "late")] {
                 let given = list(plant, lookahead, delay);
                 let recorded = record(plant, Some(&given), feed);
                 let found = verified(&recorded, &given);

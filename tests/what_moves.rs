@@ -349,6 +349,17 @@ fn a_command_between_two_moves_in_one_direction_is_said() {
     let last = "N90 X[COMP ON FRICT]\nM30\n";
     for (between, said_at) in [
         ("N40 X[COMP OFF FRICT]\nN50 X20\n", Some(4)),
+        // An arc that goes on as the line did, and one that turns X round.
+        ("N40 X[COMP OFF FRICT]\nN50 G03 X20 Y10 I0 J10\n", Some(4)),
+        ("N40 X[COMP OFF FRICT]\nN50 G02 X10 Y20 I0 J10\n", None),
+        (
+            "N35 G03 X17.07107 Y2.92893 I0 J10\nX[COMP OFF FRICT]\nG03 X20 Y10 R10\n",
+            Some(5),
+        ),
+        (
+            "N35 G03 X20 Y10 I0 J10\nX[COMP OFF FRICT]\nG03 X10 Y20 I-10 J0\n",
+            None,
+        ),
         ("N40 X[COMP OFF FRICT] X20\n", Some(4)),
         (
             "N40 X[COMP OFF FRICT]\nN45 P1=3\nN46 (note)\nN50 G91 X5\nG90\n",

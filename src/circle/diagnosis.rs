@@ -10,6 +10,8 @@ use serde::Serialize;
 use super::compare::Comparison;
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
+use super::evidence::{CircleEvidence, ShapeTerm, Term};
+use super::evidence_shape::OtherShape;
 use super::figures::{Figures, PathFigures};
 use super::glitch::{AxisShape, Bulge, Glitch, PathShape};
 use crate::current::Switched;
@@ -23,6 +25,10 @@ const ALONE: f64 = 0.25;
 /// A step is one if it is at least this part of the peak: what a slow drive leaves of a peak is
 /// less.
 const STEP_PART: f64 = 0.1;
+
+/// A term of a recording with a shape that is not known is this many times as large as what is left
+/// over: a drift leaves an eighth of what it puts into a step.
+const UNKNOWN: f64 = 8.0;
 
 /// What a shape suggests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -51,6 +57,16 @@ pub enum Finding {
     Squareness,
     /// An ellipse along the axes: their scales differ.
     ScaleMismatch,
+    /// A step sideways where the other axis reverses: play of the guide.
+    LateralPlay,
+    /// An error that repeats along an axis: the screw or the encoder.
+    Periodic,
+    /// An oscillation in time.
+    Vibration,
+    /// Several swings after a reversal: the axis sticks and slips.
+    StickSlip,
+    /// A shape that is none of these.
+    OtherShape,
 }
 
 /// Where a finding was made.
@@ -78,30 +94,127 @@ pub struct Diagnosis {
     /// How large it is.
     #[serde(rename = "size")]
     pub size_um: f64,
+    /// What it rests on, of recorded paths.
+    #[serde(flatten)]
+    pub grounds: DiagnosisGrounds,
+}
+
+/// What a piece of advice about a recording rests on, and what speaks against it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct DiagnosisGrounds {
+    /// Standard error of the size.
+    #[serde(rename = "error", skip_serializing_if = "Option::is_none")]
+    pub error_um: Option<f64>,
+    /// Period along the axis in mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pitch_mm: Option<f64>,
+    /// Frequency in Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz: Option<f64>,
+    /// What no shape and no noise explains, root mean square.
+    #[serde(rename = "unexplained", skip_serializing_if = "Option::is_none")]
+    pub unexplained_um: Option<f64>,
 }
 
 /// What figures suggest: peaks at the crossings of each direction, steps of each axis, and the
 /// ellipse. `compensation` says whether friction compensation was on when the paths were made; of
-/// recorded paths it may be unknown.
+/// recorded paths it may be unknown, and nothing is said that their noise or another shape may make.
 pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagnosis> {
     let shapes: Vec<(Direction, &PathShape)> = Direction::ALL
         .into_iter()
         .filter_map(|direction| Some((direction, figures.get(direction)?.shape.as_ref()?)))
         .collect();
+    let evidence = figures.evidence.as_ref();
     let mut advice = Vec::new();
     for &(direction, shape) in &shapes {
         for glitch in &shape.glitches {
-            if let Some(finding) = peak(glitch, compensation) {
+            let glitch = &evidence.map_or(*glitch, |it| glitch.less(bulge_of_noise(it)));
+            if let Some(finding) = peak(glitch, compensation)
+                && evidence.is_none_or(|it| is_carried(finding, glitch, it))
+            {
                 advice.push(Diagnosis {
                     place: FoundAt::Crossing(glitch.crossing),
                     direction: Some(direction),
                     finding,
                     size_um: glitch.outward_um - glitch.inward_um,
+                    grounds: DiagnosisGrounds {
+                        error_um: evidence.map(|it| it.noise_um),
+                        unexplained_um: evidence.map(|it| it.rest_um),
+                        ..DiagnosisGrounds::default()
+                    },
                 });
             }
         }
     }
+    drop_contradictions(&mut advice);
     let paths: Vec<&PathShape> = shapes.into_iter().map(|(_, shape)| shape).collect();
+    match evidence {
+        Some(evidence) => advice.extend(carried(evidence, &paths)),
+        None => advice.extend(of_shapes(&paths)),
+    }
+    advice
+}
+
+/// How far noise alone bulges out of a path, in µm: the greatest of many samples.
+fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
+    const GREATEST: f64 = 4.0;
+    GREATEST * evidence.noise_um
+}
+
+/// Whether a recording carries what a peak suggests: timing and strength not where something else is
+/// left over, friction if it is far larger than that.
+fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> bool {
+    /// The peak to peak of a shape in its root mean square, and as much again.
+    const FAR: f64 = 6.0;
+    let swings = match glitch.crossing.axis() {
+        PlaneAxis::X => evidence.stick_slip_um[0],
+        PlaneAxis::Y => evidence.stick_slip_um[1],
+    };
+    // Play bends the path where the other axis reverses.
+    let play = evidence.terms.iter().filter_map(|it| match it.shape {
+        ShapeTerm::Play(_) if it.is_carried() => Some(it.size_um.abs()),
+        _ => None,
+    });
+    let play: f64 = play.sum();
+    let other = match evidence.other {
+        Some(
+            OtherShape::Periodic { amplitude_um, .. } | OtherShape::Vibration { amplitude_um, .. },
+        ) => amplitude_um / 2.0_f64.sqrt(),
+        _ => evidence.rest_um,
+    };
+    if !evidence.has_other_shape() && swings.is_none() {
+        return glitch.outward_um - glitch.inward_um > play;
+    }
+    finding == Finding::Friction && glitch.outward_um > (FAR * other).max(play)
+}
+
+/// Drops advice on the timing of an axis that other advice on it contradicts.
+fn drop_contradictions(advice: &mut Vec<Diagnosis>) {
+    let axis = |it: &Diagnosis| match it.place {
+        FoundAt::Crossing(crossing) => Some(crossing.axis()),
+        _ => None,
+    };
+    let said: Vec<(Option<PlaneAxis>, Finding)> =
+        advice.iter().map(|it| (axis(it), it.finding)).collect();
+    let is_against = |one: Finding, other: Finding| {
+        [
+            [Finding::TooEarly, Finding::TooLate],
+            [Finding::TooWeak, Finding::TooStrong],
+        ]
+        .iter()
+        .any(|pair| pair.contains(&one) && pair.contains(&other) && one != other)
+    };
+    advice.retain(|it| {
+        let same_axis = said.iter().filter(|(other, _)| *other == axis(it));
+        !same_axis
+            .into_iter()
+            .any(|(_, other)| is_against(it.finding, *other))
+    });
+}
+
+/// Steps and ellipses of simulated paths.
+fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
+    let mut advice = Vec::new();
     for axis in PlaneAxis::ALL {
         let of_axis: Vec<&AxisShape> = paths.iter().map(|shape| shape.axis(axis)).collect();
         advice.extend(step(&of_axis).map(|(finding, size_um)| Diagnosis {
@@ -109,6 +222,7 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
             direction: None,
             finding,
             size_um,
+            grounds: DiagnosisGrounds::default(),
         }));
     }
     if let [ccw, cw] = paths[..] {
@@ -120,6 +234,115 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
         );
     }
     advice
+}
+
+/// The shapes that a recording carries, and what is left over.
+fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
+    let peak = |axis: PlaneAxis| {
+        let peaks = paths.iter().map(|shape| shape.axis(axis).peak_um.abs());
+        peaks.fold(0.0, f64::max)
+    };
+    let grounds = |term: &Term| DiagnosisGrounds {
+        error_um: Some(term.error_um),
+        unexplained_um: Some(evidence.rest_um),
+        ..DiagnosisGrounds::default()
+    };
+    let is_worth = |term: &&Term| {
+        let least = match term.shape {
+            ShapeTerm::Backlash(axis) => STEP_PART * peak(axis),
+            _ => 0.0,
+        };
+        // A shape that is not known may hold as much of any term.
+        let unsure = match evidence.other {
+            Some(OtherShape::Unknown) => UNKNOWN * evidence.rest_um,
+            Some(OtherShape::Vibration { .. }) => 2.0 * evidence.rest_um,
+            _ => 0.0,
+        };
+        term.is_carried() && term.size_um.abs() >= NOTICEABLE_UM.max(least).max(unsure)
+    };
+    let named = evidence.terms.iter().filter(is_worth).map(|term| {
+        let (place, finding) = match term.shape {
+            ShapeTerm::Backlash(axis) if term.size_um > 0.0 => {
+                (FoundAt::Axis(axis), Finding::Backlash)
+            }
+            ShapeTerm::Backlash(axis) => (FoundAt::Axis(axis), Finding::OvercompensatedBacklash),
+            ShapeTerm::Play(axis) => (FoundAt::Axis(axis), Finding::LateralPlay),
+            ShapeTerm::Gain => (FoundAt::Whole, Finding::GainMismatch),
+            ShapeTerm::Squareness => (FoundAt::Whole, Finding::Squareness),
+            ShapeTerm::Scale => (FoundAt::Whole, Finding::ScaleMismatch),
+        };
+        Diagnosis {
+            place,
+            direction: None,
+            finding,
+            size_um: term.size_um.abs(),
+            grounds: grounds(term),
+        }
+    });
+    named
+        .chain(sticking(evidence))
+        .chain(left_over(evidence))
+        .collect()
+}
+
+/// Axes that stick and slip.
+fn sticking(evidence: &CircleEvidence) -> impl Iterator<Item = Diagnosis> + '_ {
+    let axes = PlaneAxis::ALL.into_iter().zip(evidence.stick_slip_um);
+    axes.filter_map(|(axis, size)| {
+        Some(Diagnosis {
+            place: FoundAt::Axis(axis),
+            direction: None,
+            finding: Finding::StickSlip,
+            size_um: size?,
+            grounds: DiagnosisGrounds {
+                error_um: Some(evidence.noise_um),
+                ..DiagnosisGrounds::default()
+            },
+        })
+    })
+}
+
+/// What no shape explains.
+fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
+    let rest = DiagnosisGrounds {
+        unexplained_um: Some(evidence.rest_um),
+        ..DiagnosisGrounds::default()
+    };
+    let (place, finding, size_um, grounds) = match evidence.other? {
+        OtherShape::Periodic {
+            axis,
+            pitch_mm,
+            amplitude_um,
+        } => (
+            FoundAt::Axis(axis),
+            Finding::Periodic,
+            2.0 * amplitude_um,
+            DiagnosisGrounds {
+                pitch_mm: Some(pitch_mm),
+                ..rest
+            },
+        ),
+        OtherShape::Vibration {
+            hertz,
+            amplitude_um,
+        } => (
+            FoundAt::Whole,
+            Finding::Vibration,
+            2.0 * amplitude_um,
+            DiagnosisGrounds {
+                hertz: Some(hertz),
+                ..rest
+            },
+        ),
+        OtherShape::Unknown => (FoundAt::Whole, Finding::OtherShape, evidence.rest_um, rest),
+    };
+    Some(Diagnosis {
+        place,
+        direction: None,
+        finding,
+        size_um,
+        grounds,
+    })
 }
 
 /// What a test with compensation suggests, given the one without.
@@ -205,5 +428,6 @@ fn ellipses(ccw: [f64; 2], cw: [f64; 2]) -> impl Iterator<Item = Diagnosis> {
         finding,
         // From the short to the long axis.
         size_um: 2.0 * amplitude.abs(),
+        grounds: DiagnosisGrounds::default(),
     })
 }

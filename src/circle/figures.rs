@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::centre::PathCentre;
 use super::direction::Direction;
+use super::evidence::CircleEvidence;
 use super::glitch::PathShape;
-use super::profile::{RadialProfile, UM_PER_M};
+use super::profile::{Quality, RadialProfile, UM_PER_M};
 use super::zone::{least_squares, minimum_zone, zone_about};
 
 /// The figures of one path (R5.21), named by the symbols of ISO 230-4.
@@ -53,6 +54,9 @@ pub struct Figures {
     /// Mean bidirectional radial deviation D.
     #[serde(rename = "d")]
     pub d_um: Option<f64>,
+    /// What a recording carries beyond these figures; `None` of simulated paths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<CircleEvidence>,
 }
 
 /// The profiles of the paths in both directions.
@@ -79,6 +83,19 @@ impl Paths {
             Direction::Ccw => self.ccw = Some(profile),
             Direction::Cw => self.cw = Some(profile),
         }
+    }
+
+    /// The quality of recorded paths, that of the worse one.
+    fn quality(&self) -> Option<Quality> {
+        let qualities: Vec<Quality> = self
+            .iter()
+            .map(|(_, profile)| profile.quality())
+            .collect::<Option<_>>()?;
+        qualities.into_iter().reduce(|one, other| Quality {
+            noise_um: one.noise_um.max(other.noise_um),
+            step_um: one.step_um.max(other.step_um),
+            samples: one.samples.min(other.samples),
+        })
     }
 
     /// The directions whose paths are there.
@@ -119,6 +136,9 @@ impl Figures {
             g_b_um: both.map(|it| it.deviation * UM_PER_M),
             h_um: both.map(|it| it.hysteresis * UM_PER_M),
             d_um: ds.map(|(ccw, cw)| f64::midpoint(ccw, cw)),
+            evidence: paths
+                .quality()
+                .and_then(|it| CircleEvidence::of(paths.iter(), it)),
             ccw,
             cw,
         }

@@ -28,6 +28,17 @@ pub struct Glitch {
     pub first: Bulge,
 }
 
+impl Glitch {
+    /// The same without what noise alone bulges out.
+    pub(super) fn less(&self, bulge_um: f64) -> Self {
+        Self {
+            outward_um: (self.outward_um - bulge_um).max(0.0),
+            inward_um: (self.inward_um + bulge_um).min(0.0),
+            ..*self
+        }
+    }
+}
+
 /// A way out of the undisturbed path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]

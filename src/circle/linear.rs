@@ -28,6 +28,18 @@ impl<const N: usize> Normal<N> {
         }
     }
 
+    /// The variances of the unknowns for values of the variance 1, one independent of the other.
+    pub(super) fn spreads(&self) -> Option<[f64; N]> {
+        let mut spreads = [0.0; N];
+        for (at, spread) in spreads.iter_mut().enumerate() {
+            let mut unit = self.clone();
+            unit.right = [0.0; N];
+            unit.right[at] = 1.0;
+            *spread = unit.solve()?[at];
+        }
+        Some(spreads)
+    }
+
     /// The unknowns, by elimination; `None` where the equations do not determine them. The matrix
     /// is positive, so that its diagonal gives the pivots.
     pub(super) fn solve(mut self) -> Option<[f64; N]> {

@@ -12,26 +12,36 @@ mod compare;
 mod crossing;
 mod diagnosis;
 mod direction;
+mod evidence;
+mod evidence_shape;
 mod figures;
 mod glitch;
 mod lap;
 mod linear;
 mod method;
 mod profile;
+mod quality;
 mod quiet;
 mod recorded;
 mod reference;
+mod residual;
 mod simulate;
+mod swings;
 mod test;
 mod tune;
+mod turning;
 mod window;
 mod zone;
 
 pub use centre::{PathCentre, UnknownPathCentre};
 pub use compare::{Comparison, Side};
 pub use crossing::{Crossing, PlaneAxis};
-pub use diagnosis::{Diagnosis, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison};
+pub use diagnosis::{
+    Diagnosis, DiagnosisGrounds, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison,
+};
 pub use direction::Direction;
+pub use evidence::{CircleEvidence, ShapeTerm, Term};
+pub use evidence_shape::OtherShape;
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};

@@ -57,6 +57,17 @@ struct Place {
     deviation: f64,
 }
 
+/// Noise and resolution of recorded samples, in µm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Quality {
+    /// Standard deviation of the noise of single samples.
+    pub(super) noise_um: f64,
+    /// Smallest step of the positions.
+    pub(super) step_um: f64,
+    /// Samples of a turn.
+    pub(super) samples: usize,
+}
+
 /// The radial deviations of one turn.
 #[derive(Clone)]
 pub struct RadialProfile {
@@ -68,6 +79,8 @@ pub struct RadialProfile {
     turn_s: Option<f64>,
     /// Where the centre of the angles and deviations lies, in m.
     origin: [f64; 2],
+    /// Of recorded points.
+    quality: Option<Quality>,
 }
 
 /// A path that does not close.
@@ -205,6 +218,7 @@ impl Gatherer {
             inner: self.inner,
             turn_s,
             origin: [0.0; 2],
+            quality: None,
         })
     }
 }
@@ -269,6 +283,19 @@ impl RadialProfile {
     /// The same path whose centre lies elsewhere, in m.
     pub(super) fn at(self, origin: [f64; 2]) -> Self {
         Self { origin, ..self }
+    }
+
+    /// The same path of recorded points with such a quality.
+    pub(super) fn with_quality(self, quality: Quality) -> Self {
+        Self {
+            quality: Some(quality),
+            ..self
+        }
+    }
+
+    /// The quality of recorded points.
+    pub(super) fn quality(&self) -> Option<Quality> {
+        self.quality
     }
 
     /// Where the centre of the angles and deviations lies, in m.

@@ -162,7 +162,7 @@ impl ContourSink for BlockDeviations {
         cut.place = place;
         let block = cut.at.and_then(|at| self.blocks.get_mut(at));
         if let Some(block) = block.filter(|_| point.counts) {
-            let deviation_um = point.deviation_um.programmed.abs();
+            let deviation_um = point.space_um.programmed;
             block.push(
                 cut.gone_mm,
                 WorstPlace {

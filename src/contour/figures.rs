@@ -17,13 +17,21 @@ pub struct Deviations {
     pub outermost_at: Option<Arc<Cause>>,
     /// The block with the innermost deviation.
     pub innermost_at: Option<Arc<Cause>>,
+    /// The largest distance from the path in space, in µm.
+    largest_um: f64,
+    largest_at: Option<Arc<Cause>>,
     squares: f64,
     cycles: f64,
 }
 
 impl Deviations {
-    pub(super) fn push(&mut self, deviation_um: f64, cause: &Arc<Cause>) {
+    /// Takes the deviation in the plane, and that in space.
+    pub(super) fn push(&mut self, [deviation_um, space_um]: [f64; 2], cause: &Arc<Cause>) {
         let is_first = self.cycles == 0.0;
+        if is_first || space_um > self.largest_um {
+            self.largest_um = space_um;
+            self.largest_at = Some(Arc::clone(cause));
+        }
         if is_first || deviation_um > self.outermost_um {
             self.outermost_um = deviation_um;
             self.outermost_at = Some(Arc::clone(cause));
@@ -32,22 +40,18 @@ impl Deviations {
             self.innermost_um = deviation_um;
             self.innermost_at = Some(Arc::clone(cause));
         }
-        self.squares += deviation_um * deviation_um;
+        self.squares += space_um * space_um;
         self.cycles += 1.0;
     }
 
-    /// The largest deviation to either side in µm.
+    /// The largest deviation in space, in µm (R11.27).
     pub fn max_um(&self) -> f64 {
-        self.outermost_um.abs().max(self.innermost_um.abs())
+        self.largest_um
     }
 
     /// The block with the largest deviation.
     pub fn max_at(&self) -> Option<&Arc<Cause>> {
-        if self.outermost_um.abs() >= self.innermost_um.abs() {
-            self.outermost_at.as_ref()
-        } else {
-            self.innermost_at.as_ref()
-        }
+        self.largest_at.as_ref()
     }
 
     /// The root of the mean square in µm.
@@ -90,6 +94,8 @@ pub struct ContourSummary {
     pub cutting: u64,
     /// Reversals in rapid moves.
     pub rapid: u64,
+    /// Reversals in feed moves without a figure: too near to a stop, a corner or the next one (R11.26).
+    pub unmeasured: u64,
     /// Reversals in feed moves without active compensation.
     pub uncompensated: u64,
     /// Of those the one at which compensation would gain the most.
@@ -105,8 +111,10 @@ impl ContourSummary {
             return;
         }
         self.cutting += 1;
+        self.unmeasured += u64::from(!reversal.is_measured);
         let is_more = |known: &Option<ContourReversal>, of: fn(&ContourReversal) -> f64| {
-            known.as_ref().is_none_or(|known| of(reversal) > of(known))
+            let is_more = |known: &ContourReversal| of(reversal) > of(known);
+            reversal.is_measured && known.as_ref().is_none_or(is_more)
         };
         if reversal.state != State::Active {
             self.uncompensated += 1;

@@ -13,6 +13,8 @@ mod blocks;
 mod feed;
 mod figures;
 mod fit;
+mod glitch;
+mod measured;
 mod obstacle;
 mod options;
 mod path;

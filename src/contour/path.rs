@@ -13,17 +13,15 @@ const SAME: f64 = 1e-7;
 /// Two steps in one direction differ by no more, in rad.
 const STRAIGHT: f64 = 1e-9;
 
-/// A curve turns by no more from point to point, in rad; anything else is a corner.
-const CORNER: f64 = 0.3;
-
-/// The cosine of that.
+/// A curve turns by no more from point to point than an angle with this cosine; anything else is a
+/// corner.
 const CORNER_COSINE: f64 = 0.955;
 
 #[derive(Debug, Clone, Copy)]
 struct Point {
     place: Places,
-    /// The angle by which the path in the plane turns here, to the left.
-    turn: f64,
+    /// By how much the direction of the path changes here with the distance, by axis.
+    bend: Places,
     /// Whether the last turn was to the left: 1, or to the right: -1.
     side: f64,
     /// Whether the path has a corner here, in whatever plane.
@@ -36,7 +34,9 @@ pub(super) struct Distance {
     /// In the plane, in mm: positive on the outside of the curve.
     pub(super) plane: f64,
     /// From the nearest point of the path to the place, by axis.
-    pub(super) error: Places,
+    pub(super) normal: Places,
+    /// The length of that in mm: the deviation in space (R11.27).
+    pub(super) space: f64,
 }
 
 /// The commanded path, as far as it matters.
@@ -47,9 +47,6 @@ pub(super) struct CommandedPath {
     back: u64,
     /// The number of the first of the points.
     first: u64,
-    /// The number of the last corner up to the point that was looked at last.
-    corner: u64,
-    looked_at: u64,
 }
 
 fn minus(one: &Places, other: &Places) -> Places {
@@ -67,8 +64,6 @@ impl CommandedPath {
             points: VecDeque::new(),
             back,
             first: 0,
-            corner: 0,
-            looked_at: 0,
         }
     }
 
@@ -94,7 +89,7 @@ impl CommandedPath {
         let Some(last) = self.points.back() else {
             self.points.push_back(Point {
                 place,
-                turn: 0.0,
+                bend: Places::default(),
                 side: 1.0,
                 is_corner: false,
             });
@@ -105,43 +100,32 @@ impl CommandedPath {
             return self.last();
         }
         let mut side = last.side;
-        let mut turn = 0.0;
+        let mut bend = Places::default();
         let mut is_corner = false;
         if let Some(before) = self.points.len().checked_sub(2).map(|at| &self.points[at]) {
             let came = minus(&last.place, &before.place);
             let cross = came[0] * step[1] - came[1] * step[0];
-            turn = cross.atan2(came[0] * step[0] + came[1] * step[1]);
+            let turn = cross.atan2(came[0] * step[0] + came[1] * step[1]);
             if turn.abs() > STRAIGHT && turn.abs() < 3.0 {
                 side = turn.signum();
             }
-            let both = (dot(&came, &came) * dot(&step, &step)).sqrt();
-            is_corner = dot(&came, &step) < CORNER_COSINE * both;
+            let (before, after) = (dot(&came, &came).sqrt(), dot(&step, &step).sqrt());
+            is_corner = dot(&came, &step) < CORNER_COSINE * before * after;
+            let mean = f64::midpoint(before, after);
+            bend = std::array::from_fn(|axis| (step[axis] / after - came[axis] / before) / mean);
         }
         if let Some(last) = self.points.back_mut() {
-            last.turn = turn;
+            last.bend = bend;
             last.side = side;
             last.is_corner = is_corner;
         }
         self.points.push_back(Point {
             place,
-            turn: 0.0,
+            bend: Places::default(),
             side,
             is_corner: false,
         });
         self.last()
-    }
-
-    /// The number of the last corner up to a point, 0 before the first one.
-    pub(super) fn last_corner(&mut self, number: u64) -> u64 {
-        // Whether the last point is a corner is seen when the path goes on.
-        let known = number.min(self.last().saturating_sub(1));
-        for number in self.looked_at.max(self.first)..=known {
-            if self.at(number).is_some_and(|point| point.is_corner) {
-                self.corner = number;
-            }
-            self.looked_at = number;
-        }
-        self.corner
     }
 
     /// Forgets the points long before one.
@@ -159,9 +143,11 @@ impl CommandedPath {
         let highest = self.last().saturating_sub(1);
         if self.points.len() < 2 {
             let error = self.points.front().map(|only| minus(place, &only.place));
+            let normal = error.unwrap_or_default();
             return Distance {
                 plane: 0.0,
-                error: error.unwrap_or_default(),
+                normal,
+                space: dot(&normal, &normal).sqrt(),
             };
         }
         // It never goes back along the path: where a path returns over itself, the place would be
@@ -203,25 +189,30 @@ impl CommandedPath {
         };
         let step = minus(&to.place, &from.place);
         // Where the path ends or turns back, a place beyond its end is no deviation from it.
-        let along = dot(&foot.error, &step) / dot(&step, &step);
-        let error: Places = std::array::from_fn(|axis| foot.error[axis] - along * step[axis]);
+        let square = dot(&step, &step);
+        let along = dot(&foot.error, &step) / square;
+        let mut normal: Places = std::array::from_fn(|axis| foot.error[axis] - along * step[axis]);
+        // A curve bulges beyond the chord from point to point.
+        if !from.is_corner && !to.is_corner {
+            let bulge = foot.share * (1.0 - foot.share) * square / 4.0;
+            for (axis, normal) in normal.iter_mut().enumerate() {
+                *normal += bulge * (from.bend[axis] + to.bend[axis]);
+            }
+        }
+        let space = dot(&normal, &normal).sqrt();
         let length = step[0].hypot(step[1]);
         if length < SAME {
             return Distance {
-                plane: error[0].hypot(error[1]),
-                error,
+                plane: normal[0].hypot(normal[1]),
+                normal,
+                space,
             };
         }
-        let mut left = (step[0] * error[1] - step[1] * error[0]) / length;
-        // A curve bulges beyond the chord from point to point.
-        if from.turn.abs() < CORNER && to.turn.abs() < CORNER {
-            let curvature = f64::midpoint(from.turn, to.turn) / length;
-            let (done, rest) = (foot.share * length, (1.0 - foot.share) * length);
-            left += curvature * done * rest / 2.0;
-        }
+        let left = (step[0] * normal[1] - step[1] * normal[0]) / length;
         Distance {
             plane: -left * from.side,
-            error,
+            normal,
+            space,
         }
     }
 }
@@ -298,7 +289,7 @@ mod tests {
             let mut actual = points[at.saturating_sub(5)];
             actual[0] += if at > 100 { 0.0138 } else { 0.0 };
             let found = path.distance(&actual, (&mut near, *number));
-            assert!(found.error[2].abs() < 1e-6, "{at}: {}", found.error[2]);
+            assert!(found.normal[2].abs() < 1e-6, "{at}: {}", found.normal[2]);
         }
     }
 

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use super::axes::MovingAxes;
 use super::feed::{FeedOnly, FeedReached, is_too_slow};
 use super::figures::{ContourSummary, Deviations, Due};
+use super::measured::Measured;
 use super::obstacle::ContourObstacle;
 use super::options::{ContourAxis, ContourOptions, MOST_AXES};
 use super::path::{CommandedPath, Distance, Places};
 use super::per_run::PerRun;
-use super::reversals::{ContourReversal, Measured, Reversals};
+use super::reversals::{ContourReversal, Event, Reversals};
 use super::run::Run;
 use crate::comp::{AxisIndex, State};
 use crate::current::{
@@ -22,7 +23,8 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Motion, PositionFrame};
 use crate::machine::Machine;
 use crate::motion::{
-    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, without_assumed_limits,
+    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, Transitions,
+    without_assumed_limits,
 };
 use crate::timeline::{Record, Row, Sink};
 
@@ -43,6 +45,8 @@ pub struct ContourPoint<'a> {
     pub positions: &'a [f64],
     /// The signed distance from the path in the plane, positive on the outside of a curve.
     pub deviation_um: PerRun<f64>,
+    /// The distance from the path in space (R11.27).
+    pub space_um: PerRun<f64>,
     /// From the nearest point of the path to where the axes of the plane are, as programmed, in mm.
     pub error_mm: [f64; 2],
     /// Whether it counts: in a feed move, with positions of the machine.
@@ -64,6 +68,12 @@ pub trait ContourSink {
     /// Takes a reversal, once its window has ended.
     fn reversal(&mut self, reversal: &ContourReversal) {
         let _ = reversal;
+    }
+
+    /// Takes a place where compensation of an axis is switched while it moves on (R1.57): `state` is the
+    /// new one, and the block the first one with it.
+    fn switch(&mut self, switch: &ContourReversal) {
+        let _ = switch;
     }
 
     /// Whether it wants no more.
@@ -213,6 +223,11 @@ impl<S: ContourSink> ProgramContour<S> {
     pub fn is_whole(&self) -> bool {
         let is_beside = |it: &ContourObstacle| matches!(it, ContourObstacle::AssumedLimits(_));
         self.left_out() == 0 && self.obstacles().iter().all(is_beside)
+    }
+
+    /// What became of the transitions between feed moves.
+    pub fn transitions(&self) -> Transitions {
+        self.trace.transitions()
     }
 
     /// What keeps the contour from being judged as a whole.
@@ -400,8 +415,7 @@ impl<S: ContourSink> Tracer<S> {
             self.drive(&last, &to)?;
         }
         let (axes, sink) = (&mut self.axes, &mut self.sink);
-        self.reversals
-            .restart(|reversal| take(axes, sink, &reversal));
+        self.reversals.restart(|found| take(axes, sink, &found));
         ControlFlow::Continue(())
     }
 
@@ -435,8 +449,6 @@ impl<S: ContourSink> Tracer<S> {
             };
             *distance = self.path.distance(&reached, (&mut run.near, cycle.point));
         }
-        let near = runs.each_ref().map(|run| run.near);
-        let corner = self.path.last_corner(cycle.point);
         self.path.forget_before(cycle.point);
         self.cycles += 1;
         let count = options.axes.len();
@@ -444,13 +456,15 @@ impl<S: ContourSink> Tracer<S> {
         self.not_of_the_machine += u64::from(!is_of_machine);
         let counts = is_of_machine && cycle.cause.movement == Movement::Feed;
         let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);
+        let space_um = distances.map(|distance| distance.space * UM_PER_MM);
         if counts {
-            let all = self.deviations.each_mut().into_iter().zip(deviation_um);
-            all.for_each(|(deviations, deviation)| deviations.push(deviation, &cycle.cause));
-            self.due
-                .push([deviation_um[0], deviation_um[1]], &cycle.cause);
+            let all = self.deviations.each_mut().into_iter();
+            for (at, deviations) in all.enumerate() {
+                deviations.push([deviation_um[at], space_um[at]], &cycle.cause);
+            }
+            self.due.push([space_um[0], space_um[1]], &cycle.cause);
             for axis in 2..count {
-                let beside = |run: usize| distances[run].error[axis] * UM_PER_MM;
+                let beside = |run: usize| distances[run].normal[axis] * UM_PER_MM;
                 self.due.push([beside(0), beside(1)], &cycle.cause);
             }
         }
@@ -465,18 +479,17 @@ impl<S: ContourSink> Tracer<S> {
                 programmed_velocity: cycle.programmed_velocity,
                 added: &programmed[..count],
                 distances: &distances,
-                near,
-                corner,
             };
             self.reversals
-                .push(&measured, |reversal| take(axes, sink, &reversal));
+                .push(&measured, |found| take(axes, sink, &found));
         }
         self.sink.point(&ContourPoint {
             time_s: cycle.time_s,
             cause: &cycle.cause,
             positions: &cycle.places[..count],
             deviation_um: PerRun::from_each(deviation_um),
-            error_mm: [distances[0].error[0], distances[0].error[1]],
+            space_um: PerRun::from_each(space_um),
+            error_mm: [distances[0].normal[0], distances[0].normal[1]],
             counts,
         });
         if self.sink.is_closed() {
@@ -486,7 +499,15 @@ impl<S: ContourSink> Tracer<S> {
     }
 }
 
-fn take<S: ContourSink>(axes: &mut [ContourSummary], sink: &mut S, reversal: &ContourReversal) {
+fn take<S: ContourSink>(
+    axes: &mut [ContourSummary],
+    sink: &mut S,
+    (event, reversal): &(Event, ContourReversal),
+) {
+    if *event == Event::Switch {
+        sink.switch(reversal);
+        return;
+    }
     if let Some(axis) = axes.iter_mut().find(|axis| axis.axis == reversal.axis) {
         axis.push(reversal);
     }

@@ -1,16 +1,17 @@
-//! Reversals of axes, each with the glitch that it leaves (R11.2).
+//! Reversals of axes, each with the glitch that it leaves (R11.2, R11.26), and the places where
+//! compensation is switched while an axis moves on (R1.57).
 
 use std::sync::Arc;
 
-use super::path::Distance;
+use super::glitch::{Course, Window};
+use super::measured::Measured;
+use super::path::Places;
 use super::per_run::PerRun;
 use crate::comp::State;
-use crate::motion::{Cause, Movement};
+use crate::motion::Movement;
 
-const UM_PER_MM: f64 = 1000.0;
-
-/// So long a glitch is looked for, in s.
-const WINDOW_S: f64 = 0.2;
+/// How much of the motion an axis may have where it reverses: beyond it the path itself turns back.
+const ALONG: f64 = 0.99;
 
 /// A reversal of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +43,11 @@ pub struct ContourReversal {
     pub state: State,
     /// The additive current in drive units before the reversal, and at the end of its window.
     pub current_units: [f64; 2],
-    /// The largest change of the normal deviation in µm, as far as the path goes without a corner.
+    /// How far the deviation in the direction of the axis, normal to the path, leaves the straight line
+    /// through both sides of the reversal, peak to peak in µm; 0 where there is no figure.
     pub glitch_um: PerRun<f64>,
+    /// Whether there is a figure: the path goes on long enough before it and after it (R11.26).
+    pub is_measured: bool,
 }
 
 impl ContourReversal {
@@ -53,60 +57,32 @@ impl ContourReversal {
     }
 }
 
-/// What is measured in a cycle.
-pub(super) struct Measured<'a> {
-    pub(super) time_s: f64,
-    pub(super) cause: &'a Arc<Cause>,
-    /// Where the driven axes are commanded to be, in mm.
-    pub(super) positions: &'a [f64],
-    /// How fast, in mm/s.
-    pub(super) velocities: &'a [f64],
-    pub(super) path_velocity: f64,
-    pub(super) programmed_velocity: f64,
-    /// The additive currents of the programmed run.
-    pub(super) added: &'a [f64],
-    pub(super) distances: &'a [Distance; 3],
-    /// The number of the point of the path from which each run is that far.
-    pub(super) near: [u64; 3],
-    /// The number of the last corner that was commanded.
-    pub(super) corner: u64,
+/// What a window is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Event {
+    /// An axis reverses.
+    Reversal,
+    /// Compensation of an axis is switched while it moves on.
+    Switch,
 }
 
 /// A reversal whose window has not ended.
 struct Open {
+    event: Event,
     reversal: ContourReversal,
     axis: usize,
-    /// The number of the corner that the path comes from.
-    corner: u64,
-    /// The deviation of each run at the reversal. After a corner it is the first one that is measured
-    /// from the way out of it: the way in has another normal.
-    from: [Option<f64>; 3],
+    /// `None` where the path turns back: nothing of the axis is normal to it.
+    window: Option<Window>,
 }
 
 impl Open {
-    /// Follows the deviation of each run.
-    fn follow(&mut self, measured: &Measured<'_>) {
-        let runs = measured.distances.iter().zip(measured.near);
-        let glitches = self.reversal.glitch_um.each_mut().into_iter();
-        for (((distance, near), from), glitch) in runs.zip(&mut self.from).zip(glitches) {
-            let deviation = value(distance, self.axis);
-            if from.is_none() && near >= self.corner {
-                *from = Some(deviation);
-            }
-            if let Some(from) = from {
-                *glitch = glitch.max((deviation - *from).abs() * UM_PER_MM);
-            }
+    fn finish(mut self) -> (Event, ContourReversal) {
+        if let Some(window) = self.window {
+            let figure = window.figure();
+            self.reversal.is_measured = figure.is_some();
+            self.reversal.glitch_um = PerRun::from_each(figure.unwrap_or_default());
         }
-        self.reversal.current_units[1] = measured.added[self.axis];
-    }
-
-    /// Whether its window is over: a corner has another normal, and a rapid motion does not cut.
-    fn is_over(&self, measured: &Measured<'_>) -> bool {
-        let age = measured.time_s - self.reversal.time_s;
-        let is_cut = self.reversal.movement != Movement::Rapid;
-        age >= WINDOW_S
-            || measured.corner > self.corner
-            || (is_cut && measured.cause.movement == Movement::Rapid)
+        (self.event, self.reversal)
     }
 }
 
@@ -118,10 +94,8 @@ pub(super) struct Reversals {
     directions: Vec<f64>,
     velocities: Vec<f64>,
     added: Vec<f64>,
-    /// How far each run was from the path in the cycle before; `None` where the trace begins.
-    distances: Option<[Distance; 3]>,
-    /// From which points of the path.
-    near: [u64; 3],
+    friction: Option<Arc<[State]>>,
+    course: Course,
     open: Vec<Open>,
 }
 
@@ -134,43 +108,52 @@ impl Reversals {
             directions: vec![0.0; count],
             velocities: vec![0.0; count],
             added: vec![0.0; count],
-            distances: None,
-            near: [0; 3],
+            friction: None,
+            course: Course::default(),
             open: Vec::new(),
         }
     }
 
     /// The trace begins anew: no axis has a direction.
-    pub(super) fn restart(&mut self, mut take: impl FnMut(ContourReversal)) {
-        self.open.drain(..).for_each(|open| take(open.reversal));
+    pub(super) fn restart(&mut self, mut take: impl FnMut((Event, ContourReversal))) {
+        self.open.drain(..).for_each(|open| take(open.finish()));
         self.directions.fill(0.0);
         self.velocities.fill(0.0);
         self.added.fill(0.0);
-        self.distances = None;
+        self.friction = None;
+        self.course = Course::default();
     }
 
     /// Takes a cycle, and gives out the reversals whose windows end.
-    pub(super) fn push(&mut self, measured: &Measured<'_>, mut take: impl FnMut(ContourReversal)) {
-        let reverses = |axis: &usize| self.directions[*axis] * measured.velocities[*axis] < 0.0;
-        let turned: Vec<usize> = (0..self.names.len()).filter(reverses).collect();
-        let open = std::mem::take(&mut self.open);
-        for mut open in open {
-            if turned.is_empty() && !open.is_over(measured) {
-                open.follow(measured);
-                self.open.push(open);
+    pub(super) fn push(
+        &mut self,
+        measured: &Measured<'_>,
+        mut take: impl FnMut((Event, ContourReversal)),
+    ) {
+        let moment = self.course.push(measured);
+        let reverses = |axis: usize| self.directions[axis] * measured.velocities[axis] < 0.0;
+        let turned: Vec<usize> = (0..self.names.len())
+            .filter(|axis| reverses(*axis))
+            .collect();
+        let mut at = 0;
+        while at < self.open.len() {
+            let open = &mut self.open[at];
+            let is_over = match &mut open.window {
+                Some(window) => !turned.contains(&open.axis) && window.push(&moment).is_continue(),
+                None => false,
+            };
+            if is_over {
+                open.reversal.current_units[1] = measured.added[open.axis];
+                at += 1;
             } else {
-                take(open.reversal);
+                take(self.open.remove(at).finish());
             }
         }
         for axis in turned {
-            let mut open = Open {
-                reversal: self.reversal(axis, measured),
-                axis,
-                corner: measured.corner,
-                from: self.at_reversal(axis, measured),
-            };
-            open.follow(measured);
-            self.open.push(open);
+            self.begin(Event::Reversal, axis, measured);
+        }
+        for axis in self.switched(measured) {
+            self.begin(Event::Switch, axis, measured);
         }
         for (direction, velocity) in self.directions.iter_mut().zip(measured.velocities) {
             if *velocity != 0.0 {
@@ -179,17 +162,43 @@ impl Reversals {
         }
         self.velocities.copy_from_slice(measured.velocities);
         self.added.copy_from_slice(measured.added);
-        self.distances = Some(*measured.distances);
-        self.near = measured.near;
+        self.friction = Some(Arc::clone(&measured.cause.friction));
     }
 
-    /// The deviation of each run when an axis reverses: at the end of the cycle before, which must
-    /// have been measured from the same way.
-    fn at_reversal(&self, axis: usize, measured: &Measured<'_>) -> [Option<f64>; 3] {
-        std::array::from_fn(|run| {
-            let before = self.distances.filter(|_| self.near[run] >= measured.corner);
-            before.map(|before| value(&before[run], axis))
-        })
+    /// The axes whose compensation is switched in a feed move, in which they move on.
+    fn switched(&self, measured: &Measured<'_>) -> Vec<usize> {
+        let now = &measured.cause.friction;
+        let Some(before) = self.friction.as_ref().filter(|before| before != &now) else {
+            return Vec::new();
+        };
+        let is_feed = measured.cause.movement == Movement::Feed;
+        let differs = |axis: &usize| {
+            let states = [before.get(*axis), now.get(*axis)];
+            let is_active = states.map(|state| state == Some(&State::Active));
+            let is_known = states.iter().all(|state| *state != Some(&State::Unknown));
+            is_known
+                && is_active[0] != is_active[1]
+                && self.velocities[*axis] * measured.velocities[*axis] > 0.0
+        };
+        let axes = (0..self.names.len()).filter(|_| is_feed);
+        axes.filter(differs).collect()
+    }
+
+    fn begin(&mut self, event: Event, axis: usize, measured: &Measured<'_>) {
+        let along = self.course.direction();
+        let share = along[axis];
+        let window = (share.abs() <= ALONG).then(|| {
+            let mut normal: Places = along.map(|it| -share * it);
+            normal[axis] += 1.0;
+            let length = (1.0 - share * share).sqrt();
+            Window::begin(&self.course, normal.map(|it| it / length))
+        });
+        self.open.push(Open {
+            event,
+            reversal: self.reversal(axis, measured),
+            axis,
+            window,
+        });
     }
 
     fn reversal(&self, axis: usize, measured: &Measured<'_>) -> ContourReversal {
@@ -211,15 +220,7 @@ impl Reversals {
             state: cause.friction.get(axis).copied().unwrap_or(State::Unknown),
             current_units: [self.added[axis], measured.added[axis]],
             glitch_um: PerRun::default(),
+            is_measured: true,
         }
-    }
-}
-
-/// The normal deviation that an axis of the plane, or a further one, disturbs.
-fn value(distance: &Distance, axis: usize) -> f64 {
-    if axis < 2 {
-        distance.plane
-    } else {
-        distance.error[axis]
     }
 }

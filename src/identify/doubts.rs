@@ -163,6 +163,15 @@ pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding>
     })
 }
 
+/// Whether the torque changes so little that no friction is in it.
+pub(super) fn is_still(samples: &Samples, measured: &Measured) -> bool {
+    let torques = samples.torques.iter();
+    let [low, high] = torques.fold([f64::MAX, f64::MIN], |[low, high], it| {
+        [low.min(*it), high.max(*it)]
+    });
+    high - low < LEAST_OF_RATED * measured.rated.unwrap_or_default()
+}
+
 /// Friction at some speeds that is that of no axis, or of a recording that is not what it seems.
 pub(super) fn check_pairs(
     pairs: &[Pair],

@@ -45,6 +45,9 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     if pairs.iter().all(|pair| pair.offset.is_none()) {
         return Err(IdentifyError::OneDirection);
     }
+    if doubts::is_still(&samples, &options.measured) {
+        check_friction(&pairs)?;
+    }
     let suspect = doubts::check_pairs(&pairs, &samples, &options.measured)?;
     check_friction(&pairs)?;
     let rows = doubts::missing_rows(&samples.times_s, samples.step_s);

@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use super::curve::solve_linear;
-use super::statistics::{count, samples_in};
+use super::statistics::{count, moving_average, samples_in};
 use super::track::Samples;
 
 /// A list whose share is smaller did not act.
@@ -27,7 +27,7 @@ const AFTER_S: f64 = 0.15;
 const BEFORE_S: f64 = 0.05;
 
 /// Following errors at reversals that are smaller say nothing, in mm.
-const NOTICEABLE: f64 = 0.0005;
+const NOTICEABLE: f64 = 0.0003;
 
 /// So many standard errors are no accident.
 const SIGNIFICANT: f64 = 3.0;
@@ -108,6 +108,10 @@ impl Timing {
 /// µm in a mm.
 const UM: f64 = 1000.0;
 
+/// Averaging time in s of all signals alike: it keeps what is linear, and takes the steps of an
+/// encoder away.
+const AVERAGED_S: f64 = 0.005;
+
 /// A recording with the current that a list adds.
 pub(super) struct Followed<'a> {
     pub(super) samples: &'a Samples,
@@ -130,10 +134,28 @@ impl Followed<'_> {
         if self.turns.is_empty() {
             return Timing::Open;
         }
+        let width = samples_in(AVERAGED_S, self.samples.step_s);
+        let [errors, torques, currents, velocities, accelerations] = [
+            self.errors,
+            &self.samples.torques,
+            self.predicted,
+            // An error that is measured some cycles apart has a part of the velocity.
+            &self.samples.velocities,
+            self.accelerations,
+        ]
+        .map(|signal| moving_average(signal, width));
+        let smooth = Smooth {
+            times_s: &self.samples.times_s,
+            errors,
+            torques,
+            currents,
+            velocities,
+            accelerations,
+        };
         let fits = SHIFTS.filter_map(|cycles| {
             #[allow(clippy::cast_possible_truncation)] // some hundred samples
             let shift = (f64::from(cycles) * self.cycle).round() as isize;
-            self.share(shift)
+            smooth.share(shift)
         });
         let best = fits.min_by(|one, other| one.1.total_cmp(&other.1));
         match best.map(|it| it.0) {
@@ -142,58 +164,6 @@ impl Followed<'_> {
             Some(share) if (share - 1.0).abs() > 1.0 - ACTING => Timing::Other { share },
             Some(share) => self.swing(share),
         }
-    }
-
-    /// The part of the shifted current that is in the torque, and the squares that are left.
-    fn share(&self, shift: isize) -> Option<(f64, f64)> {
-        const SIZE: usize = 7;
-        let mut sums = vec![vec![0.0; SIZE + 1]; SIZE];
-        let (mut integral, mut squares) = (0.0, 0.0);
-        let times = &self.samples.times_s;
-        for at in 1..times.len() - 1 {
-            let step = times[at] - times[at - 1];
-            integral += self.errors[at] * step;
-            let Some(then) = at.checked_add_signed(-shift) else {
-                continue;
-            };
-            let Some(&current) = self.predicted.get(then) else {
-                continue;
-            };
-            let change =
-                (self.errors[at + 1] - self.errors[at - 1]) / (times[at + 1] - times[at - 1]);
-            let row = [
-                1.0,
-                times[at] - times[0],
-                self.errors[at],
-                change,
-                integral,
-                self.accelerations[at],
-                current,
-            ];
-            let torque = self.samples.torques[at];
-            squares += torque * torque;
-            for (sums, one) in sums.iter_mut().zip(row) {
-                for (sum, other) in sums.iter_mut().zip(row.into_iter().chain([torque])) {
-                    *sum += one * other;
-                }
-            }
-        }
-        let right: Vec<f64> = sums.iter().map(|row| row[SIZE]).collect();
-        // Columns of one size: a torque has hundreds of units, an integral of an error none.
-        let sizes: Vec<f64> = (0..SIZE).map(|at| sums[at][at].sqrt().max(1e-12)).collect();
-        for (at, row) in sums.iter_mut().enumerate() {
-            for (value, size) in row.iter_mut().zip(sizes.iter().chain([&1.0])) {
-                *value /= size * sizes[at];
-            }
-        }
-        let found = solve_linear(sums)?;
-        let mut parts = found.iter().zip(&sizes).map(|(part, size)| part / size);
-        let explained: f64 = parts
-            .clone()
-            .zip(&right)
-            .map(|(part, sum)| part * sum)
-            .sum();
-        Some((parts.next_back()?, squares - explained))
     }
 
     /// The first swing of the following error at the reversals.
@@ -221,5 +191,72 @@ impl Followed<'_> {
             error_um: (squares / (all - 1.0) / all).sqrt() * UM,
             reversals: swings.len(),
         }
+    }
+}
+
+/// The averaged signals.
+struct Smooth<'a> {
+    times_s: &'a [f64],
+    errors: Vec<f64>,
+    torques: Vec<f64>,
+    currents: Vec<f64>,
+    velocities: Vec<f64>,
+    accelerations: Vec<f64>,
+}
+
+impl Smooth<'_> {
+    /// The part of the shifted current that is in the torque, and the squares that are left.
+    fn share(&self, shift: isize) -> Option<(f64, f64)> {
+        const SIZE: usize = 9;
+        let mut sums = vec![vec![0.0; SIZE + 1]; SIZE];
+        let (mut integral, mut squares) = (0.0, 0.0);
+        let times = self.times_s;
+        for at in 1..times.len() - 1 {
+            let step = times[at] - times[at - 1];
+            integral += self.errors[at] * step;
+            let Some(then) = at.checked_add_signed(-shift) else {
+                continue;
+            };
+            let Some(&current) = self.currents.get(then) else {
+                continue;
+            };
+            let span = (times[at + 1] - times[at - 1]) / 2.0;
+            let [before, here, after] = [at - 1, at, at + 1].map(|it| self.errors[it]);
+            let row = [
+                1.0,
+                times[at] - times[0],
+                here,
+                (after - before) / (2.0 * span),
+                // The current loop and the dead time of the drive: a Taylor term of a delay.
+                (after - 2.0 * here + before) / (span * span),
+                integral,
+                self.velocities[at],
+                self.accelerations[at],
+                current,
+            ];
+            let torque = self.torques[at];
+            squares += torque * torque;
+            for (sums, one) in sums.iter_mut().zip(row) {
+                for (sum, other) in sums.iter_mut().zip(row.into_iter().chain([torque])) {
+                    *sum += one * other;
+                }
+            }
+        }
+        let right: Vec<f64> = sums.iter().map(|row| row[SIZE]).collect();
+        // Columns of one size: a torque has hundreds of units, an integral of an error none.
+        let sizes: Vec<f64> = (0..SIZE).map(|at| sums[at][at].sqrt().max(1e-12)).collect();
+        for (at, row) in sums.iter_mut().enumerate() {
+            for (value, size) in row.iter_mut().zip(sizes.iter().chain([&1.0])) {
+                *value /= size * sizes[at];
+            }
+        }
+        let found = solve_linear(sums)?;
+        let mut parts = found.iter().zip(&sizes).map(|(part, size)| part / size);
+        let explained: f64 = parts
+            .clone()
+            .zip(&right)
+            .map(|(part, sum)| part * sum)
+            .sum();
+        Some((parts.next_back()?, squares - explained))
     }
 }

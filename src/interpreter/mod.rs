@@ -20,6 +20,7 @@ mod values;
 
 pub(crate) use coordinates::arc::SAME_PLACE;
 pub use coordinates::axis_words::AxisWord;
+pub use coordinates::contouring::{Contouring, Joining};
 pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};
 pub use coordinates::motion::{

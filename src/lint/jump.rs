@@ -4,7 +4,7 @@ use super::linter::Linter;
 use super::memory::{Jump, place};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::{AxisWord, BlockEnd, Executed, Group, PositionFrame};
+use crate::interpreter::{AxisWord, BlockEnd, Executed, Form, Group, PositionFrame, Travel};
 
 impl Linter<'_> {
     /// Notes changes of an axis that moves, and says which of them are followed by a move in the same
@@ -21,7 +21,7 @@ impl Linter<'_> {
             return;
         }
         let moves = executed.moved.iter();
-        let moves = moves.filter(|_| is_line(executed));
+        let moves = moves.filter(|_| is_feed(executed));
         let moves: Vec<_> = moves
             .filter_map(|word| Some((word.axis, rises(word, executed)?)))
             .collect();
@@ -35,7 +35,7 @@ impl Linter<'_> {
     }
 
     fn note_jumps(&mut self, executed: &Executed<'_>) {
-        if !is_line(executed) || executed.modal.functions.block_end == BlockEnd::ExactStop {
+        if !is_feed(executed) || executed.modal.functions.block_end == BlockEnd::ExactStop {
             return;
         }
         let commands = executed.outcomes.iter();
@@ -52,7 +52,10 @@ impl Linter<'_> {
             // In a block with motion words the position is the one after them.
             let to = executed.moved.iter().find(|word| word.axis == axis);
             let to = to.map_or_else(|| position(axis, executed), |word| word.from);
-            let rises = word.and_then(|word| direction(word.from, to));
+            let rises = word.and_then(|word| match &executed.aside.last_arc {
+                Some(arc) if to.is_some() && is_around(arc, axis) => tangent(arc, axis, End::Last),
+                _ => direction(word.from, to),
+            });
             let known = self.jumps.iter().any(|jump| jump.axis == axis);
             if let Some(rises) = rises.filter(|_| !known) {
                 self.jumps.push(Jump {
@@ -87,10 +90,47 @@ fn matters(from: State, to: State) -> bool {
         && to != State::Unknown
 }
 
-/// Whether straight moves at feed are in force, in the coordinates of the machine.
-fn is_line(executed: &Executed<'_>) -> bool {
+/// Whether moves at feed are in force.
+fn is_feed(executed: &Executed<'_>) -> bool {
     let modal = executed.modal;
-    modal.is_known(Group::Motion) && modal.functions.motion == 1
+    modal.is_known(Group::Motion) && matches!(modal.functions.motion, 1..=3)
+}
+
+/// An end of an arc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    First,
+    Last,
+}
+
+/// Whether an axis is one of the plane of an arc.
+fn is_around(travel: &Travel, axis: AxisIndex) -> bool {
+    matches!(travel.form, Form::Arc(arc) if arc.axes.contains(&axis))
+}
+
+/// Whether an axis of the plane moves to larger coordinates at an end of an arc; `None` where it
+/// reverses there, or that is not known.
+fn tangent(travel: &Travel, axis: AxisIndex, end: End) -> Option<bool> {
+    let Form::Arc(arc) = travel.form else {
+        return None;
+    };
+    let ends = |places: &[Option<f64>]| -> Option<[f64; 2]> {
+        let [one, two] = arc
+            .axes
+            .map(|axis| places.get(axis.get()).copied().flatten());
+        Some([one?, two?])
+    };
+    let shape = arc.between([ends(&travel.from)?, ends(&travel.to)?]).ok()?;
+    let angle = match end {
+        End::First => shape.start,
+        End::Last => shape.start + shape.sweep,
+    };
+    let way = if axis == arc.axes[0] {
+        -angle.sin()
+    } else {
+        angle.cos()
+    };
+    (way.abs() > 1e-6).then_some(way * shape.sweep > 0.0)
 }
 
 fn position(axis: AxisIndex, executed: &Executed<'_>) -> Option<f64> {
@@ -100,6 +140,12 @@ fn position(axis: AxisIndex, executed: &Executed<'_>) -> Option<f64> {
 }
 
 fn rises(word: &AxisWord, executed: &Executed<'_>) -> Option<bool> {
+    if let Some(arc) = &executed.aside.arc
+        && is_around(arc, word.axis)
+    {
+        position(word.axis, executed)?;
+        return tangent(arc, word.axis, End::First);
+    }
     direction(word.from, position(word.axis, executed))
 }
 

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::dynamics::DynamicsDraft;
 use super::entry::Entry;
 use super::line::Entries;
 use super::monitor::{Monitor, REQUIRED};
@@ -32,6 +33,8 @@ pub struct AxisValues {
     pub gantry_master: Option<Given<u32>>,
     /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     pub drive: BTreeMap<String, Entry>,
+    /// Velocity, acceleration and ramp times.
+    pub dynamics: DynamicsDraft,
     /// The end of the last entry, after which another one could stand, and how many columns the key
     /// takes there.
     pub end: Option<Given<usize>>,
@@ -87,6 +90,7 @@ impl AxisValues {
                         values.drive.insert(entry.key(), entry.clone());
                     }
                 }
+                _ if values.dynamics.take(entry, diagnostics) => {}
                 pattern => values.set_switch(pattern, entry, diagnostics),
             }
         }
@@ -103,6 +107,7 @@ impl AxisValues {
         self.unread = self.unread.union(other.unread);
         self.required = other.required.or(self.required.take());
         self.gantry_master = other.gantry_master.or(self.gantry_master.take());
+        self.dynamics.override_with(other.dynamics);
         self.drive.extend(other.drive);
         self.end = other.end.or(self.end.take());
     }
@@ -174,6 +179,9 @@ impl AxisValues {
             let (number, key) = ("P-AXIS-00070", "kenngr.gantry_ax_nr");
             row(number, key, master.value.to_string(), master.into());
         }
+        let axis_type = self.axis_type.as_ref();
+        let axis_type = axis_type.map_or(AxisType::Linear, |given| given.value);
+        rows.extend(self.dynamics.parameters(axis_type));
         rows
     }
 

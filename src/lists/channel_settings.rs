@@ -45,9 +45,25 @@ pub struct ChannelSettings {
     pub functions: Vec<u32>,
     /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
     pub inch: bool,
+    /// The profile of the acceleration at the start of a program, P-CHAN-00071, where the list gives it.
+    pub slope: Option<SlopeProfile>,
     /// The names of the main spindle beside `S`, P-CHAN-00053 and the name of the spindle with the
     /// number of P-CHAN-00051.
     pub main_spindle: Vec<String>,
+}
+
+/// The profile of the acceleration, P-CHAN-00071.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SlopeProfile {
+    /// Steps of the acceleration, with the values of the stages.
+    Step,
+    /// Ramps of constant jerk.
+    Trapez,
+    /// Ramps like the square of a sine.
+    Sin2,
+    /// Ramps with the longest of the four ramp times.
+    Hsc,
 }
 
 /// The groups of G functions that have a default at the start of a program, with the functions that
@@ -73,6 +89,7 @@ pub struct ChannelDraft {
     feed: Option<Given<Number>>,
     functions: BTreeMap<u32, Given<u32>>,
     inch: Option<Given<bool>>,
+    slope: Option<Given<SlopeProfile>>,
     spindle_number: Option<Given<u32>>,
     spindle_name: Option<Given<String>>,
 }
@@ -106,6 +123,15 @@ impl ChannelDraft {
                     Some(inch) => self.inch = Some(given.with(inch)),
                     None => diagnostics.push(odd(entry, "`0` for mm or `1` for inch")),
                 }
+            }
+            ("prog_start.slope.profile", []) => {
+                let given = number(entry, diagnostics);
+                let profile = given.as_ref().and_then(|given| slope_of(given.value));
+                if given.is_some() && profile.is_none() {
+                    diagnostics.push(odd(entry, "`0` to `3` are STEP, TRAPEZ, SIN2 and HSC"));
+                }
+                let found = given.zip(profile);
+                self.slope = found.map(|(given, profile)| given.with(profile));
             }
             ("main_spindle_ax_nr", []) => {
                 let given = number(entry, diagnostics);
@@ -152,6 +178,7 @@ impl ChannelDraft {
         self.feed = other.feed.or(self.feed.take());
         self.functions.extend(other.functions);
         self.inch = other.inch.or(self.inch.take());
+        self.slope = other.slope.or(self.slope.take());
         self.spindle_number = other.spindle_number.or(self.spindle_number.take());
         self.spindle_name = other.spindle_name.or(self.spindle_name.take());
     }
@@ -179,6 +206,7 @@ impl ChannelDraft {
                 .filter(|feed| *feed > 0.0),
             functions: self.functions.values().map(|given| given.value).collect(),
             inch: self.inch.as_ref().is_some_and(|given| given.value),
+            slope: self.slope.as_ref().map(|given| given.value),
             main_spindle: names
                 .filter(|name| !name.is_empty())
                 .map(str::to_owned)
@@ -222,6 +250,11 @@ impl ChannelDraft {
                 ("", given.into()),
             );
         }
+        if let Some(given) = &self.slope {
+            let key = "prog_start.slope.profile".to_owned();
+            let value = (given.value as u8).to_string();
+            row("P-CHAN-00071", key, value, ("", given.into()));
+        }
         if let Some(given) = &self.spindle_number {
             let key = "main_spindle_ax_nr".to_owned();
             let value = given.value.to_string();
@@ -246,6 +279,16 @@ fn unit_of(factor: &Given<Number>) -> FeedUnit {
     } else {
         FeedUnit::Unknown
     }
+}
+
+fn slope_of(number: Number) -> Option<SlopeProfile> {
+    Some(match whole(number)? {
+        0 => SlopeProfile::Step,
+        1 => SlopeProfile::Trapez,
+        2 => SlopeProfile::Sin2,
+        3 => SlopeProfile::Hsc,
+        _ => return None,
+    })
 }
 
 /// FC132 for a factor that the control warns about, or whose meaning is not documented.

@@ -3,6 +3,7 @@
 mod axis;
 mod channel_settings;
 mod check;
+mod dynamics;
 mod entry;
 mod friction;
 mod known;
@@ -20,8 +21,9 @@ mod write;
 
 pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
-pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit};
+pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit, SlopeProfile};
 pub use check::{Conditions, FrictionReading, Verdict};
+pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(all(test, feature = "cli"))]

@@ -241,8 +241,8 @@ mod tests {
     fn comments_before_a_bracket_do_not_count() {
         // R12.6
         let is_code = |line: &str, at: usize| kind_at(line, at) == PieceKind::Code;
-        assert!(is_code("V.P.A=\"(\" X[", 12) && words("V.P.A=\"(\" X[").is_some());
-        assert!(is_code("X1 (;) Y[", 9) && words("X1 (;) Y[").is_some());
+        assert!(is_code("V.P.A=\"(\" X[", 12) && words("V.P.A=\"(\" X[C").is_some());
+        assert!(is_code("X1 (;) Y[", 9) && words("X1 (;) Y[C").is_some());
         assert!(words("X[COMP (all [of] them) ON ").is_some());
         assert!(!is_code("#MSG [\"X[COMP ON\"]", 10));
         assert!(!is_code("(X[COMP ", 8) && !is_code("; X[COMP ", 9) && !is_code("(a (b) X[", 9));

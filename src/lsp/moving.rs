@@ -225,6 +225,7 @@ mod tests {
             end: crate::interpreter::BlockEnd::Through,
             end_feed_per_min: None,
             simplified: crate::interpreter::Simplifications::default(),
+            contouring: None,
         };
         [0, 1].map(|which| along_arc(&travel, arc, which))
     }
@@ -272,6 +273,7 @@ mod tests {
                 end: crate::interpreter::BlockEnd::Through,
                 end_feed_per_min: None,
                 simplified: crate::interpreter::Simplifications::default(),
+                contouring: None,
             };
             along_arc(&travel, arc, 0)
         };

@@ -170,6 +170,7 @@ impl AxisDraft {
             max_velocity_per_min: self.dynamics.velocity,
             max_acceleration_per_s2: self.dynamics.acceleration,
             max_jerk_per_s3: self.dynamics.jerk,
+            listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
         };
         if self.enabled {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::drive_interface::TorqueScale;
-use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, Origin};
+use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, ListedDynamics, Origin};
 use crate::text::Place;
 
 /// Whether an axis has a friction value list that the control would take.
@@ -65,6 +65,9 @@ pub struct Axis {
     pub max_acceleration_per_s2: Option<f64>,
     /// The maximum jerk in m/s³ or °/s³, where known.
     pub max_jerk_per_s3: Option<f64>,
+    /// Velocity, acceleration and ramp times as the axis list gives them; what stands in
+    /// `frictcomp.toml` goes before them.
+    pub listed: ListedDynamics,
     /// By what the torque to the drive is multiplied, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
 }
@@ -88,6 +91,7 @@ impl Axis {
             max_velocity_per_min: None,
             max_acceleration_per_s2: None,
             max_jerk_per_s3: None,
+            listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
         }
     }

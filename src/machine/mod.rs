@@ -35,4 +35,4 @@ pub use setting::Setting;
 
 #[cfg(feature = "toml")]
 pub use crate::config::ConfigError;
-pub use crate::lists::{AxisType, ChannelSettings, FeedUnit, Origin};
+pub use crate::lists::{AxisType, ChannelSettings, FeedUnit, Origin, SlopeProfile};

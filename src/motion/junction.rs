@@ -55,7 +55,7 @@ impl Junction {
         for (axis, limits) in limits.iter().enumerate().take(before.axes()) {
             let turn = (after.slope(axis, 0.0) - before.slope(axis, before.length)).abs();
             let bow = (after.bend(axis, 0.0) - before.bend(axis, before.length)).abs();
-            if turn >= SHARP {
+            if turn >= SHARP && limits.corner_share.is_none() {
                 return Self::Stop;
             }
             // A bow over one length unit changes the slope by as much.
@@ -63,7 +63,11 @@ impl Junction {
                 continue;
             }
             // The jerk that the kink may take; a jump of velocity counts over two cycles.
-            let budget = KINK_SHARE * limits.jerk_per_s3.min(limits.acceleration_per_s2 / cycle);
+            let jump = limits.acceleration_per_s2 / cycle;
+            let budget = match limits.corner_share {
+                Some(share) => share * jump,
+                None => KINK_SHARE * limits.jerk_per_s3.min(jump),
+            };
             let pulled = pull * turn / cycle;
             let passing = pulled <= budget / 2.0;
             let left = if passing { budget - pulled } else { budget };

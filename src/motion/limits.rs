@@ -1,6 +1,7 @@
 //! What each axis can do, and what is assumed where the configuration does not say it.
 
-use crate::machine::{Axis, AxisType, Machine};
+use super::trace::Movement;
+use crate::machine::{Axis, AxisType, Machine, SlopeProfile};
 
 /// The bounds of one axis: mm or degrees, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +12,11 @@ pub struct AxisLimits {
     pub acceleration_per_s2: f64,
     /// The greatest jerk.
     pub jerk_per_s3: f64,
+    /// The greatest jerk that the curvature of the path may take.
+    pub curve_jerk_per_s3: f64,
+    /// The share of the acceleration by which the axis may jump in a corner, P-AXIS-00013; `None` where
+    /// its ramps bound that.
+    pub corner_share: Option<f64>,
     /// Which of them the configuration does not give.
     pub assumed: Assumed,
 }
@@ -74,24 +80,104 @@ const ACCELERATION: f64 = 1000.0;
 const JERK: f64 = ACCELERATION / 0.05;
 
 impl AxisLimits {
-    /// The bounds of an axis (R5.2). What the configuration does not say is assumed to be the
-    /// default of the control's parameters.
+    /// The bounds of an axis at feed with ramps of the acceleration (R5.2). `frictcomp.toml` goes before
+    /// the axis list; what neither says is assumed to be the default of the control's parameters.
     pub fn of(axis: &Axis) -> Self {
+        Self::with(axis, SlopeProfile::Trapez, 0.0)
+    }
+
+    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071), in CNC cycles
+    /// of so many seconds: steps of the acceleration take one.
+    fn with(axis: &Axis, slope: SlopeProfile, cycle_s: f64) -> Self {
         let unit = unit(axis.axis_type);
-        let (velocity, acceleration, jerk) = (
-            axis.max_velocity_per_min,
-            axis.max_acceleration_per_s2,
-            axis.max_jerk_per_s3,
-        );
+        let listed = &axis.listed;
+        let per_minute = axis.max_velocity_per_min.map(|velocity| velocity / 60.0);
+        let velocity = per_minute.or(listed.velocity_per_s);
+        let steps = slope == SlopeProfile::Step;
+        let listed_acceleration = if steps {
+            listed.stage_acceleration_per_s2
+        } else {
+            listed.acceleration_per_s2
+        };
+        let acceleration = axis.max_acceleration_per_s2.map(|given| given * unit);
+        let acceleration = acceleration.or(listed_acceleration);
+        let known = acceleration.unwrap_or(ACCELERATION);
+        let jerk = axis.max_jerk_per_s3.map(|given| given * unit);
+        let ramp = if steps { Some(cycle_s) } else { listed.ramp_s };
+        let jerk = jerk.or(ramp.map(|ramp| known / ramp));
+        let bound = jerk.unwrap_or(JERK);
+        let curve = listed.curve_ramp_s.map(|ramp| known / ramp);
+        let curve = curve.filter(|_| axis.max_jerk_per_s3.is_none());
         Self {
-            velocity_per_s: velocity.map_or(VELOCITY, |per_minute| per_minute / 60.0),
-            acceleration_per_s2: acceleration.map_or(ACCELERATION, |given| given * unit),
-            jerk_per_s3: jerk.map_or(JERK, |given| given * unit),
+            velocity_per_s: velocity.unwrap_or(VELOCITY),
+            acceleration_per_s2: known,
+            jerk_per_s3: bound,
+            curve_jerk_per_s3: curve.unwrap_or(bound),
+            corner_share: listed.corner_share,
             assumed: Assumed {
                 velocity: velocity.is_none(),
                 acceleration: acceleration.is_none(),
                 jerk: jerk.is_none(),
             },
+        }
+    }
+
+    /// The bounds of an axis in rapid motions: those of its list, else those at feed.
+    fn rapid(axis: &Axis, at_feed: Self) -> Self {
+        let listed = &axis.listed;
+        let own = |listed: Option<f64>, configured: Option<f64>, at_feed: f64| {
+            listed.filter(|_| configured.is_none()).unwrap_or(at_feed)
+        };
+        let acceleration = own(
+            listed.rapid_acceleration_per_s2,
+            axis.max_acceleration_per_s2,
+            at_feed.acceleration_per_s2,
+        );
+        let jerk = listed.rapid_ramp_s.map(|ramp| acceleration / ramp);
+        let jerk = own(jerk, axis.max_jerk_per_s3, at_feed.jerk_per_s3);
+        Self {
+            velocity_per_s: own(
+                listed.rapid_velocity_per_s,
+                axis.max_velocity_per_min,
+                at_feed.velocity_per_s,
+            ),
+            acceleration_per_s2: acceleration,
+            jerk_per_s3: jerk,
+            curve_jerk_per_s3: jerk,
+            ..at_feed
+        }
+    }
+}
+
+/// The bounds of all axes.
+#[derive(Debug, Clone)]
+pub(super) struct MachineLimits {
+    feed: Vec<AxisLimits>,
+    rapid: Vec<AxisLimits>,
+}
+
+impl MachineLimits {
+    /// The bounds of the axes of a machine, in CNC cycles of so many seconds.
+    pub(super) fn of(machine: &Machine, cycle_s: f64) -> Self {
+        let slope = machine.channel.slope.unwrap_or(SlopeProfile::Trapez);
+        let axes = machine.axes.iter();
+        let feed: Vec<_> = axes
+            .map(|axis| AxisLimits::with(axis, slope, cycle_s))
+            .collect();
+        let both = machine.axes.iter().zip(&feed);
+        Self {
+            rapid: both
+                .map(|(axis, at_feed)| AxisLimits::rapid(axis, *at_feed))
+                .collect(),
+            feed,
+        }
+    }
+
+    /// Those of a movement.
+    pub(super) fn during(&self, movement: Movement) -> &[AxisLimits] {
+        match movement {
+            Movement::Rapid => &self.rapid,
+            _ => &self.feed,
         }
     }
 }
@@ -106,12 +192,23 @@ pub(crate) fn without_assumed_limits(machine: &Machine) -> Option<Machine> {
     let mut machine = machine.clone();
     for axis in &mut machine.axes {
         let unit = unit(axis.axis_type);
-        for (bound, assumed) in [
-            (&mut axis.max_velocity_per_min, VELOCITY * 60.0),
-            (&mut axis.max_acceleration_per_s2, ACCELERATION / unit),
-            (&mut axis.max_jerk_per_s3, JERK / unit),
+        let is_assumed = AxisLimits::of(axis).assumed;
+        for (bound, is_assumed, assumed) in [
+            (
+                &mut axis.max_velocity_per_min,
+                is_assumed.velocity,
+                VELOCITY * 60.0,
+            ),
+            (
+                &mut axis.max_acceleration_per_s2,
+                is_assumed.acceleration,
+                ACCELERATION / unit,
+            ),
+            (&mut axis.max_jerk_per_s3, is_assumed.jerk, JERK / unit),
         ] {
-            bound.get_or_insert(assumed * BEYOND);
+            if is_assumed {
+                *bound = Some(assumed * BEYOND);
+            }
         }
     }
     Some(machine)

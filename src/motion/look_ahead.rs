@@ -4,12 +4,13 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use super::junction::Junction;
-use super::limits::AxisLimits;
+use super::limits::{AxisLimits, MachineLimits};
 use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
 use super::segment::Segment;
 use super::share::Share;
-use super::trace::{Dwell, TraceSink};
+use super::trace::{Dwell, Movement, TraceSink};
+use crate::interpreter::BlockEnd;
 
 /// How many segments are looked at together. The path is planned to a stop after the last one;
 /// half of the plan is kept, the rest is planned anew when more segments are known.
@@ -17,14 +18,18 @@ const CAPACITY: usize = 4096;
 
 /// What is known of the path and not sampled yet.
 pub(super) struct LookAhead {
-    limits: Vec<AxisLimits>,
+    limits: MachineLimits,
     queue: VecDeque<Queued>,
     /// The path velocity at the start of the first segment in the queue.
     velocity: f64,
     /// What is left of the last plan.
     left: Vec<Stretch>,
     sampler: Sampler,
+    slow_kinks: u64,
 }
+
+/// The share of F below which a kink is slow (R11.23).
+const REACHED: f64 = 0.8;
 
 /// A segment and the transition into it.
 struct Queued {
@@ -34,19 +39,24 @@ struct Queued {
 }
 
 impl LookAhead {
-    pub(super) fn new(limits: Vec<AxisLimits>, sampler: Sampler) -> Self {
+    pub(super) fn new(limits: MachineLimits, sampler: Sampler) -> Self {
         Self {
             limits,
             queue: VecDeque::new(),
             velocity: 0.0,
             left: Vec::new(),
             sampler,
+            slow_kinks: 0,
         }
     }
 
     /// The path velocity along a segment at which one axis moves at its limit.
     pub(super) fn fastest(&self, segment: &Segment) -> f64 {
-        segment.fastest(&self.limits)
+        segment.fastest(self.limits_of(segment))
+    }
+
+    fn limits_of(&self, segment: &Segment) -> &[AxisLimits] {
+        self.limits.during(segment.cause.movement)
     }
 
     /// The sampled seconds.
@@ -54,13 +64,22 @@ impl LookAhead {
         self.sampler.time_s()
     }
 
+    /// How many kinks between feed moves are passed below 80 % of F.
+    pub(super) fn slow_kinks(&self) -> u64 {
+        self.slow_kinks
+    }
+
     /// Adds the next segment, which begins where the last one ends.
     pub(super) fn add(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let cycle = self.sampler.cycle();
         let entry = match self.queue.back() {
-            Some(last) => Junction::between(&last.segment, &segment, &self.limits, cycle),
+            Some(last) => {
+                let limits = self.limits_of(&segment);
+                Junction::between(&last.segment, &segment, limits, cycle)
+            }
             None => Junction::Stop,
         };
+        self.slow_kinks += u64::from(self.is_slow(entry, &segment));
         if entry == Junction::Stop {
             self.drain(sink)?;
         }
@@ -80,6 +99,20 @@ impl LookAhead {
             self.advance(sink)?;
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether a kink between feed moves slows the path down, and not the program.
+    fn is_slow(&self, entry: Junction, next: &Segment) -> bool {
+        let Some(Queued { segment: last, .. }) = self.queue.back() else {
+            return false;
+        };
+        let is_feed = |segment: &Segment| segment.cause.movement == Movement::Feed;
+        let is_kink = entry.is_kink() || entry == Junction::Stop;
+        is_kink
+            && last.end == BlockEnd::Through
+            && is_feed(last)
+            && is_feed(next)
+            && entry.velocity() < REACHED * next.feed.min(last.end_velocity)
     }
 
     /// Whether the budget of cycles is used up.
@@ -164,7 +197,9 @@ impl LookAhead {
     fn stage(&self, queued: &Queued) -> Stage {
         Stage {
             length: queued.segment.length,
-            bounds: queued.segment.bounds(&self.limits, queued.share),
+            bounds: queued
+                .segment
+                .bounds(self.limits_of(&queued.segment), queued.share),
             entry: queued.entry,
         }
     }

@@ -10,6 +10,7 @@
 //! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and
 //! jerks in the same per s, s² and s³.
 
+mod curve;
 mod cycle;
 mod junction;
 mod limits;
@@ -19,15 +20,18 @@ mod planner;
 mod profile;
 mod program;
 mod remarks;
+mod rounding;
 mod sampler;
 mod segment;
 mod share;
+mod smoothing;
 mod trace;
 
-pub use crate::interpreter::{PositionFrame, Simplification, Simplifications};
+pub use crate::interpreter::{Contouring, PositionFrame, Simplification, Simplifications};
 pub use cycle::{CycleError, check_cycle};
 pub(crate) use limits::without_assumed_limits;
 pub use limits::{Assumed, AssumedLimits, AxisLimits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
 pub use program::ProgramTrace;
+pub use rounding::{Departure, Transitions};
 pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

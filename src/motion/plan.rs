@@ -88,7 +88,10 @@ impl Stretch {
 const TOUCH: f64 = 1e-9;
 
 /// How often knots that turned out to bind are put back, before every knot is kept.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 24;
+
+/// So often they are put back alone; then more and more of those beside them are, too.
+const ONE_BY_ONE: usize = 6;
 
 /// Plans a motion over all stages that begins with a velocity and ends at rest. `None` where the
 /// stages cannot be followed from that velocity.
@@ -97,7 +100,7 @@ pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
     let envelope = Envelope { stages, velocities };
     let knots = envelope.knots();
     let mut slack = envelope.slack(&knots, start);
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         if slack.is_empty() {
             break;
         }
@@ -113,7 +116,20 @@ pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
         if binding.is_empty() {
             return Some(stretches);
         }
-        slack.retain(|at| binding.binary_search(at).is_err());
+        let last = binding.len() - 1;
+        let spread = if round < ONE_BY_ONE {
+            0
+        } else {
+            1 << (round - ONE_BY_ONE).min(16)
+        };
+        slack.retain(|at| match binding.binary_search(at) {
+            Ok(_) => false,
+            // In later rounds knots beside those that bind are put back, too.
+            Err(next) => {
+                let near = [next.saturating_sub(1), next.min(last)];
+                near.iter().all(|it| binding[*it].abs_diff(*at) > spread)
+            }
+        });
     }
     envelope.stretches(&knots, start)
 }
@@ -132,8 +148,7 @@ impl Envelope<'_> {
     /// The transitions in which the path has no acceleration.
     fn knots(&self) -> Vec<usize> {
         let inner = (1..self.stages.len()).filter(|&at| {
-            let touches = self.velocities[at] >= self.bound(at) * (1.0 - TOUCH);
-            touches || self.stages[at].entry.is_fixed()
+            touches(self.stages, &self.velocities, at) || self.stages[at].entry.is_fixed()
         });
         let ends = std::iter::once(0).chain(inner);
         ends.chain(std::iter::once(self.stages.len())).collect()
@@ -190,6 +205,21 @@ impl Envelope<'_> {
         Some(stretches.collect())
     }
 
+    /// Whether a profile has its highest velocity in one of the stages beside a transition, where it
+    /// is too fast.
+    fn peaks_beside(&self, at: usize, way: f64, profile: &VelocityProfile) -> bool {
+        let (steady, top) = profile.steady();
+        let (before, after) = (&self.stages[at - 1], &self.stages[at]);
+        let ways = [
+            (before, way - before.length..=way),
+            (after, way..=way + after.length),
+        ];
+        ways.into_iter().any(|(stage, ways)| {
+            let meets = steady.start() <= ways.end() && ways.start() <= steady.end();
+            meets && top > stage.bounds.velocity * (1.0 + TOUCH)
+        })
+    }
+
     /// The transitions that were no knots and are passed too fast.
     fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[Stretch]) -> Vec<usize> {
         let mut broken = Vec::new();
@@ -204,7 +234,9 @@ impl Envelope<'_> {
                 passed_to = at;
                 let bound = self.bound(at) * (1.0 + TOUCH);
                 let profile = &stretch.profile;
-                if profile.top_velocity() > bound && profile.velocity_after(way) > bound {
+                if profile.top_velocity() > bound
+                    && (profile.velocity_after(way) > bound || self.peaks_beside(at, way, profile))
+                {
                     broken.push(at);
                 }
             }
@@ -239,6 +271,11 @@ fn bound(stages: &[Stage], at: usize) -> f64 {
     own.min(before)
 }
 
+/// Whether the highest velocity of a transition is its bound.
+fn touches(stages: &[Stage], velocities: &[f64], at: usize) -> bool {
+    velocities[at] >= bound(stages, at) * (1.0 - TOUCH)
+}
+
 /// The velocity that a stage's acceleration makes of another one.
 fn gained(velocity: f64, stage: &Stage) -> f64 {
     (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
@@ -264,6 +301,7 @@ impl Interval {
                 velocity: 0.0,
                 acceleration: f64::INFINITY,
                 jerk: f64::INFINITY,
+                curve_jerk: f64::INFINITY,
             },
             start: velocities[from],
             end: velocities[to],
@@ -273,12 +311,21 @@ impl Interval {
             let (start, end) = (velocities[at], velocities[at + 1]);
             let squares = f64::midpoint(start * start, end * end);
             let apex = (squares + stage.bounds.acceleration * stage.length).sqrt();
-            if apex >= stage.bounds.velocity {
+            // Beside a knot that was given up, the plan is compared with the bound afterwards.
+            let is_beside = [at, at + 1]
+                .into_iter()
+                .any(|at| from < at && at < to && touches(stages, velocities, at));
+            if apex >= stage.bounds.velocity && !is_beside {
                 touched = touched.min(stage.bounds.velocity);
             }
             span.length += stage.length;
             let bounds = &mut span.bounds;
-            bounds.velocity = bounds.velocity.max(apex);
+            let highest = if is_beside {
+                apex.min(stage.bounds.velocity)
+            } else {
+                apex
+            };
+            bounds.velocity = bounds.velocity.max(highest);
             bounds.acceleration = bounds.acceleration.min(stage.bounds.acceleration);
             bounds.jerk = bounds.jerk.min(stage.bounds.jerk);
         }

@@ -3,16 +3,17 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::limits::AxisLimits;
+use super::limits::MachineLimits;
 use super::look_ahead::LookAhead;
 use super::remarks::{At, Remark, Remarks};
+use super::rounding::{Rounding, Transitions};
 use super::sampler::Sampler;
 use super::segment::{Ends, Segment};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, SAME_PLACE, Travel};
-use crate::machine::Machine;
+use crate::machine::{Axis, Machine};
 use crate::timeline::Row;
 
 /// How a trace is made.
@@ -54,12 +55,12 @@ const UNKNOWN_START: &str = "the position of the axes before this motion is not 
 
 /// Turns the rows of a session into the commanded trace of some axes.
 pub struct TrajectoryPlanner {
-    look_ahead: LookAhead,
+    path: Rounding,
     followed: Vec<AxisIndex>,
     /// The name of each axis.
     names: Vec<String>,
     /// Whether each axis is X, Y or Z.
-    main: Vec<bool>,
+    main: Arc<[bool]>,
     /// Where the path ends, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
     /// The same, to the last bit of the last segment.
@@ -109,16 +110,14 @@ enum Obstacle {
 impl TrajectoryPlanner {
     /// A planner for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
-        let limits = machine.axes.iter().map(AxisLimits::of).collect();
+        let limits = MachineLimits::of(machine, options.cycle_s);
         let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
+        let is_main = |axis: &Axis| matches!(axis.name.as_str(), "X" | "Y" | "Z");
+        let main: Arc<[bool]> = machine.axes.iter().map(is_main).collect();
         Self {
-            look_ahead: LookAhead::new(limits, sampler),
+            path: Rounding::new(LookAhead::new(limits, sampler), Arc::clone(&main)),
             followed: followed.to_vec(),
-            main: machine
-                .axes
-                .iter()
-                .map(|axis| matches!(axis.name.as_str(), "X" | "Y" | "Z"))
-                .collect(),
+            main,
             stand: Vec::new(),
             end: Vec::new(),
             running: Running::No,
@@ -153,7 +152,7 @@ impl TrajectoryPlanner {
 
     /// FC915 at the last block that moved something.
     fn check_budget(&mut self) {
-        if self.look_ahead.is_over() {
+        if self.path.look_ahead().is_over() {
             let at = At {
                 file: &Arc::clone(&self.file),
                 text: &std::mem::take(&mut self.text),
@@ -176,9 +175,14 @@ impl TrajectoryPlanner {
     pub fn finish(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.remarks.say_before();
         self.running = Running::No;
-        let flow = self.look_ahead.stop(sink);
+        let flow = self.path.stop(sink);
         self.check_budget();
         flow
+    }
+
+    /// What became of the transitions between feed moves.
+    pub fn transitions(&self) -> Transitions {
+        self.path.transitions()
     }
 
     /// How many motions the trace leaves out.
@@ -234,18 +238,18 @@ impl TrajectoryPlanner {
                 .into_iter()
                 .any(|(is, was)| was.is_some() && is != was)
         {
-            self.look_ahead.stop(sink)?;
+            self.path.stop(sink)?;
             self.running = Running::No;
         }
         if self.running == Running::No {
             self.remarks.say_before();
-            sink.begin(self.look_ahead.time_s(), &segment.cause)?;
+            sink.begin(self.path.look_ahead().time_s(), &segment.cause)?;
             self.running = Running::Yes;
         }
         self.stand.clone_from(&travel.to);
         self.end.clear();
         self.end.extend_from_slice(segment.ends());
-        self.look_ahead.add(segment, sink)
+        self.path.add((segment, travel.contouring), sink)
     }
 
     fn dwell(
@@ -263,7 +267,7 @@ impl TrajectoryPlanner {
                     seconds,
                     cause: &self.cause(row, Movement::Dwell),
                 };
-                self.look_ahead.rest(dwell, sink)
+                self.path.rest(dwell, sink)
             }
             Some(_) => self.lose(row, "a dwell time must not be negative", sink),
             None => self.lose(row, "the dwell time is not known", sink),
@@ -280,7 +284,7 @@ impl TrajectoryPlanner {
         self.remarks.say_left_out(row, reason);
         self.has_lost = true;
         self.running = Running::No;
-        self.look_ahead.stop(sink)?;
+        self.path.stop(sink)?;
         self.leave_out(row, reason, sink);
         ControlFlow::Continue(())
     }
@@ -352,7 +356,7 @@ impl TrajectoryPlanner {
             PathFeed::PerMinute(feed) => feed / 60.0,
             PathFeed::Seconds(seconds) => segment.length / seconds,
             PathFeed::OfAxes(share) if share >= 1.0 => f64::INFINITY,
-            PathFeed::OfAxes(share) => self.look_ahead.fastest(&segment) * share,
+            PathFeed::OfAxes(share) => self.path.look_ahead().fastest(&segment) * share,
             PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
         };
         segment.end = travel.end;
@@ -397,7 +401,7 @@ impl TrajectoryPlanner {
             matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == Form::Rapid);
         self.left_out_feed += u64::from(!is_rapid);
         sink.left_out(&SkippedMotion {
-            time_s: self.look_ahead.time_s(),
+            time_s: self.path.look_ahead().time_s(),
             file: row.file,
             line: row.line,
             number: row.number,

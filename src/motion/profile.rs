@@ -17,6 +17,8 @@ pub(super) struct Bounds {
     pub(super) acceleration: f64,
     /// The greatest jerk.
     pub(super) jerk: f64,
+    /// The greatest jerk that the curvature of the path may take.
+    pub(super) curve_jerk: f64,
 }
 
 /// The state along the path at one time.
@@ -285,6 +287,7 @@ mod tests {
                 velocity: bounds.velocity * unit,
                 acceleration: bounds.acceleration * unit,
                 jerk: bounds.jerk * unit,
+                curve_jerk: bounds.curve_jerk * unit,
             };
             reference_in_one_unit(start * unit, end * unit, length * unit, &bounds)
         });
@@ -329,7 +332,7 @@ mod tests {
             room in 1e-2_f64..1000.0,
         ) {
             // R5.2
-            let bounds = Bounds { velocity, acceleration, jerk };
+            let bounds = Bounds { velocity, acceleration, jerk, curve_jerk: jerk };
             let (start, end) = (start * velocity, end * velocity);
             // More than the change of velocity needs, at the lowest acceleration that it can have.
             let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();

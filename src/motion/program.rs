@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::planner::{PlannerOptions, TrajectoryPlanner};
+use super::rounding::Transitions;
 use super::trace::TraceSink;
 use crate::comp::AxisIndex;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -98,6 +99,11 @@ impl<S: TraceSink> ProgramTrace<S> {
     /// follows there.
     pub fn is_cut_short(&self) -> bool {
         self.is_cut_short
+    }
+
+    /// What became of the transitions between feed moves.
+    pub fn transitions(&self) -> Transitions {
+        self.planner.transitions()
     }
 
     /// How many motions the trace leaves out.

@@ -84,9 +84,10 @@ impl Sampler {
                     break;
                 }
                 for (place, &axis) in self.followed.iter().enumerate() {
-                    self.positions[place] = segment.position(axis, way);
+                    let [position, slope] = segment.place(axis, way);
+                    self.positions[place] = position;
                     // No negative zero.
-                    self.velocities[place] = segment.slope(axis, way) * state.velocity + 0.0;
+                    self.velocities[place] = slope * state.velocity + 0.0;
                 }
                 self.path_velocity = state.velocity;
                 self.emit(&segment.cause, sink)?;

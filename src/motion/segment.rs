@@ -2,6 +2,7 @@
 
 use std::sync::Arc as Shared;
 
+use super::curve::Curve;
 use super::limits::AxisLimits;
 use super::profile::Bounds;
 use super::share::Share;
@@ -23,7 +24,7 @@ const NO_SLOPE: f64 = 1e-12;
 pub(super) struct Segment {
     from: Box<[f64]>,
     to: Box<[f64]>,
-    circle: Option<Circle>,
+    shape: Shape,
     /// The distance along the path that the feed refers to, in mm or degrees.
     pub(super) length: f64,
     /// The highest path velocity that the program asks for.
@@ -32,6 +33,14 @@ pub(super) struct Segment {
     /// The highest path velocity at its end.
     pub(super) end_velocity: f64,
     pub(super) cause: Shared<Cause>,
+}
+
+/// What a segment follows.
+#[derive(Debug, Clone)]
+enum Shape {
+    Line,
+    Arc(Circle),
+    Curve(Box<Curve>),
 }
 
 /// An arc in the plane of two axes.
@@ -73,7 +82,7 @@ impl Segment {
         if length == 0.0 {
             return None;
         }
-        Some(Self::new(ends, None, length, cause))
+        Some(Self::new(ends, Shape::Line, length, cause))
     }
 
     /// An arc or a helix.
@@ -92,14 +101,66 @@ impl Segment {
             .map(|axis| ends.to[axis] - ends.from[axis])
             .fold(0.0, f64::hypot);
         let length = (circle.radius * circle.sweep).hypot(depth);
-        Ok(Self::new(ends, Some(circle), length, cause))
+        Ok(Self::new(ends, Shape::Arc(circle), length, cause))
     }
 
-    fn new(ends: Ends<'_>, circle: Option<Circle>, length: f64, cause: Shared<Cause>) -> Self {
+    /// The same block along other lines: from one place to another, straight.
+    pub(super) fn moved(&self, from: &[f64], to: &[f64], main: &[bool]) -> Option<Self> {
+        let ends = Ends {
+            from: from.into(),
+            to: to.into(),
+            main,
+        };
+        let line = Self::line(ends, Shared::clone(&self.cause))?;
+        Some(line.paced_as(self))
+    }
+
+    /// The same block along the span of a B-spline with these control points.
+    pub(super) fn curved(&self, points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
+        let curve = Curve::new(points, main)?;
+        let place = |along| {
+            let still = points[1];
+            (0..still.len())
+                .map(|axis| curve.position(axis, along).unwrap_or(still[axis]))
+                .collect()
+        };
+        let ends = Ends {
+            from: place(curve.after(0.0)),
+            to: place(curve.after(curve.length())),
+            main,
+        };
+        let length = curve.length();
+        let shape = Shape::Curve(Box::new(curve));
+        Some(Self::new(ends, shape, length, Shared::clone(&self.cause)).paced_as(self))
+    }
+
+    fn paced_as(self, block: &Self) -> Self {
+        Self {
+            feed: block.feed,
+            end: block.end,
+            end_velocity: block.end_velocity,
+            ..self
+        }
+    }
+
+    /// Whether it is straight.
+    pub(super) fn is_straight(&self) -> bool {
+        matches!(self.shape, Shape::Line)
+    }
+
+    /// The arc that it is.
+    fn circle(&self) -> Option<&Circle> {
+        match &self.shape {
+            Shape::Arc(circle) => Some(circle),
+            _ => None,
+        }
+    }
+
+    fn new(ends: Ends<'_>, shape: Shape, length: f64, cause: Shared<Cause>) -> Self {
         Self {
             from: ends.from,
             to: ends.to,
-            circle,
+            shape,
             length,
             feed: f64::INFINITY,
             end: BlockEnd::Through,
@@ -117,6 +178,11 @@ impl Segment {
         open.bounds(limits, Share::Whole).velocity
     }
 
+    /// Where the axes are at its start.
+    pub(super) fn starts(&self) -> &[f64] {
+        &self.from
+    }
+
     /// Where the axes are at its end.
     pub(super) fn ends(&self) -> &[f64] {
         &self.to
@@ -127,6 +193,20 @@ impl Segment {
         self.from.len()
     }
 
+    /// Where an axis is after a distance along the segment, and its slope there.
+    pub(super) fn place(&self, axis: usize, distance: f64) -> [f64; 2] {
+        if let Shape::Curve(curve) = &self.shape
+            && distance > 0.0
+            && distance < self.length
+        {
+            let along = curve.after(distance);
+            let [slope, _] = curve.shape(axis, along);
+            let position = curve.position(axis, along).unwrap_or(self.from[axis]);
+            return [position, slope];
+        }
+        [self.position(axis, distance), self.slope(axis, distance)]
+    }
+
     /// Where an axis is after a distance along the segment; exact at both ends.
     pub(super) fn position(&self, axis: usize, distance: f64) -> f64 {
         if distance <= 0.0 {
@@ -135,8 +215,12 @@ impl Segment {
         if distance >= self.length {
             return self.to[axis];
         }
+        if let Shape::Curve(curve) = &self.shape {
+            let along = curve.after(distance);
+            return curve.position(axis, along).unwrap_or(self.from[axis]);
+        }
         let part = distance / self.length;
-        match self.circle {
+        match self.circle() {
             Some(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(part);
                 let (centre, share) = if axis == circle.axes[0] {
@@ -152,8 +236,9 @@ impl Segment {
 
     /// The change of the position of an axis with the distance, `dx/ds`, after a distance.
     pub(super) fn slope(&self, axis: usize, distance: f64) -> f64 {
-        let slope = match self.circle {
-            Some(circle) if circle.axes.contains(&axis) => {
+        let slope = match &self.shape {
+            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[0],
+            Shape::Arc(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.radius * circle.sweep / self.length;
                 if axis == circle.axes[0] {
@@ -169,8 +254,9 @@ impl Segment {
 
     /// The change of the slope of an axis with the distance, `d²x/ds²`.
     pub(super) fn bend(&self, axis: usize, distance: f64) -> f64 {
-        match self.circle {
-            Some(circle) if circle.axes.contains(&axis) => {
+        match &self.shape {
+            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[1],
+            Shape::Arc(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.sweep / self.length;
                 let share = if axis == circle.axes[0] {
@@ -192,10 +278,15 @@ impl Segment {
             velocity: self.feed,
             acceleration: f64::INFINITY,
             jerk: f64::INFINITY,
+            curve_jerk: f64::INFINITY,
         };
+        if let Shape::Curve(curve) = &self.shape {
+            curve.restrict(&mut bounds, (limits, share));
+            return bounds;
+        }
         for (axis, limits) in limits.iter().enumerate() {
             let straight = self
-                .circle
+                .circle()
                 .is_none_or(|circle| !circle.axes.contains(&axis));
             let slope = ((self.to[axis] - self.from[axis]) / self.length).abs();
             if straight && slope > 0.0 {
@@ -205,12 +296,13 @@ impl Segment {
                 bounds.jerk = bounds.jerk.min(limits.jerk / slope);
             }
         }
-        if let Some(circle) = &self.circle {
+        if let Some(circle) = self.circle() {
             let [one, two] = circle.axes.map(|axis| share.of(&limits[axis]));
             let plane = Bounds {
                 velocity: one.velocity.min(two.velocity),
                 acceleration: one.acceleration.min(two.acceleration),
                 jerk: one.jerk.min(two.jerk),
+                curve_jerk: one.curve_jerk.min(two.curve_jerk),
             };
             circle.restrict(&mut bounds, plane, self.length);
         }
@@ -250,13 +342,14 @@ impl Circle {
         let velocity = (bounds.velocity * flat)
             .min(plane.velocity)
             .min((CIRCLE_ACCELERATION * plane.acceleration * radius).sqrt())
-            .min((CIRCLE_JERK * plane.jerk * radius * radius).cbrt());
+            .min((CIRCLE_JERK * plane.curve_jerk * radius * radius).cbrt());
         let across = velocity * velocity / radius;
         let acceleration = (plane.acceleration * plane.acceleration - across * across)
             .sqrt()
             .min(CROSS_JERK * plane.jerk * radius / (3.0 * velocity));
         let jerk = plane.jerk * (1.0 - CROSS_JERK * CROSS_JERK).sqrt()
             - velocity.powi(3) / (radius * radius);
+        let jerk = jerk.max(plane.jerk * (1.0 - CIRCLE_JERK) / 2.0);
         bounds.velocity = velocity / flat;
         bounds.acceleration = bounds.acceleration.min(acceleration / flat);
         bounds.jerk = bounds.jerk.min(jerk / flat);

@@ -27,6 +27,7 @@ impl Share {
             velocity: limits.velocity_per_s,
             acceleration: limits.acceleration_per_s2 * acceleration,
             jerk: limits.jerk_per_s3 * jerk,
+            curve_jerk: limits.curve_jerk_per_s3 * jerk,
         }
     }
 }

@@ -31,14 +31,14 @@ pub struct Channel {
     /// Scope draws the channel with a factor or an offset.
     pub is_drawn_scaled: bool,
     /// The factor and the offset, with what tells whether the samples contain them.
-    pub drawn: Option<Drawn>,
+    pub drawn: Option<ScopeDrawing>,
     /// `Unit ScaleFactor` and `Unit Offset` of Scope, where they are not 1 and 0.
     pub unit_scale: Option<[f64; 2]>,
 }
 
 /// Factor and offset with which Scope draws a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drawn {
+pub struct ScopeDrawing {
     /// `ScaleFactor`.
     pub factor: f64,
     /// `Offset`.
@@ -69,7 +69,7 @@ fn as_whole(value: f64) -> i64 {
     value as i64
 }
 
-impl Drawn {
+impl ScopeDrawing {
     /// What the samples contain, as far as the range in the header or the type of the variable tells
     /// (R6.23).
     pub fn contained_in(&self, samples: &[f64]) -> Contains {

@@ -25,7 +25,7 @@ mod wide;
 mod xml;
 
 pub use align::{Aligned, NotAligned};
-pub use channel::{Channel, ChannelIndex, CncObject, Contains, Drawn};
+pub use channel::{Channel, ChannelIndex, CncObject, Contains, ScopeDrawing};
 pub use choice::{Choice, TimeSource};
 pub use clock::Clock;
 pub use error::{SelectError, TraceProblem};

@@ -5,7 +5,7 @@
 //! group begins.
 
 use super::cell::{Separator, is_data, text};
-use super::channel::{Channel, CncObject, Drawn, parse_address};
+use super::channel::{Channel, CncObject, ScopeDrawing, parse_address};
 use super::columns::{Column, Columns, Group, Line, TimeScale};
 use super::error::TraceProblem;
 use super::recording::Layout;
@@ -273,7 +273,7 @@ fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
             .filter(|&ms| ms > 0.0 && ms.is_finite())
             .map(|ms| ms / 1000.0),
         is_drawn_scaled,
-        drawn: is_drawn_scaled.then(|| Drawn {
+        drawn: is_drawn_scaled.then(|| ScopeDrawing {
             factor: or("ScaleFactor", 1.0),
             offset: or("Offset", 0.0),
             is_whole: cell("Data-Type").is_some_and(|it| is_whole(&it)),

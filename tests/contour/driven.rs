@@ -24,6 +24,8 @@ pub(crate) const SETTLING_S: f64 = 0.004;
 pub(crate) struct Found {
     pub(crate) lines: BTreeMap<u32, Extremes>,
     pub(crate) reversals: Vec<ContourReversal>,
+    /// The largest deviation in space, as programmed, in µm.
+    pub(crate) largest_um: f64,
     /// What the first seconds of a line show is not kept.
     settling_s: f64,
     /// The line that is cut, and since when.
@@ -60,6 +62,9 @@ impl ContourSink for Found {
         let line = point.cause.line;
         if self.since.0 != line {
             self.since = (line, point.time_s);
+        }
+        if point.counts {
+            self.largest_um = self.largest_um.max(point.space_um.programmed);
         }
         if point.counts && point.time_s - self.since.1 >= self.settling_s {
             self.lines

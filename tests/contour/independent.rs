@@ -290,12 +290,11 @@ impl Motion {
     }
 }
 
-/// A reversal with the largest change of the deviation after it.
+/// A reversal.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reversal {
     pub(crate) line: u32,
     pub(crate) axis: usize,
-    pub(crate) glitch: f64,
 }
 
 /// What a run gives.
@@ -334,27 +333,13 @@ pub(crate) fn simulate(
     });
     let mut found = Simulated::default();
     let mut directions = [0.0; 2];
-    let mut open: Vec<(Reversal, f64, f64)> = Vec::new();
     for (at, pair) in motion.commands.windows(2).enumerate() {
         let [command, next] = [pair[0], pair[1]];
-        let before = command.piece.map(|piece| {
-            let place = axes.map(|axis| axis.x * 1000.0);
-            motion.deviation(piece, place)
-        });
-        let turned: Vec<usize> = (0..2)
-            .filter(|&axis| directions[axis] * command.velocity[axis] < 0.0)
-            .collect();
-        if !turned.is_empty() {
-            found.reversals.extend(open.drain(..).map(|(it, ..)| it));
-        }
-        for axis in turned {
-            let reversal = Reversal {
-                line: command.line,
-                axis,
-                glitch: 0.0,
-            };
-            open.push((reversal, before.unwrap_or_default(), 0.0));
-        }
+        let turned = (0..2).filter(|&axis| directions[axis] * command.velocity[axis] < 0.0);
+        found.reversals.extend(turned.map(|axis| Reversal {
+            line: command.line,
+            axis,
+        }));
         for (direction, velocity) in directions.iter_mut().zip(command.velocity) {
             if velocity != 0.0 {
                 *direction = velocity.signum();
@@ -377,18 +362,8 @@ pub(crate) fn simulate(
                 let line = found.lines.entry(command.line).or_insert([deviation; 2]);
                 *line = widened(*line, deviation);
             }
-            for (reversal, from, _) in &mut open {
-                reversal.glitch = reversal.glitch.max((deviation - *from).abs());
-            }
         }
-        for (.., age) in &mut open {
-            *age += CYCLE_S;
-        }
-        let (over, still): (Vec<_>, Vec<_>) = open.into_iter().partition(|it| it.2 >= 0.2);
-        found.reversals.extend(over.into_iter().map(|(it, ..)| it));
-        open = still;
     }
-    found.reversals.extend(open.into_iter().map(|(it, ..)| it));
     found
         .reversals
         .retain(|it| motion.judged.contains(&it.line));

@@ -2,9 +2,11 @@
 
 #[cfg(feature = "cli")]
 mod command;
+mod contouring;
 mod feeds;
 mod forms;
 mod limits;
+mod listed;
 mod start;
 mod unknown;
 
@@ -15,6 +17,7 @@ use frictcomp::comp::AxisIndex;
 use frictcomp::machine::Machine;
 use frictcomp::motion::{
     AxisLimits, Cause, PlannerOptions, Sample, SkippedMotion, TraceSink, TrajectoryPlanner,
+    Transitions,
 };
 use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
@@ -65,6 +68,8 @@ pub(crate) struct Trace {
     pub(crate) left_out: Vec<(u32, f64)>,
     pub(crate) causes: Vec<Arc<Cause>>,
     pub(crate) path_velocities: Vec<f64>,
+    /// What became of the transitions.
+    pub(crate) transitions: Transitions,
 }
 
 impl Trace {
@@ -164,6 +169,7 @@ pub(crate) fn follow(
         planned.planner.left_out(),
         planned.trace.left_out.len() as u64
     );
+    planned.trace.transitions = planned.planner.transitions();
     planned.trace.said = said
         .map(|diagnostic| (diagnostic.code.to_string(), diagnostic.place.first_line))
         .collect();

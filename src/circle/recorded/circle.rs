@@ -11,6 +11,7 @@ use super::search::search;
 use super::trace::RecordedTrace;
 use crate::circle::direction::Direction;
 use crate::circle::profile::{Gap, Gatherer, RadialProfile};
+use crate::circle::quality::quality;
 use crate::circle::zone::{least_squares, zone_about};
 
 /// Rounds in which the turn is fitted and cut again.
@@ -152,7 +153,9 @@ impl RecordedCircle {
                 after: points.len() - run.points.end,
                 along_deg: run.covered().to_degrees(),
             },
-            profile: profile.at(centre.map(|mm| mm / MM_PER_M)),
+            profile: profile
+                .at(centre.map(|mm| mm / MM_PER_M))
+                .with_quality(quality(&points[turn], centre)),
         })
     }
 

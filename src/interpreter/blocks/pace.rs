@@ -1,6 +1,7 @@
 //! What a block says about the velocity of paths beside F: overrides, weights, the main spindle, and
 //! what a commanded trace does not follow in full (R5.1).
 
+use crate::interpreter::coordinates::contouring::ContouringCommand;
 use crate::interpreter::coordinates::pace::Factors;
 use crate::interpreter::coordinates::simplified::{self, Holds, Simplification};
 use crate::interpreter::run::at::At;
@@ -63,6 +64,11 @@ impl Interpreter {
             }
             "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
             _ => {
+                if let Some(command) = ContouringCommand::of(name) {
+                    let before = *self.state.control.modal.contouring_of(command);
+                    let next = command.parameters(before, rest, |value| self.number_in(value, at));
+                    *self.state.control.modal.contouring_of(command) = next;
+                }
                 if let Some((what, holds)) = simplified::of_command(name) {
                     self.simplify(what, holds);
                 }

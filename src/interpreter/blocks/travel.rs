@@ -5,7 +5,7 @@ use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
 use crate::interpreter::coordinates::geometry::{Geometry, Given};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
-    Arc, BlockEnd, Centre, Form, Motion, PathFeed, Travel, Turn,
+    Arc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -119,7 +119,13 @@ impl Interpreter {
         }
         let Some(from) = from else { return };
         let geometry = geometry.unwrap_or_default();
-        self.work.motion = self.motion(&geometry, from, words);
+        let motion = self.motion(&geometry, from, words);
+        if let Some(Motion::Travel(travel)) = &motion
+            && matches!(travel.form, Form::Arc(_))
+        {
+            self.work.aside.arc = Some(travel.clone());
+        }
+        self.work.motion = motion.filter(|_| self.options.motions == Motions::Taken);
     }
 
     fn motion(
@@ -152,6 +158,7 @@ impl Interpreter {
                 BlockEnd::Through => modal.functions.block_end,
                 BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
+            contouring: modal.contouring(geometry.simplified),
             end_feed_per_min: self.end_feed(geometry),
             simplified: modal.simplified.union(geometry.simplified),
         }))

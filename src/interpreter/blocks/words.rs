@@ -461,7 +461,9 @@ impl Interpreter {
             self.work.geometry = None;
             return;
         }
-        let start = (self.options.motions == Motions::Taken).then(|| self.stand());
+        // The lint of switches on the way looks at arcs (R1.57).
+        let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
+        let start = (is_arc || self.options.motions == Motions::Taken).then(|| self.stand());
         let before = intent.radius.map(|_| self.ends());
         let coordinates = self.coordinates();
         let modal = &mut self.state.control.modal;

@@ -3,6 +3,7 @@
 pub(super) mod arc;
 pub(super) mod axis_words;
 pub(super) mod chain;
+pub(super) mod contouring;
 pub(super) mod geometry;
 pub(super) mod group;
 pub(super) mod modal;

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::axis_words::AxisWord;
 use super::chain::{self, Step};
+use super::contouring::{Contouring, ContouringCommand};
 use super::group::{Group, GroupSet};
 use super::motion::BlockEnd;
 use super::pace::{Pace, ProgrammedFeed};
-use super::simplified::{self, Holds, Simplifications};
+use super::simplified::{self, Holds, Simplification, Simplifications};
 use crate::comp::AxisIndex;
 use crate::machine::ChannelSettings;
 
@@ -88,6 +89,10 @@ pub struct Modal {
     pub transformed: BTreeSet<String>,
     /// What the control does to the path or its velocity and a commanded trace does not.
     pub simplified: Simplifications,
+    /// The parameters of `#CONTOUR MODE`, for G61 and G261.
+    contour: Contouring,
+    /// The parameters of `#HSC`.
+    high_speed: Contouring,
     /// What makes of F the velocity of the path.
     pub(in crate::interpreter) pace: Pace,
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
@@ -146,6 +151,8 @@ impl Modal {
             radius: None,
             transformed: BTreeSet::new(),
             simplified: Simplifications::default(),
+            contour: Contouring::default(),
+            high_speed: Contouring::high_speed(),
             pace: Pace::new(Some(1.0)),
             skewed: false,
             origin_moved: false,
@@ -261,16 +268,42 @@ impl Modal {
     }
 
     /// A command or function that a commanded trace does not follow in full.
-    pub(in crate::interpreter) fn simplify(
-        &mut self,
-        what: simplified::Simplification,
-        holds: Holds,
-    ) {
+    pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
         self.simplified = match holds {
             Holds::On => self.simplified.union(what.into()),
             Holds::Off => self.simplified.without(what.into()),
             Holds::Once => self.simplified,
         };
+    }
+
+    /// The parameters that a command sets.
+    pub(in crate::interpreter) fn contouring_of(
+        &mut self,
+        command: ContouringCommand,
+    ) -> &mut Contouring {
+        match command {
+            ContouringCommand::Contour => &mut self.contour,
+            ContouringCommand::HighSpeed => &mut self.high_speed,
+        }
+    }
+
+    /// How the transition after a block is rounded; `once` holds in the block alone.
+    pub(in crate::interpreter) fn contouring(&self, once: Simplifications) -> Option<Contouring> {
+        let holds = self.simplified.union(once);
+        if holds.contains(Simplification::HighSpeed) {
+            return Some(self.high_speed);
+        }
+        (holds.contains(Simplification::Contouring)).then_some(self.contour)
+    }
+
+    /// Something may or may not have been put into force: what it would round is not known.
+    pub(in crate::interpreter) fn perhaps_simplify(&mut self, what: Simplification) {
+        self.simplify(what, Holds::On);
+        match what {
+            Simplification::Contouring => self.contour = self.contour.unknown(),
+            Simplification::HighSpeed => self.high_speed = self.high_speed.unknown(),
+            _ => {}
+        }
     }
 
     /// Whether coordinates count from another origin than at the start of the program, or may: where
@@ -475,7 +508,7 @@ impl Modal {
             _ => {}
         }
         if let Some((what, Holds::On)) = simplified::of_g(number) {
-            self.simplify(what, Holds::On);
+            self.perhaps_simplify(what);
         }
         if let Some(group) = Group::of(number) {
             self.functions.unknown.insert(group);
@@ -489,6 +522,12 @@ impl Modal {
             *mine = mine.filter(|_| *mine == theirs);
         }
         self.pace.doubt(&other.pace);
+        if (self.simplified, self.contour, self.high_speed)
+            != (other.simplified, other.contour, other.high_speed)
+        {
+            self.contour = self.contour.unknown();
+            self.high_speed = self.high_speed.unknown();
+        }
         self.simplified = self.simplified.union(other.simplified);
         self.skewed &= other.skewed;
         self.origin_moved |= other.origin_moved;

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::contouring::Contouring;
 use super::simplified::Simplifications;
 use crate::comp::AxisIndex;
 
@@ -42,6 +43,8 @@ pub struct Travel {
     pub feed: PathFeed,
     /// What happens at the end of the block.
     pub end: BlockEnd,
+    /// How the transition to the next block is rounded, where it is (R11.21).
+    pub contouring: Option<Contouring>,
     /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
     pub end_feed_per_min: Option<f64>,
     /// What the control does to the path or its velocity and a commanded trace does not.

@@ -95,9 +95,11 @@ impl Simplification {
     pub fn instead(self) -> &'static str {
         match self {
             Self::Contouring => {
-                "follows the programmed corners, which the control rounds (`G61`, `G261`, `#CONTOUR MODE`)"
+                "rounds corners within their tolerance by curves of its own, where the control has polynomials (`G61`, `G261`, `#CONTOUR MODE`)"
             }
-            Self::HighSpeed => "follows the programmed blocks, which the control smooths (`#HSC`)",
+            Self::HighSpeed => {
+                "joins short blocks within their tolerance by a curve of its own, where the control has another one (`#HSC`)"
+            }
             Self::Slope => "keeps its jerk-limited profile, whatever `#SLOPE` selects",
             Self::VelocityWeight => {
                 "keeps the velocity limits of the axes, which the program weights (`G127`, `G128`)"
@@ -148,6 +150,11 @@ impl Simplifications {
     pub fn iter(self) -> impl Iterator<Item = Simplification> {
         let all = Simplification::ALL.into_iter();
         all.filter(move |it| self.0 & 1 << *it as u32 != 0)
+    }
+
+    /// Whether one of them is in the set.
+    pub fn contains(self, one: Simplification) -> bool {
+        self.0 & Self::from(one).0 != 0
     }
 
     /// Those of either set.

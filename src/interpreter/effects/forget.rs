@@ -136,7 +136,7 @@ impl Interpreter {
             "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
             name => {
                 if let Some((what, Holds::On)) = simplified::of_command(name) {
-                    self.state.control.modal.simplify(what, Holds::On);
+                    self.state.control.modal.perhaps_simplify(what);
                 }
                 self.state.control.modal.forget_hash(name);
             }

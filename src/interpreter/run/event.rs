@@ -13,7 +13,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::modal::Modal;
-use crate::interpreter::coordinates::motion::Motion;
+use crate::interpreter::coordinates::motion::{Motion, Travel};
 use crate::interpreter::coordinates::moving::{MotionKind, MovedAxis};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
@@ -101,6 +101,10 @@ pub enum Notes {
 pub(crate) struct Aside {
     /// The axis words of the last block that moved before it, unless the axes have come to rest since.
     pub(crate) last_moved: Vec<AxisWord>,
+    /// The arc that it was.
+    pub(crate) last_arc: Option<Travel>,
+    /// The arc that the block is.
+    pub(crate) arc: Option<Travel>,
     /// The states of compensation that it reads (R1.35).
     pub(crate) asked: Vec<(AxisIndex, Kind)>,
     /// Messages about unknown values that are not said, because nothing differs or because they

@@ -100,10 +100,13 @@ impl Work {
         if !self.moved.is_empty() {
             std::mem::swap(&mut self.moved, &mut self.aside.last_moved);
             self.moved.clear();
+            self.aside.last_arc = self.aside.arc.take();
         }
         if self.rests.replace(false) || self.dwells {
             self.aside.last_moved.clear();
+            self.aside.last_arc = None;
         }
+        self.aside.arc = None;
         self.lacking.clear();
         self.seen = 0;
         self.again = 0;

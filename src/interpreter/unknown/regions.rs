@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::interpreter::coordinates::simplified::Holds;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
@@ -160,7 +159,7 @@ impl Interpreter {
             Effect::Feeds => modal.functions.feeds = [None; 4],
             Effect::Spindle => modal.pace.forget_spindle(),
             Effect::Overrides => modal.pace.forget_overrides(),
-            Effect::Simplified(what) => modal.simplify(*what, Holds::On),
+            Effect::Simplified(what) => modal.perhaps_simplify(*what),
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.forget_position(*axis);

@@ -102,9 +102,27 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[],
     },
     Assumption {
+        rule: "R11.20",
+        sentence: "jerk is acceleration by ramp time; where a list gives only some of the accelerations \
+            or ramp times of P-AXIS-00001, P-AXIS-00002 and P-AXIS-00195 to P-AXIS-00198, they count for \
+            speeding up and braking; without P-CHAN-00071 the acceleration has ramps",
+        changes: "the time of every motion",
+        shows: "`lists --show`, the column `v`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R11.21",
+        sentence: "a contour mode rounds corners between lines by a B-spline, symmetrical, within its \
+            tolerance; without one there is no rounding",
+        changes: "the path at corners, and the velocity there",
+        shows: "FC907, `transitions` of `contour`",
+        when: &[Reported(Code::Fc907)],
+    },
+    Assumption {
         rule: "R5.2",
-        sentence: "a transition takes at most a quarter of the jerk of an axis in a CNC cycle; a control \
-            weights this with P-AXIS-00013, P-AXIS-00154 or P-AXIS-00339, P-AXIS-00340",
+        sentence: "a transition takes at most a quarter of the jerk of an axis in a CNC cycle; with \
+            P-AXIS-00013 that share of its acceleration; P-AXIS-00154, P-AXIS-00339 and P-AXIS-00340 are not \
+            used",
         changes: "the velocity at kinks and at the ends of arcs",
         shows: "the column `v`",
         when: &[],

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::super::stiction::guideline;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
-    AxisShape, CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, LeftOut,
-    Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
+    AxisShape, CircularTest, Crossing, Diagnosis, DiagnosisGrounds, Direction, Figures, Finding,
+    FoundAt, LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
 };
 use crate::diagnostic::{Rounded, Shown};
 use crate::stiction::StictionParameters;
@@ -448,12 +448,31 @@ pub(in crate::report) fn advice_lines(report: &CircleReport, side: &NamedSide) -
             format!(" at {}", places.join(" "))
         };
         lines.push(format!(
-            "{}{at}: {largest:.1} µm, {}",
+            "{}{at}: {largest:.1} µm{}, {}",
             side.name,
+            grounds(&same[0].grounds),
             words(finding)
         ));
     }
     lines
+}
+
+/// What advice about a recording rests on, and what speaks against it (R5.28).
+fn grounds(grounds: &DiagnosisGrounds) -> String {
+    let mut said = Vec::new();
+    said.extend(grounds.error_um.map(|it| format!("± {it:.2}")));
+    said.extend(grounds.pitch_mm.map(|it| format!("every {it:.2} mm")));
+    said.extend(grounds.hertz.map(|it| format!("{it:.1} Hz")));
+    said.extend(
+        grounds
+            .unexplained_um
+            .filter(|it| *it >= 0.05)
+            .map(|it| format!("{it:.2} unexplained")),
+    );
+    if said.is_empty() {
+        return String::new();
+    }
+    format!(" ({})", said.join(", "))
 }
 
 /// The same where the compensation is that of stiction.
@@ -501,5 +520,20 @@ pub fn words(finding: Finding) -> &'static str {
             "an ellipse at 45° that does not turn with the direction: the axes are not square"
         }
         Finding::ScaleMismatch => "an ellipse along the axes: their scales differ",
+        Finding::LateralPlay => {
+            "a step sideways where the other axis reverses: play of the guide of this axis"
+        }
+        Finding::Periodic => {
+            "repeats along the axis: an error of the screw or the encoder, nothing for friction \
+             compensation"
+        }
+        Finding::Vibration => {
+            "an oscillation in time: look for its source, compensation does not end it"
+        }
+        Finding::StickSlip => "swings after the reversal: the axis sticks and slips",
+        Finding::OtherShape => {
+            "another shape than those of friction, backlash and axes that do not match; nothing is said \
+             about the timing of compensation"
+        }
     }
 }

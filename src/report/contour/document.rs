@@ -9,7 +9,7 @@ use crate::contour::{
     ContourLimits, ContourOptions, ContourReversal, ContourSink, ContourSummary, ContourVerdict,
     Deviations, ListSource, ProgramContour,
 };
-use crate::motion::AssumedLimits;
+use crate::motion::{AssumedLimits, Departure};
 
 fn figures(deviations: &Deviations) -> Value {
     json!({
@@ -34,6 +34,7 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
         "cutting": counted.cutting,
         "rapid": counted.rapid,
         "uncompensated": counted.uncompensated,
+        "unmeasured": counted.unmeasured,
         "glitch_uncompensated": glitch(|it| it.glitch_um.programmed),
         "glitch_compensated": glitch(|it| it.glitch_um.all_on),
         "uncompensated_at": record(counted.dearest.as_ref()),
@@ -72,6 +73,19 @@ fn feed_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
     })
 }
 
+/// What became of the transitions between feed moves, lengths in µm.
+fn transitions_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
+    let transitions = contour.transitions();
+    let departure = |from: &Departure| json!({ "max": rounded(from.um, 3), "max_at": record(from.at.as_deref()) });
+    json!({
+        "joined": transitions.joined,
+        "rounded": transitions.rounded,
+        "slow": transitions.slow,
+        "rounding": departure(&transitions.rounding),
+        "sagitta": departure(&transitions.sagitta),
+    })
+}
+
 fn limits_record(axis: &AssumedLimits) -> Value {
     json!({
         "axis": axis.axis,
@@ -103,6 +117,7 @@ pub fn summary_record(
         "all_off": figures(&deviations.all_off),
         "due": { "max": rounded(due.um, 3), "max_at": record(due.at.as_deref()) },
         "feed": feed_record(contour),
+        "transitions": transitions_record(contour),
         "assumed_limits": contour.assumed_limits().map(limits_record).collect::<Vec<Value>>(),
         "axes": axes.collect::<Vec<Value>>(),
         "left_out": contour.left_out(),
@@ -123,6 +138,11 @@ pub fn document(
     let reversals = recorder.reversals().iter();
     let reversals = reversals.map(|reversal| reversal_record(reversal, &names));
     document["reversals"] = reversals.collect::<Vec<Value>>().into();
+    let (switches, _) = recorder.switches();
+    let switches = switches
+        .iter()
+        .map(|switch| reversal_record(switch, &names));
+    document["switches"] = switches.collect::<Vec<Value>>().into();
     let blocks = recorder.blocks().iter().map(
         |((file, line), max)| json!({ "file": &**file, "line": line, "max": rounded(*max, 3) }),
     );

@@ -12,6 +12,9 @@ use crate::report::pictures::ContourPicture;
 /// How many of the worst reversals are kept.
 const WORST: usize = 10;
 
+/// So many switches are kept.
+const MOST_SWITCHES: usize = 100;
+
 /// What becomes of each reversal.
 enum Reversals<'a> {
     /// Only the worst are kept.
@@ -30,6 +33,8 @@ pub struct ContourRecorder<'a> {
     reversals: Reversals<'a>,
     all: Vec<ContourReversal>,
     worst: Vec<ContourReversal>,
+    switches: Vec<ContourReversal>,
+    more_switches: u64,
     blocks: BTreeMap<(Arc<str>, u32), f64>,
     picture: Option<ContourPicture>,
     error: Option<io::Error>,
@@ -43,6 +48,8 @@ impl<'a> ContourRecorder<'a> {
             reversals: Reversals::Worst,
             all: Vec::new(),
             worst: Vec::new(),
+            switches: Vec::new(),
+            more_switches: 0,
             blocks: BTreeMap::new(),
             picture: None,
             error: None,
@@ -92,6 +99,12 @@ impl<'a> ContourRecorder<'a> {
         &self.worst
     }
 
+    /// Where compensation of an axis is switched while it moves on, the first ones, and how many more
+    /// there are.
+    pub fn switches(&self) -> (&[ContourReversal], u64) {
+        (&self.switches, self.more_switches)
+    }
+
     /// The largest deviation of each block in µm, by file and line, where all is kept.
     pub fn blocks(&self) -> &BTreeMap<(Arc<str>, u32), f64> {
         &self.blocks
@@ -125,7 +138,7 @@ impl ContourSink for ContourRecorder<'_> {
             picture.point(point);
         }
         if matches!(self.reversals, Reversals::Kept) && point.counts {
-            let deviation = point.deviation_um.programmed.abs();
+            let deviation = point.space_um.programmed;
             let key = (Arc::clone(&point.cause.file), point.cause.line);
             let max = self.blocks.entry(key).or_default();
             *max = max.max(deviation);
@@ -133,7 +146,7 @@ impl ContourSink for ContourRecorder<'_> {
     }
 
     fn reversal(&mut self, reversal: &ContourReversal) {
-        if reversal.movement != Movement::Rapid {
+        if reversal.movement != Movement::Rapid && reversal.is_measured {
             self.keep_worst(reversal);
         }
         if let Some(picture) = &mut self.picture {
@@ -154,6 +167,14 @@ impl ContourSink for ContourRecorder<'_> {
         };
         if let Err(error) = written {
             self.error.get_or_insert(error);
+        }
+    }
+
+    fn switch(&mut self, switch: &ContourReversal) {
+        if self.switches.len() < MOST_SWITCHES {
+            self.switches.push(switch.clone());
+        } else {
+            self.more_switches += 1;
         }
     }
 

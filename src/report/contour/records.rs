@@ -26,6 +26,7 @@ fn position(reversal: &ContourReversal, names: &[String]) -> Map<String, Value> 
 /// A reversal: µm, mm, mm/min, mm/s², s, currents in drive units.
 pub fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
     let glitch = &reversal.glitch_um;
+    let figure = |um: f64| reversal.is_measured.then(|| rounded(um, 3));
     json!({
         "axis": reversal.axis,
         "file": &*reversal.file,
@@ -39,15 +40,19 @@ pub fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
         "movement": reversal.movement.as_str(),
         "state": reversal.state.as_str(),
         "current": reversal.current_units.map(|current| rounded(current, 3)),
-        "glitch": rounded(glitch.programmed, 3),
-        "glitch_on": rounded(glitch.all_on, 3),
-        "glitch_off": rounded(glitch.all_off, 3),
+        "glitch": figure(glitch.programmed),
+        "glitch_on": figure(glitch.all_on),
+        "glitch_off": figure(glitch.all_off),
     })
 }
 
 /// A reversal as a row of [`CSV_HEADER`].
 pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
     let glitch = &reversal.glitch_um;
+    let figure = |um: f64| {
+        let um = reversal.is_measured.then(|| rounded(um, 3));
+        um.map_or(String::new(), |um| um.to_string())
+    };
     let places = names.iter().zip(&reversal.positions);
     let places: Vec<String> = places
         .map(|(name, place)| format!("{name}{}", rounded(*place, 4)))
@@ -65,9 +70,9 @@ pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
         reversal.state.as_str().to_owned(),
         rounded(reversal.current_units[0], 3).to_string(),
         rounded(reversal.current_units[1], 3).to_string(),
-        rounded(glitch.programmed, 3).to_string(),
-        rounded(glitch.all_on, 3).to_string(),
-        rounded(glitch.all_off, 3).to_string(),
+        figure(glitch.programmed),
+        figure(glitch.all_on),
+        figure(glitch.all_off),
         reversal
             .programmed_mm_per_min
             .map_or(String::new(), |feed| rounded(feed, 3).to_string()),

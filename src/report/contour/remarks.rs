@@ -5,6 +5,7 @@ use crate::contour::{
     ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourSink, ListSource,
     ProgramContour,
 };
+use crate::motion::{Departure, Transitions};
 use crate::report::limits::assumed_limits;
 use crate::report::visible::visible_line;
 
@@ -12,6 +13,7 @@ use crate::report::visible::visible_line;
 /// to the plant: a line each (R11.23, R11.25).
 pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
+    lines.extend(transitions(&contour.transitions()));
     lines.extend(assumed_limits(contour.assumed_limits()));
     let options = contour.options();
     let axes = options.axes.iter();
@@ -29,6 +31,46 @@ fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
         feed.reached_mm_per_min()?,
         feed.slow_share() * 100.0
     ))
+}
+
+/// How kinks are passed: "7199 short lines are driven as curves, at most 0.01 µm from their chords, at …"
+fn transitions(transitions: &Transitions) -> Vec<String> {
+    let mut lines = Vec::new();
+    let at = |departure: &Departure| {
+        let at = departure.at.as_deref().map(|at| Block::from(at).words());
+        at.map_or(String::new(), |at| format!(", at {at}"))
+    };
+    let (joined, rounding) = (&transitions.sagitta, &transitions.rounding);
+    if transitions.joined > 0 {
+        lines.push(format!(
+            "{} joined to curves: the sagitta of the lines is at most {:.2} µm{}; deviations are those \
+             from the curve",
+            counted(transitions.joined, "transition of short lines is", "transitions of short lines are"),
+            joined.um,
+            at(joined)
+        ));
+    }
+    if transitions.rounded > 0 {
+        lines.push(format!(
+            "{} rounded by at most {:.1} µm{}; deviations are those from the rounded path",
+            counted(transitions.rounded, "corner is", "corners are"),
+            rounding.um,
+            at(rounding)
+        ));
+    }
+    if transitions.slow > 0 {
+        lines.push(format!(
+            "{} passed below 80 % of F, because no contour mode rounds {}: `#CONTOUR MODE ON`, `G261` \
+             or `#HSC ON` does",
+            counted(transitions.slow, "kink is", "kinks are"),
+            if transitions.slow == 1 { "it" } else { "them" }
+        ));
+    }
+    lines
+}
+
+fn counted(count: u64, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 fn misfit(axis: &ContourAxis, options: &ContourOptions) -> Option<String> {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::places::Block;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
+use crate::comp::State;
 use crate::contour::{ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour};
 use crate::motion::Cause;
 use crate::report::visible::visible_line;
@@ -63,6 +64,7 @@ pub fn render_text(
     for axis in contour.axes() {
         let _ = writeln!(out, "{}", sentence(axis, Counted::of(is_whole)));
     }
+    push_switches(&mut out, contour.sink().switches());
     push_beside_the_plane(&mut out, contour.axes());
     push_worst(&mut out, contour.sink().worst(), &subject.program);
     out.push('\n');
@@ -165,6 +167,36 @@ fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     };
 }
 
+/// Where compensation is switched while the axis moves on (R1.57).
+fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) {
+    for switch in switches {
+        let way = if switch.state == State::Active {
+            "on"
+        } else {
+            "off"
+        };
+        let _ = write!(
+            out,
+            "{} is switched {way} while it moves on, before {}",
+            switch.axis,
+            Block::from(switch).words()
+        );
+        let glitch = &switch.glitch_um;
+        let _ = if switch.is_measured {
+            writeln!(
+                out,
+                ": {:.1} µm there against {:.1} µm with all on; if the command stops the path, there is no jump",
+                glitch.programmed, glitch.all_on
+            )
+        } else {
+            writeln!(out, "; too near to a stop or a corner for a figure")
+        };
+    }
+    if more > 0 {
+        let _ = writeln!(out, "and {more} more such places");
+    }
+}
+
 /// A glitch in µm that a deviation in its plane would show.
 const NOTICEABLE_UM: f64 = 1.0;
 
@@ -178,7 +210,7 @@ fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
         if worst.is_some_and(|worst| worst.glitch_um.all_off > NOTICEABLE_UM) {
             let _ = writeln!(
                 out,
-                "the deviations above are those in the plane {}{}; `--plane {},{}` shows those of {}",
+                "outermost and innermost are those in the plane {}{}; `--plane {},{}` shows those of {}",
                 first.axis, second.axis, first.axis, axis.axis, axis.axis
             );
         }
@@ -224,7 +256,21 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
             };
             let cutting = times(cutting);
             let _ = write!(text, "reverses {least}{cutting} while cutting{rapid}");
+            if axis.unmeasured > 0 {
+                let _ = write!(
+                    text,
+                    ", {} too near to a stop or a corner for a figure",
+                    times(axis.unmeasured)
+                );
+            }
             match &axis.dearest {
+                None if axis.uncompensated > 0 => {
+                    let _ = write!(
+                        text,
+                        ", {least}{} without compensation, where there is no figure",
+                        times(axis.uncompensated)
+                    );
+                }
                 None => {
                     let _ = write!(text, ", always with compensation{driven}");
                 }

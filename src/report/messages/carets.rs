@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::report::diagnostics::{Look, render};
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 
 /// Messages as people read them.
 #[derive(Debug)]

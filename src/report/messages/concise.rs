@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::report::strings::integer;
 use crate::report::visible::{leading, visible_line};
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 
 /// A diagnostic as one line, without its end.
 #[cfg(feature = "cli")]

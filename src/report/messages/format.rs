@@ -1,34 +1,14 @@
 //! The formats of messages: a file and a row of the table each.
 
-use std::fmt;
-
-use serde_json::Value;
-
-use crate::diagnostic::Diagnostic;
 use crate::report::diagnostics::Look;
 
 use super::carets::Carets;
 use super::concise::Concise;
 use super::github::GitHub;
 use super::gitlab::GitLab;
+use super::message_format::MessageFormat;
 use super::objects::Objects;
 use super::sarif::Sarif;
-use super::tally::Tally;
-
-/// What a format writes before the messages, for each of them, and after them.
-pub(super) trait MessageFormat: fmt::Debug {
-    /// Appends what stands before the first message.
-    fn open(&mut self, _out: &mut Vec<u8>) {}
-
-    /// Appends a message.
-    fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic);
-
-    /// Appends a record of another kind, if the format has records.
-    fn record(&mut self, _out: &mut Vec<u8>, _record: &Value) {}
-
-    /// Appends what stands after the last message.
-    fn close(&mut self, _out: &mut Vec<u8>, _tally: &Tally) {}
-}
 
 /// What a format can hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::strings::integer;
 use crate::report::visible::visible;
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 
 /// Messages as workflow commands.
 #[derive(Debug)]

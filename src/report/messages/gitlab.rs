@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::strings::{integer, string};
 use fnv::FnvHasher;
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 use super::tally::Tally;
 
 /// The messages so far.

@@ -7,7 +7,8 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::diagnostics::Look;
 use crate::report::output::Output;
 
-use super::format::{ListingFormat, MessageFormat};
+use super::format::ListingFormat;
+use super::message_format::MessageFormat;
 use super::tally::Tally;
 
 /// Writes diagnostics one after another, then what they add up to.

@@ -6,6 +6,7 @@ mod format;
 mod github;
 mod gitlab;
 mod listing;
+mod message_format;
 mod objects;
 mod sarif;
 mod tally;

@@ -7,7 +7,7 @@ use crate::report::json;
 use crate::report::records::append_diagnostic;
 use crate::report::strings::integer;
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 use super::tally::Tally;
 
 /// Objects between what begins, separates and ends them.

@@ -10,7 +10,7 @@ use crate::text::Place;
 
 use crate::report::strings::to_pretty;
 
-use super::format::MessageFormat;
+use super::message_format::MessageFormat;
 use super::tally::Tally;
 
 /// What stands before the results. The keys of SARIF may come in any order, so the results go out one

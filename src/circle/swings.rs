@@ -1,0 +1,95 @@
+//! Swings after a reversal: an axis that sticks and slips does not come to rest in one (R5.28).
+
+use super::crossing::{Crossing, PlaneAxis};
+use super::direction::Direction;
+use super::profile::{PER_DEGREE, RadialProfile, UM_PER_M};
+
+/// The path is averaged over so many s.
+const AVERAGED_S: f64 = 0.008;
+
+/// Swings are counted for so many s after a crossing, or for as many degrees.
+const AFTER_S: f64 = 0.3;
+const AFTER_DEG: f64 = 14.0;
+
+/// Fewer extremes are those of a peak.
+const FEWEST: usize = 4;
+
+/// Swings below this part of the largest one do not count.
+const PART: f64 = 0.1;
+
+/// Nor swings below this, in µm.
+const LEAST_UM: f64 = 0.3;
+
+/// Standard deviations of the noise, averaged over eight samples, that a swing is larger than.
+const OF_NOISE: f64 = 9.0 / 2.828;
+
+/// The largest swing of an axis that sticks and slips, in µm, of paths with this noise.
+pub(super) fn stick_slip(
+    paths: &[(Direction, &RadialProfile)],
+    axis: PlaneAxis,
+    noise_um: f64,
+) -> Option<f64> {
+    let crossings = || Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
+    let mut found: Vec<(usize, f64)> = paths
+        .iter()
+        .flat_map(|&(direction, profile)| {
+            crossings().map(move |crossing| swings(profile, direction, crossing, noise_um))
+        })
+        .collect::<Option<_>>()?;
+    found.sort_by_key(|it| it.0);
+    let (count, _) = *found.get(found.len() / 2)?;
+    let largest = found.iter().map(|it| it.1).fold(0.0, f64::max);
+    (count >= FEWEST).then_some(largest)
+}
+
+/// Extremes after a crossing, and the largest swing between two of them.
+fn swings(
+    profile: &RadialProfile,
+    direction: Direction,
+    crossing: Crossing,
+    noise_um: f64,
+) -> Option<(usize, f64)> {
+    let turning = 360.0 / profile.turn_s()?;
+    let degrees = (AFTER_S * turning).clamp(AFTER_DEG, 80.0);
+    #[allow(clippy::cast_possible_truncation)] // at most 8000
+    let angles = |degrees: f64| (degrees * f64::from(PER_DEGREE)).round() as i32;
+    let points = profile.fixed(crossing, direction, 0..=angles(degrees));
+    let path: Vec<f64> = points
+        .map(|(_, point)| point.deviation * UM_PER_M)
+        .collect();
+    let width = usize::try_from(angles(AVERAGED_S * turning))
+        .unwrap_or(1)
+        .max(1);
+    #[allow(clippy::cast_precision_loss)] // at most some hundred
+    let mean = |window: &[f64]| window.iter().sum::<f64>() / window.len() as f64;
+    let smooth: Vec<f64> = path.windows(width).map(mean).collect();
+    let [low, high] = smooth.iter().fold([f64::MAX, f64::MIN], |[low, high], it| {
+        [low.min(*it), high.max(*it)]
+    });
+    let least = (PART * (high - low)).max(LEAST_UM).max(OF_NOISE * noise_um);
+    Some(extremes(&smooth, least))
+}
+
+/// The extremes of a path between swings of at least this size, and the largest swing.
+fn extremes(path: &[f64], least: f64) -> (usize, f64) {
+    let Some(&first) = path.first() else {
+        return (0, 0.0);
+    };
+    let (mut low, mut high, mut rising) = (first, first, None);
+    let (mut count, mut largest) = (0, 0.0_f64);
+    for &value in path {
+        (low, high) = (low.min(value), high.max(value));
+        let turned = match rising {
+            None => (high - low >= least).then_some(value >= high),
+            Some(true) => (high - value >= least).then_some(false),
+            Some(false) => (value - low >= least).then_some(true),
+        };
+        if let Some(up) = turned {
+            count += usize::from(rising.is_some());
+            largest = largest.max(high - low);
+            rising = Some(up);
+            (low, high) = (value, value);
+        }
+    }
+    (count, largest)
+}

@@ -1,0 +1,16 @@
+//! The direction in which a point of a circle lies.
+
+/// Cosine and sine of an angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turning {
+    pub(super) cos: f64,
+    pub(super) sin: f64,
+}
+
+impl Turning {
+    /// Of an angle in radians.
+    pub(super) fn of(angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { cos, sin }
+    }
+}

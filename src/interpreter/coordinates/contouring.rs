@@ -1,0 +1,230 @@
+//! How the control rounds the transitions between blocks (R11.21): the parameters of
+//! `#CONTOUR MODE` and `#HSC`.
+//!
+//! PM/n is page n of the TF5200 programming manual.
+
+use serde::{Deserialize, Serialize};
+
+/// How transitions between blocks are rounded. Lengths are in mm; `None` is no limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Contouring {
+    /// How far the path may leave the programmed one; 0 where that is not known.
+    pub tolerance_mm: Option<f64>,
+    /// How far before and after a corner the path may leave its blocks.
+    pub distance_mm: Option<f64>,
+    /// The largest share of a block that a corner takes at either end.
+    pub reach: f64,
+    /// The sharpest corner that is rounded, in degrees.
+    pub max_angle_deg: Option<f64>,
+    /// Which blocks become one curve.
+    pub joining: Joining,
+}
+
+/// Which straight blocks become one curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Joining {
+    /// Those that follow a curve already, within a fraction of a µm (R11.22).
+    Fine,
+    /// All within the tolerance.
+    WithinTolerance,
+}
+
+/// A command that sets the parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum ContouringCommand {
+    /// `#CONTOUR MODE` (PM/475147915).
+    Contour,
+    /// `#HSC` (PM/207278475).
+    HighSpeed,
+}
+
+/// What `PATH_DEV` and `PRE_DIST` are without a value (PM/475164939, PM/475180811).
+const CONTOUR_MM: f64 = 1.0;
+/// What `CONTERROR` is without a value (PM/207285131).
+const CONTOUR_ERROR_MM: f64 = 0.1;
+/// What `PATH_DEV` and `MAX_ANGLE` of B-splines are without a value (PM/207308683).
+const SPLINE_MM: f64 = 0.2;
+const SPLINE_ANGLE_DEG: f64 = 5.0;
+
+impl ContouringCommand {
+    /// The command by its words.
+    pub(in crate::interpreter) fn of(name: &str) -> Option<Self> {
+        let begins = |words: &str| {
+            name.strip_prefix(words)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+        };
+        if begins("#CONTOUR MODE") {
+            Some(Self::Contour)
+        } else {
+            begins("#HSC").then_some(Self::HighSpeed)
+        }
+    }
+
+    /// The parameters in the bracket of the command; `number` gives the value of an expression.
+    /// What a bracket does not name keeps its value from `before`, unless the bracket names a mode.
+    pub(in crate::interpreter) fn parameters(
+        self,
+        before: Contouring,
+        bracket: &str,
+        mut number: impl FnMut(&str) -> Option<f64>,
+    ) -> Contouring {
+        let upper = bracket.to_ascii_uppercase();
+        let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let has = |word: &str| upper.split(|c| !is_word(c)).any(|it| it == word);
+        // `Some(None)` is a value that is not known.
+        let mut value = |key: &str| value_after(key, bracket, &upper).map(&mut number);
+        match self {
+            Self::Contour => {
+                let mut next = before;
+                if has("DEV") || has("PTP") {
+                    next = Contouring::default();
+                } else if has("DIST") || has("POS") || has("DIST_SOFT") || has("DIST_MASTER") {
+                    next = Contouring {
+                        tolerance_mm: None,
+                        distance_mm: Some(CONTOUR_MM),
+                        ..Contouring::default()
+                    };
+                }
+                if let Some(given) = value("PATH_DEV") {
+                    next.tolerance_mm = Some(given.unwrap_or(0.0).max(0.0));
+                }
+                let keys = ["PRE_DIST", "POST_DIST", "PATH_DIST", "SYM_DIST"];
+                let distances = keys.into_iter().filter_map(&mut value);
+                let shortest = distances
+                    .map(|given| given.unwrap_or(0.0))
+                    // -1 switches a distance off (PM/475198987).
+                    .filter(|distance| *distance >= 0.0)
+                    .reduce(f64::min);
+                next.distance_mm = shortest.or(next.distance_mm);
+                if let Some(given) = value("REMAIN_PART") {
+                    let remains = given.map_or(1.0, |percent| percent / 100.0);
+                    next.reach = (1.0 - remains.clamp(0.0, 1.0)) / 2.0;
+                }
+                next
+            }
+            Self::HighSpeed => {
+                let spline = has("BSPLINE") || has("SURFACE");
+                let mut next = if bracket.trim().is_empty() {
+                    before
+                } else {
+                    Contouring::high_speed()
+                };
+                if spline {
+                    next.tolerance_mm = Some(SPLINE_MM);
+                    next.max_angle_deg = Some(SPLINE_ANGLE_DEG);
+                }
+                if let Some(given) = value("OPMODE")
+                    && given != Some(1.0)
+                {
+                    next.tolerance_mm = None;
+                }
+                for key in ["CONTERROR", "PATH_DEV"] {
+                    match value(key) {
+                        // 0 is no monitoring (PM/207308683).
+                        Some(Some(0.0)) if key == "PATH_DEV" => next.tolerance_mm = None,
+                        Some(given) => next.tolerance_mm = Some(given.unwrap_or(0.0).max(0.0)),
+                        None => {}
+                    }
+                }
+                if let Some(given) = value("MAX_ANGLE") {
+                    next.max_angle_deg = given.filter(|angle| *angle > 0.0);
+                }
+                next
+            }
+        }
+    }
+}
+
+impl Default for Contouring {
+    /// `#CONTOUR MODE` at the start of a program: `DEV` with 1 mm (PM/475164939).
+    fn default() -> Self {
+        Self {
+            tolerance_mm: Some(CONTOUR_MM),
+            distance_mm: None,
+            reach: 0.5,
+            max_angle_deg: None,
+            joining: Joining::Fine,
+        }
+    }
+}
+
+impl Contouring {
+    /// `#HSC ON` without parameters: `OPMODE 1` (PM/207285131).
+    pub(in crate::interpreter) fn high_speed() -> Self {
+        Self {
+            tolerance_mm: Some(CONTOUR_ERROR_MM),
+            joining: Joining::WithinTolerance,
+            ..Self::default()
+        }
+    }
+
+    /// Parameters that are not known: nothing is rounded.
+    pub(in crate::interpreter) fn unknown(self) -> Self {
+        Self {
+            tolerance_mm: Some(0.0),
+            ..self
+        }
+    }
+}
+
+/// The word after a keyword and its `=`.
+fn value_after<'a>(key: &str, text: &'a str, upper: &str) -> Option<&'a str> {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut from = 0;
+    loop {
+        let start = from + upper.get(from..)?.find(key)?;
+        let end = start + key.len();
+        let before = upper[..start].chars().next_back();
+        let after = upper[end..].chars().next();
+        from = end;
+        if before.is_some_and(is_word) || after.is_some_and(is_word) {
+            continue;
+        }
+        let rest = text.get(end..)?.trim_start();
+        let value = rest.strip_prefix('=').unwrap_or(rest).trim_start();
+        let length = value
+            .find(|c: char| c.is_whitespace() || c == ']' || c == ',')
+            .unwrap_or(value.len());
+        return Some(&value[..length]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(command: ContouringCommand, bracket: &str) -> Contouring {
+        let before = match command {
+            ContouringCommand::Contour => Contouring::default(),
+            ContouringCommand::HighSpeed => Contouring::high_speed(),
+        };
+        command.parameters(before, bracket, |value| value.parse().ok())
+    }
+
+    #[test]
+    fn parameters_are_those_of_the_bracket() {
+        // R11.21
+        let contour = |bracket| of(ContouringCommand::Contour, bracket);
+        assert_eq!(contour("").tolerance_mm, Some(1.0));
+        assert_eq!(contour("[DEV PATH_DEV=0.25]").tolerance_mm, Some(0.25));
+        assert_eq!(contour("[dev path_dev = 0.5 ]").tolerance_mm, Some(0.5));
+        assert_eq!(contour("[DEV PATH_DEV=V.P.A]").tolerance_mm, Some(0.0));
+        let distance = contour("[DIST PRE_DIST=3 POST_DIST=2]");
+        assert_eq!(
+            (distance.tolerance_mm, distance.distance_mm),
+            (None, Some(2.0))
+        );
+        assert!((contour("[DEV REMAIN_PART=20]").reach - 0.4).abs() < 1e-12);
+        let fast = |bracket| of(ContouringCommand::HighSpeed, bracket);
+        assert_eq!(fast("").tolerance_mm, Some(0.1));
+        assert_eq!(fast("[OPMODE 1 CONTERROR 0.01]").tolerance_mm, Some(0.01));
+        assert_eq!(fast("[OPMODE 2]").tolerance_mm, None);
+        let spline = fast("[BSPLINE PATH_DEV=0.05 MAX_ANGLE=10]");
+        assert_eq!(
+            (spline.tolerance_mm, spline.max_angle_deg),
+            (Some(0.05), Some(10.0))
+        );
+        assert_eq!(fast("[BSPLINE PATH_DEV=0]").tolerance_mm, None);
+    }
+}

@@ -1,0 +1,348 @@
+//! Transitions between straight blocks, as the control rounds them (R11.21, R11.22).
+//!
+//! Short lines that follow a curve become that curve. Any other corner is rounded by two spans of a
+//! cubic B-spline, which leave the blocks at the same distance and bend nowhere at their ends.
+
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::look_ahead::LookAhead;
+use super::segment::Segment;
+use super::smoothing::{Place, SmoothRun};
+use super::trace::{Cause, Dwell, Movement, TraceSink};
+use crate::interpreter::{BlockEnd, Contouring, Joining};
+
+/// How far a vertex of a run may be from the line through its neighbours, in mm: four times a sagitta
+/// of 0.2 µm (R11.22), and what the third decimal adds.
+const FINE: f64 = 0.0015;
+
+/// The sharpest kink in a run, in rad: 1° (R11.22), and what the third decimal adds.
+const FINE_KINK: f64 = 0.05;
+
+/// A chord of a run is at most so many times as long as its neighbour.
+const EVEN: f64 = 4.0;
+
+/// From this angle on a corner turns back: it is not rounded (PM/475073291).
+const TURNS_BACK: f64 = 3.0;
+
+/// A smaller kink is only the decimals of the program.
+const STRAIGHT: f64 = 1e-7;
+
+/// Where the followed path leaves the programmed one most.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Departure {
+    /// The distance in µm.
+    pub um: f64,
+    /// The block.
+    pub at: Option<Arc<Cause>>,
+}
+
+/// What becomes of the transitions between feed moves.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Transitions {
+    /// How many are part of a curve that joins short lines.
+    pub joined: u64,
+    /// How many are rounded corners.
+    pub rounded: u64,
+    /// How many are kinks that nothing rounds, and that are passed below 80 % of F.
+    pub slow: u64,
+    /// Where rounding leaves the programmed path most.
+    pub rounding: Departure,
+    /// The largest distance of a chord from the curve that joins it with others.
+    pub sagitta: Departure,
+}
+
+/// How a transition is passed.
+enum Passage {
+    /// As it is.
+    Kink,
+    /// The blocks are part of one curve.
+    Joined {
+        /// How far the curve is from its chords, in mm.
+        sagitta: f64,
+    },
+    /// The corner is rounded.
+    Corner(Corner),
+}
+
+/// A rounded corner.
+struct Corner {
+    /// How far the curve reaches into both blocks, in mm.
+    reach: f64,
+    /// How far it is from the corner, in mm.
+    departure: f64,
+}
+
+/// Rounds transitions, and hands the path on.
+pub(super) struct Rounding {
+    look_ahead: LookAhead,
+    main: Arc<[bool]>,
+    /// The straight blocks of the run that are not handed on.
+    blocks: VecDeque<Straight>,
+    /// The number of the first of them in the run.
+    next: usize,
+    run: SmoothRun,
+    transitions: Transitions,
+}
+
+/// A straight block.
+struct Straight {
+    segment: Segment,
+    contouring: Option<Contouring>,
+}
+
+impl Rounding {
+    pub(super) fn new(look_ahead: LookAhead, main: Arc<[bool]>) -> Self {
+        Self {
+            look_ahead,
+            main,
+            blocks: VecDeque::new(),
+            next: 0,
+            run: SmoothRun::new(),
+            transitions: Transitions::default(),
+        }
+    }
+
+    /// What is known of the path, but for its roundings.
+    pub(super) fn look_ahead(&self) -> &LookAhead {
+        &self.look_ahead
+    }
+
+    /// What became of the transitions.
+    pub(super) fn transitions(&self) -> Transitions {
+        Transitions {
+            slow: self.look_ahead.slow_kinks(),
+            ..self.transitions.clone()
+        }
+    }
+
+    /// Adds the next segment, and how the transition after it is rounded.
+    pub(super) fn add(
+        &mut self,
+        (segment, contouring): (Segment, Option<Contouring>),
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
+        let is_line = segment.is_straight() && segment.cause.movement == Movement::Feed;
+        let contouring = contouring.filter(|_| {
+            is_line && segment.end == BlockEnd::Through && segment.end_velocity.is_infinite()
+        });
+        if !is_line || (contouring.is_none() && self.blocks.is_empty()) {
+            self.flush(None, sink)?;
+            return self.hand_on(segment, sink);
+        }
+        let next = Straight {
+            segment,
+            contouring,
+        };
+        let Some(last) = self.blocks.back() else {
+            self.begin(next, None);
+            return ControlFlow::Continue(());
+        };
+        match self.passage(last, &next.segment) {
+            Passage::Kink => {
+                self.flush(None, sink)?;
+                self.begin(next, None);
+            }
+            Passage::Joined { sagitta } => {
+                self.transitions.joined += 1;
+                note(&mut self.transitions.sagitta, sagitta, &next.segment.cause);
+                self.run.push(next.segment.ends().into());
+                self.blocks.push_back(next);
+                while self.blocks.len() > 1 && self.run.is_ready(self.next) {
+                    self.hand_on_span(sink)?;
+                }
+            }
+            Passage::Corner(corner) => {
+                self.transitions.rounded += 1;
+                note(
+                    &mut self.transitions.rounding,
+                    corner.departure,
+                    &next.segment.cause,
+                );
+                self.round(next, &corner, sink)?;
+            }
+        }
+        if self.blocks.back().is_some_and(|it| it.contouring.is_none()) {
+            self.flush(None, sink)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Lets the axes rest.
+    pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.flush(None, sink)?;
+        self.look_ahead.rest(dwell, sink)
+    }
+
+    /// Follows the path to its end and stops there.
+    pub(super) fn stop(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.flush(None, sink)?;
+        self.look_ahead.stop(sink)
+    }
+
+    /// Begins a run with a block, at its start or farther on.
+    fn begin(&mut self, block: Straight, from: Option<Place>) {
+        let start = from.unwrap_or_else(|| block.segment.starts().into());
+        self.run.begin(start);
+        self.run.push(block.segment.ends().into());
+        self.next = 0;
+        self.blocks.push_back(block);
+    }
+
+    /// Rounds the corner between the last block and the next one.
+    fn round(
+        &mut self,
+        next: Straight,
+        corner: &Corner,
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
+        let Some(last) = self.blocks.back() else {
+            return ControlFlow::Continue(());
+        };
+        let before = last.segment.clone();
+        let along = |segment: &Segment, from: &[f64], part: f64| -> Place {
+            let way = part * corner.reach / segment.length;
+            let ends = segment.starts().iter().zip(segment.ends());
+            let steps = ends.map(|(start, end)| way * (end - start));
+            from.iter().zip(steps).map(|(at, step)| at + step).collect()
+        };
+        let vertex = before.ends();
+        let points = [
+            along(&before, vertex, -2.0),
+            along(&before, vertex, -1.0),
+            vertex.into(),
+            along(&next.segment, vertex, 1.0),
+            along(&next.segment, vertex, 2.0),
+        ];
+        let [first, from, middle, to, last] = &points;
+        let halves = (
+            before.curved([first, from, middle, to], &self.main),
+            next.segment.curved([from, middle, to, last], &self.main),
+        );
+        self.flush(Some(from.clone()), sink)?;
+        if let (Some(first), Some(second)) = halves {
+            self.hand_on(first, sink)?;
+            self.hand_on(second, sink)?;
+        }
+        self.begin(next, Some(to.clone()));
+        ControlFlow::Continue(())
+    }
+
+    /// Hands the rest of the run on, which ends at its last vertex or before it.
+    fn flush(&mut self, end: Option<Place>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        if self.blocks.is_empty() {
+            return ControlFlow::Continue(());
+        }
+        self.run.end(end);
+        if self.run.newest() == 1 {
+            if let Some(block) = self.blocks.pop_front() {
+                let ends = [self.run.vertex(0), self.run.vertex(1)];
+                if let Some(line) = block.segment.moved(ends[0], ends[1], &self.main) {
+                    self.hand_on(line, sink)?;
+                }
+            }
+            return ControlFlow::Continue(());
+        }
+        while !self.blocks.is_empty() {
+            self.hand_on_span(sink)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Hands on the next span of the curve that joins the blocks of the run.
+    fn hand_on_span(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        let Some(block) = self.blocks.pop_front() else {
+            return ControlFlow::Continue(());
+        };
+        let [p, q, r, s] = self.run.span(self.next);
+        let span = block.segment.curved([&p, &q, &r, &s], &self.main);
+        self.next += 1;
+        self.run.forget_before(self.next);
+        match span {
+            Some(span) => self.hand_on(span, sink),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    fn hand_on(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.look_ahead.add(segment, sink)
+    }
+
+    /// How the transition from the last block to the next one is passed.
+    fn passage(&self, last: &Straight, next: &Segment) -> Passage {
+        let Some(contouring) = &last.contouring else {
+            return Passage::Kink;
+        };
+        let main = || (0..self.main.len()).filter(|axis| self.main[*axis]);
+        let directions = [&last.segment, next].map(|segment| {
+            move |axis: usize| (segment.ends()[axis] - segment.starts()[axis]) / segment.length
+        });
+        let [one, two] = &directions;
+        let (mut cosine, mut sine) = (0.0, 0.0);
+        for axis in main() {
+            cosine += one(axis) * two(axis);
+            sine += (two(axis) - one(axis)).powi(2);
+        }
+        if cosine == 0.0 && sine == 0.0 {
+            return Passage::Kink;
+        }
+        // Twice the sine of half the angle.
+        let chord = sine.sqrt();
+        let kink = 2.0 * (chord / 2.0).min(1.0).asin();
+        let lengths = [last.segment.length, next.length];
+        let [before, after] = lengths;
+        let bow = kink * before * after / (before + after);
+        let sagitta = bow / 4.0;
+        let tolerance = contouring.tolerance_mm.unwrap_or(f64::INFINITY);
+        let is_even = before <= EVEN * after && after <= EVEN * before;
+        let beside = (0..self.main.len())
+            .filter(|axis| !self.main[*axis])
+            .map(|axis| (two(axis) - one(axis)).abs() * before.min(after))
+            .fold(0.0, f64::max);
+        let joins = match contouring.joining {
+            Joining::WithinTolerance => {
+                let angle = contouring
+                    .max_angle_deg
+                    .map_or(TURNS_BACK / 2.0, f64::to_radians);
+                kink <= angle && sagitta <= tolerance
+            }
+            _ => kink <= FINE_KINK && bow <= FINE.min(4.0 * tolerance),
+        };
+        if joins && is_even && tolerance > 0.0 && beside <= 4.0 * tolerance {
+            return Passage::Joined { sagitta };
+        }
+        let angle = contouring.max_angle_deg.map_or(TURNS_BACK, f64::to_radians);
+        if kink < STRAIGHT || kink > angle.min(TURNS_BACK) {
+            return Passage::Kink;
+        }
+        // The spline is a sixth of the difference of its neighbours from the corner.
+        let part = chord / 6.0;
+        let reach = (tolerance / part)
+            .min(contouring.distance_mm.unwrap_or(f64::INFINITY))
+            .min(contouring.reach * before.min(after))
+            .min(if beside > 0.0 {
+                6.0 * tolerance * before.min(after) / beside
+            } else {
+                f64::INFINITY
+            });
+        if reach <= 0.0 {
+            return Passage::Kink;
+        }
+        Passage::Corner(Corner {
+            reach,
+            departure: reach * part,
+        })
+    }
+}
+
+fn note(departure: &mut Departure, mm: f64, cause: &Arc<Cause>) {
+    let um = mm * 1000.0;
+    if um > departure.um {
+        *departure = Departure {
+            um,
+            at: Some(Arc::clone(cause)),
+        };
+    }
+}

@@ -1,0 +1,24 @@
+//! What every format of messages has to write.
+
+use std::fmt;
+
+use serde_json::Value;
+
+use crate::diagnostic::Diagnostic;
+
+use super::tally::Tally;
+
+/// What a format writes before the messages, for each of them, and after them.
+pub(super) trait MessageFormat: fmt::Debug {
+    /// Appends what stands before the first message.
+    fn open(&mut self, _out: &mut Vec<u8>) {}
+
+    /// Appends a message.
+    fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic);
+
+    /// Appends a record of another kind, if the format has records.
+    fn record(&mut self, _out: &mut Vec<u8>, _record: &Value) {}
+
+    /// Appends what stands after the last message.
+    fn close(&mut self, _out: &mut Vec<u8>, _tally: &Tally) {}
+}

@@ -1,0 +1,144 @@
+//! Block transitions as the control rounds them.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use frictcomp::motion::PlannerOptions;
+
+use super::{Trace, assert_limits, trace, trace_of};
+
+/// Axes of which nothing is known.
+const DEFAULTS: &str = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"Y\"\n[[axis]]\nname = \"Z\"\n";
+
+/// A circle of 100 mm in chords, entered and left by a tangent.
+fn chords(mode: &str, feed: u32, (degrees, decimals): (f64, usize)) -> String {
+    let mut text = format!("{mode}\nG90 G01 X100 Y-20 Z0 F{feed}\nX100 Y0\n");
+    let count = (360.0 / degrees).round();
+    let mut step = 1.0;
+    while step <= count {
+        let (sine, cosine) = (step / count * TAU).sin_cos();
+        let _ = writeln!(
+            text,
+            "X{:.decimals$} Y{:.decimals$}",
+            100.0 * cosine,
+            100.0 * sine
+        );
+        step += 1.0;
+    }
+    text + "Y20\nM30\n"
+}
+
+fn arc(feed: u32) -> String {
+    format!("G90 G01 X100 Y-20 Z0 F{feed}\nX100 Y0\nG03 X100 Y0 I-100 J0\nG01 Y20\nM30\n")
+}
+
+fn follow(program: &str) -> Trace {
+    trace_of(DEFAULTS, program, &["X", "Y"], PlannerOptions::default())
+}
+
+/// How far the trace is from the circle, in µm, without its ends.
+fn off_circle(trace: &Trace) -> f64 {
+    let on = trace.positions.iter().filter(|place| place[0] < 99.0);
+    let off = on.map(|place| (place[0].hypot(place[1]) - 100.0).abs() * 1000.0);
+    off.fold(0.0, f64::max)
+}
+
+#[test]
+fn short_chords_take_the_time_of_the_arc() {
+    // R11.22
+    let hsc = "#HSC ON [OPMODE 1 CONTERROR 0.01]";
+    for (mode, feed, chord) in [
+        ("#CONTOUR MODE ON", 500, (0.2, 3)),
+        ("G261", 2000, (0.05, 4)),
+        ("G261", 5000, (0.05, 4)),
+        (hsc, 5000, (0.1, 3)),
+    ] {
+        let arc = follow(&arc(feed)).seconds();
+        let found = follow(&chords(mode, feed, chord));
+        let longer = found.seconds() / arc - 1.0;
+        let what = format!("{mode} F{feed} {chord:?}: {longer}");
+        assert!(longer < 0.1, "{what}");
+        assert!(off_circle(&found) < 1.0, "{what}: {}", off_circle(&found));
+        assert_limits(DEFAULTS, &["X", "Y"], &found);
+        assert_eq!(found.transitions.slow, 0, "{what}");
+    }
+}
+
+#[test]
+fn without_a_mode_every_kink_slows_the_path_down() {
+    // R11.22: the stop and go of short lines is shown, and counted.
+    let found = follow(&chords("", 2000, (0.2, 4)));
+    assert!(found.seconds() > 60.0, "{}", found.seconds());
+    assert!(found.transitions.slow > 1700, "{:?}", found.transitions);
+    assert_eq!(found.transitions.joined, 0);
+}
+
+#[test]
+fn a_corner_is_rounded_within_its_tolerance() {
+    // R11.21
+    let corner = |mode: &str| {
+        let program = format!("{mode}\nG90 G01 X0 Y0 F3000\nX40\nY40\nX80 Y80\nM30\n");
+        let found = trace(&program, &["X", "Y"]);
+        assert_limits(super::MACHINE, &["X", "Y"], &found);
+        let distance = |place: &Vec<f64>| (place[0] - 40.0).hypot(place[1]);
+        let nearest = found
+            .positions
+            .iter()
+            .map(distance)
+            .fold(f64::MAX, f64::min);
+        (nearest, found.seconds())
+    };
+    let (exact, slow) = corner("G60");
+    let (_, stops) = corner("G260");
+    assert!(exact < 0.05);
+    for (mode, tolerance) in [
+        ("G261", 1.0),
+        ("#CONTOUR MODE ON [DEV PATH_DEV=0.2]", 0.2),
+        ("#CONTOUR MODE [DEV PATH_DEV=0.5]\nG261", 0.5),
+        ("#contour mode on [dev path_dev = 0.2]", 0.2),
+    ] {
+        let (nearest, seconds) = corner(mode);
+        assert!(nearest <= tolerance + 1e-4, "{mode}: {nearest}");
+        assert!(nearest > 0.9 * tolerance, "{mode}: {nearest}");
+        assert!(
+            seconds < 1.01 * stops.min(slow),
+            "{mode}: {seconds} {stops}"
+        );
+    }
+    let (nearest, _) = corner("#CONTOUR MODE ON [DIST PRE_DIST=2 POST_DIST=3]");
+    assert!(nearest < 2.0, "{nearest}");
+    // A tolerance that is not known rounds nothing, and a block function rounds its own end.
+    let (nearest, _) = corner("#CONTOUR MODE ON [DEV PATH_DEV=V.E.A]");
+    assert!(nearest < 0.05, "{nearest}");
+}
+
+#[test]
+fn a_long_run_of_short_lines_is_one_curve() {
+    // R11.28: three times the look-ahead, without a stop between.
+    let mut text = String::from("G261\nG90 G01 X0 Y0 F6000\n");
+    let (mut x, mut y, mut angle) = (0.0, 0.0, 0.0_f64);
+    for _ in 0..12_000 {
+        angle += 0.0005;
+        x += 0.1 * angle.cos();
+        y += 0.1 * angle.sin();
+        let _ = writeln!(text, "X{x:.4} Y{y:.4}");
+    }
+    let found = follow(&(text + "M30\n"));
+    assert_eq!(found.transitions.joined, 11_999);
+    assert!(found.seconds() < 12.5, "{}", found.seconds());
+}
+
+#[test]
+fn a_block_function_rounds_the_end_of_its_block() {
+    // R11.21
+    let program = "G90 G01 X0 Y0 F3000\nG61 X40\nY40\nX0\nM30\n";
+    let found = trace(program, &["X", "Y"]);
+    let nearest = |corner: [f64; 2]| {
+        let distances = found.positions.iter();
+        let distances = distances.map(|place| (place[0] - corner[0]).hypot(place[1] - corner[1]));
+        distances.fold(f64::MAX, f64::min)
+    };
+    assert!(nearest([40.0, 0.0]) > 0.9);
+    assert!(nearest([40.0, 40.0]) < 0.05);
+    assert_eq!(found.transitions.rounded, 1);
+}

@@ -1,0 +1,117 @@
+//! Limits of axes from the control's lists.
+
+use std::collections::BTreeMap;
+
+use frictcomp::lists::SlopeProfile;
+use frictcomp::machine::{Configuration, ListFiles, NoList};
+use frictcomp::motion::{AssumedLimits, AxisLimits, PlannerOptions};
+use frictcomp::text::SourceFile;
+
+use super::follow;
+
+/// Lists by their names.
+struct Lists(BTreeMap<&'static str, String>);
+
+impl ListFiles for Lists {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let text = self.0.get(path).ok_or(NoList::Missing)?;
+        Ok(SourceFile::new(path, text.clone()))
+    }
+}
+
+fn machine(axis: &str, channel: &str) -> Configuration {
+    let start = "sda_mds[0] ch.lis\r\nachs_mds[0] x.lis\r\nEnde\r\n";
+    let channel = format!(
+        "gruppe[0].achs_anzahl 1\ngruppe[0].achse[0].bezeichnung X\n\
+         gruppe[0].achse[0].log_achs_nr 1\n{channel}\nEnde\n"
+    );
+    let axis = format!("kopf.achs_nr 1\nkenngr.achs_typ 1\n{axis}\nEnde\n");
+    let mut lists = Lists([("ch.lis", channel), ("x.lis", axis)].into());
+    Configuration::from_startup(SourceFile::new("hochlauf.lis", start), &mut lists)
+}
+
+/// 2 m/s² in 100 ms, with a reference and a build-up that is longer than the removal.
+const AXIS: &str = "getriebe[0].dynamik.a_max 2000\n\
+    getriebe[0].slope_profil.a_beschl P-AXIS-00008.0\n\
+    getriebe[0].slope_profil.a_brems 2500 (above a_max)\n\
+    getriebe[0].slope_profil.tr_beschl_zu 100000\n\
+    getriebe[0].slope_profil.tr_beschl_ab 50000\n\
+    getriebe[0].dynamik.vb_max 250000\n\
+    getriebe[0].vb_eilgang 500000\n\
+    getriebe[0].slope_profil.a_grenz 1500\n\
+    getriebe[0].slope_profil.tr_grenz 75000\n\
+    getriebe[1].dynamik.vb_max 1\n\
+    getriebe[0].lslope_profil.a_stufe_1 700";
+
+#[test]
+fn limits_are_those_of_the_axis_list() {
+    // R11.20
+    let found = machine(AXIS, "prog_start.slope.profile 1");
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let axis = &found.machine.axes[0];
+    let limits = AxisLimits::of(axis);
+    assert!((limits.velocity_per_s - 250.0).abs() < 1e-9);
+    assert!((limits.acceleration_per_s2 - 2000.0).abs() < 1e-9);
+    assert!((limits.jerk_per_s3 - 20_000.0).abs() < 1e-6);
+    assert_eq!(AssumedLimits::of(axis), None);
+    assert_eq!(found.machine.channel.slope, Some(SlopeProfile::Trapez));
+    let shown: Vec<&str> = found.reports[0]
+        .parameters
+        .iter()
+        .map(|it| it.number)
+        .collect();
+    for number in [
+        "P-AXIS-00001",
+        "P-AXIS-00196",
+        "P-AXIS-00212",
+        "P-AXIS-00011",
+    ] {
+        assert!(shown.contains(&number), "{shown:?}");
+    }
+    assert!(found.programs.iter().any(|it| it.number == "P-CHAN-00071"));
+}
+
+/// The seconds of a program on X, and its top speed.
+fn timed(found: Configuration, program: &str) -> (f64, f64) {
+    let trace = follow(
+        found.machine,
+        program,
+        (&["X"], &[("X", 0.0)]),
+        PlannerOptions::default(),
+    );
+    (trace.seconds(), trace.top_speed(0))
+}
+
+#[test]
+fn the_trace_keeps_the_limits_of_the_lists() {
+    // R11.20: twice the root of v/j, or v/a + tr, beside the way at full speed; rapid has its own.
+    let (seconds, _) = timed(machine(AXIS, ""), "G01 X400 F6000\nM30\n");
+    let expected = 4.0 + 2.0 * (100.0_f64 / 20_000.0).sqrt();
+    assert!((seconds - expected).abs() < 0.003, "{seconds}");
+    let (seconds, top) = timed(machine(AXIS, ""), "G00 X1000\nM30\n");
+    assert!((top - 500.0).abs() < 1e-6, "{top}");
+    let expected = 2.0 + 500.0 / 1500.0 + 0.075;
+    assert!((seconds - expected).abs() < 0.003, "{seconds} {expected}");
+    // Steps take the acceleration of the stages, without ramps.
+    let steps = machine(AXIS, "prog_start.slope.profile 0");
+    let (seconds, _) = timed(steps, "G01 X400 F6000\nM30\n");
+    let expected = 4.0 + 100.0 / 700.0;
+    assert!((seconds - expected).abs() < 0.004, "{seconds} {expected}");
+}
+
+#[test]
+fn what_a_list_does_not_give_is_assumed_and_said() {
+    // R11.20
+    let found = machine("getriebe[0].slope_profil.a_beschl 3000", "");
+    let assumed = AssumedLimits::of(&found.machine.axes[0]).expect("assumed limits");
+    assert_eq!(assumed.max_acceleration, None);
+    assert_eq!(assumed.max_velocity, Some(10_000.0));
+    assert_eq!(assumed.max_jerk, Some(20.0));
+    let wrong = machine("getriebe[0].slope_profil.a_beschl -1", "");
+    let codes: Vec<&str> = wrong
+        .diagnostics
+        .iter()
+        .map(|it| it.code.as_str())
+        .collect();
+    assert_eq!(codes, ["FC130"]);
+}

@@ -5,8 +5,9 @@ use super::error::HostError;
 /// What a circular test needs beside the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
 
-/// What a thread needs for its stack, with what the others need to go on.
-const THREAD: usize = 6 << 20;
+/// What a thread needs: address space for its stack and for a heap of its own, 128 MiB with glibc.
+/// Without the heap each of its allocations takes a page.
+const THREAD: usize = 136 << 20;
 
 /// Whether there is memory for a thread more.
 pub(super) fn is_there_for_a_thread() -> bool {

@@ -11,8 +11,9 @@ use super::curve::solve_linear;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::Samples;
 
-/// A list whose share is smaller did not act.
-const NOT_ACTING: f64 = 0.2;
+/// A list whose share is smaller did not act. The share is coarse: 0.2 is found where nothing acted, and
+/// 0.9 where half of the list did.
+const NOT_ACTING: f64 = 0.35;
 
 /// A list whose share is larger, up to as much above 1, acted.
 const ACTING: f64 = 0.8;
@@ -71,11 +72,11 @@ impl Timing {
                 "its timing is open: no following error at a reversal was recorded".to_owned()
             }
             Self::Off { share } => format!(
-                "compensation was off or is not in this torque ({share:.2} of the current of the list), so its \
+                "compensation was off or is not in this torque (about {share:.1} of the current of the list), so its \
                  timing is open"
             ),
             Self::Other { share } => format!(
-                "another list acted ({share:.2} of the current of this one), so its timing is open"
+                "another list acted (about {share:.1} of the current of this one), so its timing is open"
             ),
             Self::On {
                 share,
@@ -85,7 +86,7 @@ impl Timing {
             } => {
                 let state = self.early_or_late().unwrap_or("neither early nor late");
                 format!(
-                    "the list acted ({share:.2} of its current) and is {state}: following error of \
+                    "a list acted (about {share:.1} of the current of this one) and is {state}: following error of \
                      {swing_um:.2} µm, ± {error_um:.2}, at {reversals} reversals"
                 )
             }

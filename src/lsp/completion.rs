@@ -80,8 +80,9 @@ fn split_word(before: &str) -> (&str, &str) {
 
 /// The words that may stand in an open COMP bracket; `None` where none is open.
 fn comp_words(before: &str) -> Option<Offer<'_>> {
-    let open = code_of(before).rfind('[')?;
-    let inside = &before[open + 1..];
+    let code = code_of(before);
+    let open = code.rfind('[')?;
+    let inside = &code[open + 1..];
     if inside.contains(']') {
         return None;
     }
@@ -119,6 +120,7 @@ fn comp_words(before: &str) -> Option<Offer<'_>> {
     } else {
         Vec::new()
     };
+    let typed = &before[before.len() - typed.len()..];
     Some(Offer { typed, items })
 }
 

@@ -66,11 +66,13 @@ fn an_array_of_unknown_size_has_unknown_elements() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
-      2 line 4 - X:active>unknown
-        FC901 4:1-18
-      3 line 7 -
-        FC401 4:1-18
-      end 3 M30 X:unknown Y:active Z:unconfigured B:ineffective
+      2 line 4 -
+      3 line 5 - X:active>inactive
+      4 line 6 -
+        FC901 4:5-18
+      5 line 7 -
+        FC401 5:1-18
+      end 5 M30 X:unknown Y:active Z:unconfigured B:ineffective
     ");
     // A size that no array has is refused where it stands.
     for size in ["-1", "99999999999", "P9"] {

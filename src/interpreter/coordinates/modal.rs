@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::axis_words::AxisWord;
+use super::axis_words::{AxisWord, shifted};
 use super::chain::{self, Step};
 use super::contouring::{Contouring, ContouringCommand};
 use super::group::{Group, GroupSet};
@@ -131,13 +131,6 @@ impl Saved {
             *mine |= theirs;
         }
     }
-}
-
-/// A coordinate that counts from a place; not known where any part is not, nor where the sum
-/// leaves the range of numbers.
-#[inline]
-fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
-    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
 }
 
 /// G functions that take positions away from the machine's.

@@ -11,9 +11,8 @@ use super::curve::solve_linear;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::Samples;
 
-/// A list whose share is smaller did not act. The share is coarse: 0.2 is found where nothing acted, and
-/// 0.9 where half of the list did.
-const NOT_ACTING: f64 = 0.35;
+/// A list whose share is smaller did not act (R6.22).
+const NOT_ACTING: f64 = 0.2;
 
 /// A list whose share is larger, up to as much above 1, acted.
 const ACTING: f64 = 0.8;
@@ -45,7 +44,7 @@ pub enum Timing {
         /// Part of the list's current that is in the torque.
         share: f64,
     },
-    /// Something else acted than this list.
+    /// The part lies between: it is not clear whether this list acted.
     Other {
         /// Part of the list's current that is in the torque.
         share: f64,
@@ -76,7 +75,7 @@ impl Timing {
                  timing is open"
             ),
             Self::Other { share } => format!(
-                "another list acted (about {share:.1} of the current of this one), so its timing is open"
+                "it is not clear whether this list acted (about {share:.1} of its current), so its timing is open"
             ),
             Self::On {
                 share,

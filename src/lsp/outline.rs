@@ -138,7 +138,7 @@ pub(super) fn definitions(outline: &Outline) -> BTreeMap<&Name, &Mention> {
     defined.map(|it| (&it.name, it)).collect()
 }
 
-/// Where a place of a block stands in the text: its lines are cut at their ends only.
+/// The place in the text of a place in a block, whose lines lose nothing but their ends.
 fn place_in(raw: &RawBlock<'_>, at: u32, line_span: impl Fn(u32) -> Span) -> usize {
     let before = &raw.text[..at as usize];
     let Some(end) = before.rfind('\n') else {

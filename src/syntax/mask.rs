@@ -36,7 +36,7 @@ pub(super) fn mask(line: &str, code: &mut String) -> Masked {
 }
 
 /// A line as the parser sees it, byte for byte.
-#[cfg(feature = "host")]
+#[cfg(feature = "lsp")]
 pub(crate) fn code_of(line: &str) -> String {
     let mut code = String::new();
     mask(line, &mut code);

@@ -26,7 +26,7 @@ mod known;
 mod lines;
 mod lower;
 mod mask;
-#[cfg(feature = "host")]
+#[cfg(feature = "lsp")]
 mod names;
 mod parse;
 mod pieces;
@@ -67,13 +67,15 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
-#[cfg(feature = "host")]
+#[cfg(feature = "lsp")]
 pub(crate) use mask::code_of;
 pub(crate) use mask::goes_on;
-#[cfg(feature = "host")]
+#[cfg(feature = "lsp")]
 pub(crate) use names::{Named, Role, names_in};
 #[cfg(feature = "host")]
-pub(crate) use pieces::{PieceKind, code_words, kind_at};
+pub(crate) use pieces::code_words;
+#[cfg(feature = "lsp")]
+pub(crate) use pieces::{PieceKind, kind_at};
 #[cfg(feature = "host")]
 pub(crate) use scan::{NamedAxes, Scan, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};

@@ -69,7 +69,7 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
 }
 
 /// What a letter would be that is typed at a place of a line.
-#[cfg(feature = "host")]
+#[cfg(feature = "lsp")]
 pub(crate) fn kind_at(line: &str, at: usize) -> PieceKind {
     let (before, after) = line.split_at(at);
     let typed = format!("{before}A{after}");

@@ -46,7 +46,7 @@ pub enum NotAligned {
         other: String,
     },
     /// Fewer samples than anything can be said about.
-    #[error("the channel `{channel}` has {samples} samples")]
+    #[error("the channel `{channel}` has too few samples: {samples}")]
     Short {
         /// The channel.
         channel: String,

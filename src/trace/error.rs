@@ -173,9 +173,9 @@ pub enum SelectError {
         /// The unit in the header.
         unit: String,
         /// `Unit ScaleFactor`, as a text.
-        factor: String,
+        factor: Box<str>,
         /// `Unit Offset`, as a text.
-        offset: String,
+        offset: Box<str>,
     },
     /// Channels that are needed and not named.
     #[error("the trace has {lacks}, only {}", listed(.found))]

@@ -279,8 +279,8 @@ impl ChannelSelection {
             return Err(SelectError::UnitScaled {
                 channel: described.name.clone(),
                 unit: described.unit.clone().unwrap_or_default(),
-                factor: factor.to_string(),
-                offset: offset.to_string(),
+                factor: factor.to_string().into(),
+                offset: offset.to_string().into(),
             });
         }
         let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);

@@ -67,7 +67,7 @@ impl FrictcompMachine {
     pub(crate) fn enable(&mut self, name: &str) -> Result<(), Failure> {
         let is_known = self.machine.find(name).is_some();
         let command = parse_comp(&format!("{name}[COMP ON FRICT]"));
-        if !is_known && !command.is_ok_and(|command| command.axis == name) {
+        if !is_known && !matches!(command, Ok(Some(command)) if command.axis == name) {
             return Err(Failure::bad(format!("`{name}` is no name of an axis")));
         }
         if !self.machine.enable(name) {

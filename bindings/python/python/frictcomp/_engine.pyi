@@ -17,6 +17,7 @@ __all__ = [
     "identify",
     "Limits",
     "Machine",
+    "End",
     "Fix",
     "Message",
     "Messages",

@@ -2,7 +2,7 @@
 //! its second run differs from the first (R1.53).
 
 use super::linter::{EndNote, LeftAway, Linter};
-use super::memory::{Deed, KindMemory, Site};
+use super::memory::{Deed, Site};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd};
@@ -51,7 +51,8 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                     ending,
                     ended,
                 };
-                let diagnostic = match moved_before(linter, axis, did) {
+                let moved_before = did.moved_before.as_ref().filter(|_| did.is_commanded);
+                let diagnostic = match moved_before {
                     _ if end == State::Unknown => subject.may_be_left(site),
                     Some(moved) => subject.second_run_differs(site, moved),
                     None => subject.left_changed(site),
@@ -70,14 +71,6 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
 /// Whether the program may end elsewhere than in the dry run.
 fn has_other_ends(ended: &Ended<'_>) -> bool {
     ended.ends.iter().any(|end| end.cause.is_some())
-}
-
-/// The first motion of the axis, where it comes before the first command on the kind.
-fn moved_before<'a>(linter: &'a Linter<'_>, axis: AxisIndex, did: &KindMemory) -> Option<&'a Site> {
-    let moved = linter.memory.axis(axis).moved.as_ref()?;
-    did.first
-        .is_some_and(|first| moved.seq < first)
-        .then_some(moved)
 }
 
 /// What is left, and how.
@@ -120,7 +113,7 @@ impl Subject<'_> {
             _ => State::Inactive,
         };
         let away = away.as_str();
-        let what = match self.ways_away() {
+        let what = match self.ways_away(&site.place.file) {
             Some(ways) => format!("is left {away} after {}{ways}", self.ending),
             None => format!(
                 "may be left {away} after {}, which is not known offline",
@@ -161,16 +154,21 @@ impl Subject<'_> {
     }
 
     /// On which ways it is left away (R14.5).
-    fn ways_away(&self) -> Option<String> {
+    fn ways_away(&self, file: &str) -> Option<String> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let possible = self.possible?;
         let mut states = possible.states.iter().map(|it| it.state);
         let away = states.find(|state| *state != start_up)?;
-        Some(match (possible.ways_to(away), possible.ways_to(start_up)) {
-            (Some(ways), _) => format!(" if {ways}"),
-            (None, Some(ways)) => format!(" unless {ways}"),
-            (None, None) => return None,
-        })
+        Some(
+            match (
+                possible.ways_to(away, file),
+                possible.ways_to(start_up, file),
+            ) {
+                (Some(ways), _) => format!(" if {ways}"),
+                (None, Some(ways)) => format!(" unless {ways}"),
+                (None, None) => return None,
+            },
+        )
     }
 
     /// The command that makes the state that of the start of the control.

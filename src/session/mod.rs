@@ -432,6 +432,7 @@ impl Session {
             lost_macros: carried.lost_macros,
             couplings: carried.couplings,
             lost_couplings: carried.lost_couplings,
+            ways: carried.ways,
             lost: carried.lost,
             lost_parameters: carried.lost_parameters,
         }

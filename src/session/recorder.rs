@@ -241,7 +241,7 @@ impl Recorder<'_> {
         self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
         if let Some(ways) = executed.branch {
-            self.limit_to(ways);
+            self.limit_to(ways, executed.file);
         }
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
@@ -268,10 +268,10 @@ impl Recorder<'_> {
 
     /// Says of what stops the control on which ways it does (R14.5).
     #[cold]
-    fn limit_to(&mut self, ways: &[Vec<WayCondition>]) {
+    fn limit_to(&mut self, ways: &[Vec<WayCondition>], file: &str) {
         let errors = self.said.iter_mut();
         for error in errors.filter(|said| said.code.severity() == Severity::Error) {
-            let words = branch_in_words(ways);
+            let words = branch_in_words(ways, file);
             error.message.push_str(&format!(", if {words}"));
         }
     }

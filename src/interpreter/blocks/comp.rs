@@ -38,6 +38,8 @@ impl Interpreter {
         });
         match &result {
             Ok(axis) => {
+                let kinds = command.selection.kinds();
+                self.state.control.untouched.switch(*axis, kinds);
                 self.warn_coupled(command, *axis, at);
                 self.warn_transformed(command, at);
                 self.warn_opposite(command, *axis, at);

@@ -15,6 +15,7 @@ use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::interpreter::run::untouched::FoundStates;
 use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::Fault;
 use crate::syntax::ast::Item;
@@ -134,6 +135,11 @@ impl Interpreter {
             stopped,
             compensation: &self.state.control.compensation,
             possible: &self.shown.possible,
+            found: FoundStates {
+                untouched: &self.state.control.untouched,
+                reach: &self.state.track.reach,
+                conditions: &self.state.conditions,
+            },
             branch: self.shown.branch.as_deref(),
             modal: &self.state.control.modal,
             occurred: &self.state.occurred,

@@ -163,7 +163,7 @@ impl Interpreter {
             frame.next = target;
         }
         let (control, track) = (&self.state.control, &self.state.track);
-        let cost = ITEM * 8 + self.machine.axes.len() * 4 + control.memory.weight();
+        let cost = ITEM * 8 + self.machine.axes.len() * 4;
         self.state.effort.charge(cost);
         Path {
             control: control.clone(),

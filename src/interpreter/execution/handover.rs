@@ -1,6 +1,7 @@
 //! What one program leaves to the next (R2.34, R9.32).
 
 use crate::comp::AxisIndex;
+use crate::interpreter::run::carried_ways::CarriedWays;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::carried::Carried;
 
@@ -20,12 +21,23 @@ impl Interpreter {
                 .lost()
                 .map(|axis| name(&axis))
                 .collect(),
+            ways: CarriedWays::of(
+                &self.state.control.possible,
+                &self.state.conditions,
+                &self.machine,
+            ),
             ..self.state.control.memory.carried(self.machine.parameters)
         }
     }
 
     /// Takes over what an earlier session left. Axes that the machine does not have are passed over.
-    pub fn take_over(&mut self, carried: Carried) {
+    pub fn take_over(&mut self, mut carried: Carried) {
+        let ways = std::mem::take(&mut carried.ways);
+        let compensation = &self.state.control.compensation;
+        (self.state.conditions, self.state.control.possible) =
+            ways.into_parts(&self.machine, compensation);
+        self.version += 1;
+        self.show_ways();
         for (group, names) in &carried.couplings {
             let found = names.iter().filter_map(|name| self.machine.find(name));
             let axes = found.collect();

@@ -104,11 +104,11 @@ impl Interpreter {
         let parted = Self::what_parts(&mine, &other);
         let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
         let cause = condition.map_or_else(|| "another way".into(), |found| found.cause.clone());
-        let cost = ITEM * 8 + self.machine.axes.len() * 4 + mine.control.memory.weight();
-        self.state.effort.charge(cost);
         mine.undo_differing(&mut other);
         let before = [mine.control.clone(), other.control.clone()];
-        mine.join(other, &cause);
+        let differing = mine.join(other, &cause);
+        let cost = ITEM * (8 + differing) + self.machine.axes.len() * 4;
+        self.state.effort.charge(cost);
         self.enter_path(mine);
         self.forget_last_motion();
         self.tell_join(&before, parted);

@@ -53,7 +53,8 @@ impl Interpreter {
         holds(control.couplings.fits(axes), "a coupling of other axes")?;
         holds(control.channel_axes.fits(axes), "a name of another axis")?;
         let conditions = self.state.conditions.len();
-        let possible = control.possible.fits(axes, conditions);
+        let possible =
+            control.possible.fits(axes, conditions) && control.untouched.fits(axes, conditions);
         holds(possible, "a condition that is not there")
     }
 

@@ -12,6 +12,7 @@ use super::description::Description;
 use super::event::EndedBy;
 use super::possible::{self, Possible};
 use super::stack::CallStack;
+use super::untouched::Untouched;
 use super::way_set::WaySet;
 use super::ways::doubt_names;
 use crate::comp::Compensation;
@@ -27,6 +28,8 @@ pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) compensation: Compensation,
     /// What of it is unknown because ways differ.
     pub(in crate::interpreter) possible: Possible,
+    /// What of it is as the program found it.
+    pub(in crate::interpreter) untouched: Untouched,
     pub(in crate::interpreter) memory: Memory,
     pub(in crate::interpreter) modal: Modal,
     pub(in crate::interpreter) frames: CallStack,
@@ -51,6 +54,7 @@ impl ControlState {
         Self {
             compensation,
             possible: Possible::default(),
+            untouched: Untouched::default(),
             memory: Memory::default(),
             modal,
             frames: CallStack::default(),
@@ -65,16 +69,17 @@ impl ControlState {
     }
 
     /// The state where two ways meet at a block: what differs becomes unknown (R14.1). `reach` is what
-    /// leads to this one and to the other.
+    /// leads to this one and to the other. Returns how many values differ.
     pub(in crate::interpreter) fn join(
         &mut self,
         other: &Self,
         reach: [&WaySet; 2],
         cause: &Arc<str>,
-    ) {
+    ) -> usize {
         let Self {
             compensation,
             possible,
+            untouched,
             memory,
             modal,
             frames,
@@ -98,7 +103,8 @@ impl ControlState {
             reach: reach[1],
         };
         (self.compensation, self.possible) = possible::join(&mine, &theirs);
-        self.memory.join(memory, cause);
+        self.untouched.join(untouched, reach);
+        let differing = self.memory.join(memory, cause);
         self.modal.doubt(modal);
         self.frames.join(frames, cause);
         let coupled = self.couplings.join(couplings);
@@ -114,6 +120,7 @@ impl ControlState {
         self.refused.extend(refused);
         doubt_names(&mut self.named, named, cause);
         self.join_description(described.as_deref());
+        differing
     }
 
     /// A description of geometry that is open on one way only may be open or not (R2.70).
@@ -140,6 +147,7 @@ impl ControlState {
         let Self {
             compensation,
             possible,
+            untouched,
             memory,
             modal,
             frames,
@@ -155,6 +163,7 @@ impl ControlState {
             && *modal == other.modal
             && *compensation == other.compensation
             && *possible == other.possible
+            && *untouched == other.untouched
             && *couplings == other.couplings
             && *cycles == other.cycles
             && *refused == other.refused

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::possible_state::{PossibleStates, WayCondition};
+use super::untouched::FoundStates;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -165,6 +166,8 @@ pub struct Executed<'a> {
     pub compensation: &'a Compensation,
     /// What of it is unknown because ways differ, with the states that are possible.
     pub possible: &'a [PossibleStates],
+    /// Where the state is the one that the program found.
+    pub(crate) found: FoundStates<'a>,
     /// The answers of the machine that lead here, where the block is executed on some ways only.
     pub branch: Option<&'a [Vec<WayCondition>]>,
     /// G functions and positions after it.

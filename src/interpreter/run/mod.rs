@@ -1,6 +1,7 @@
 //! What a run consists of, as data, and what it tells.
 
 pub(super) mod at;
+pub(super) mod carried_ways;
 pub(super) mod channel_axes;
 pub(super) mod condition;
 pub(super) mod control;
@@ -23,6 +24,7 @@ pub(super) mod state;
 pub(super) mod step;
 pub(super) mod stopping;
 pub(super) mod undecided;
+pub(super) mod untouched;
 pub(super) mod way_set;
 pub(super) mod ways;
 pub(super) mod work;

@@ -224,16 +224,17 @@ pub(in crate::interpreter) struct Path {
 }
 
 impl Path {
-    /// Another way comes to the same block: what differs becomes unknown.
-    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) {
+    /// Another way comes to the same block: what differs becomes unknown. Returns how many values do.
+    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
         self.undo_differing(&mut other);
-        self.control.join(
+        let differing = self.control.join(
             &other.control,
             [&self.track.reach, &other.track.reach],
             cause,
         );
         self.track.join(&other.track);
         self.parted = self.parted.max(other.parted);
+        differing
     }
 
     /// What only a condition says is not known where it does not say it on both ways.

@@ -23,6 +23,23 @@ impl Split {
         }
     }
 
+    /// The same with other numbers of the conditions.
+    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+        Self {
+            on: self.on.renumbered(&number),
+            off: self.off.renumbered(&number),
+        }
+    }
+
+    /// Whether it names none but the first conditions, so many.
+    pub(in crate::interpreter) fn fits(&self, conditions: usize) -> bool {
+        self.conditions().all(|it| (it as usize) < conditions)
+    }
+
+    fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.on.conditions().chain(self.off.conditions())
+    }
+
     fn forget(&mut self, condition: u32) {
         self.on.forget(condition);
         self.off.forget(condition);
@@ -52,6 +69,12 @@ impl From<Possible> for Vec<Row> {
         let rows = possible.0.into_iter();
         rows.map(|((axis, kind), split)| (axis, kind, split))
             .collect()
+    }
+}
+
+impl FromIterator<((AxisIndex, Kind), Split)> for Possible {
+    fn from_iter<I: IntoIterator<Item = ((AxisIndex, Kind), Split)>>(splits: I) -> Self {
+        Self(splits.into_iter().collect())
     }
 }
 
@@ -86,17 +109,13 @@ impl Possible {
 
     /// Whether it names no other axes than so many, and no other conditions.
     pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
-        let is_known = |condition: u32| (condition as usize) < conditions;
-        self.0.iter().all(|((axis, _), split)| {
-            let mut named = split.on.conditions().chain(split.off.conditions());
-            axis.get() < axes && named.all(is_known)
-        })
+        let mut splits = self.0.iter();
+        splits.all(|((axis, _), split)| axis.get() < axes && split.fits(conditions))
     }
 
     /// The conditions that ways name.
     pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
-        let splits = self.0.values();
-        splits.flat_map(|split| split.on.conditions().chain(split.off.conditions()))
+        self.0.values().flat_map(Split::conditions)
     }
 
     /// A condition is asked anew.

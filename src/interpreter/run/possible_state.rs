@@ -1,6 +1,5 @@
 //! The states that are possible, as users see them (R14.2).
 
-use std::fmt;
 use std::sync::Arc;
 
 use serde::ser::SerializeMap as _;
@@ -97,11 +96,24 @@ fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Er
 }
 
 impl PossibleStates {
-    /// The words of the ways to a state: `V.E.A == 2 (line 12), or skip level 1 is on`; `None` where
-    /// it is the state otherwise, or not possible.
-    pub fn ways_to(&self, state: State) -> Option<String> {
+    /// The words of the ways to a state, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1
+    /// is on`; `None` where it is the state otherwise, or not possible.
+    pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
         let found = self.states.iter().find(|it| it.state == state)?;
-        found.words()
+        found.words(file)
+    }
+
+    /// The states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
+    pub fn in_words(&self, file: &str) -> String {
+        let named = self.states.iter().map(|state| match state.words(file) {
+            Some(words) => format!("{} if {words}", state.state),
+            None => format!("else {}", state.state),
+        });
+        if self.states.iter().any(PossibleState::is_always) {
+            let states: Vec<&str> = self.states.iter().map(|it| it.state.as_str()).collect();
+            return format!("{}, on more ways than can be named", states.join(" or "));
+        }
+        named.collect::<Vec<_>>().join(", ")
     }
 
     /// Whether a state is possible.
@@ -111,20 +123,27 @@ impl PossibleStates {
 }
 
 impl PossibleState {
-    fn words(&self) -> Option<String> {
-        Some(in_words(self.ways.as_ref()?, self.more))
+    fn words(&self, file: &str) -> Option<String> {
+        let ways = self.ways.as_ref().filter(|_| !self.is_always())?;
+        Some(in_words(ways, self.more, file))
+    }
+
+    /// Whether there are so many ways that none is named.
+    fn is_always(&self) -> bool {
+        let mut ways = self.ways.iter().flatten();
+        ways.any(Vec::is_empty)
     }
 }
 
-/// The ways on which a block is executed, as words after `if`.
-pub(crate) fn branch_in_words(ways: &[Vec<WayCondition>]) -> String {
+/// The ways on which a block is executed, as words after `if`, as seen from a file.
+pub(crate) fn branch_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
-    in_words(&ways[..named], ways.len() - named)
+    in_words(&ways[..named], ways.len() - named, file)
 }
 
-fn in_words(ways: &[Vec<WayCondition>], more: usize) -> String {
+fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     let named = ways.iter().map(|way| {
-        let conditions: Vec<String> = way.iter().map(ToString::to_string).collect();
+        let conditions: Vec<String> = way.iter().map(|it| it.in_words(file)).collect();
         conditions.join(" and ")
     });
     let mut words = named.collect::<Vec<_>>().join(", or if ");
@@ -136,29 +155,17 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize) -> String {
     words
 }
 
-/// `inactive if V.E.A == 2 (line 12), else active`
-impl fmt::Display for PossibleStates {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (place, state) in self.states.iter().enumerate() {
-            let comma = if place > 0 { ", " } else { "" };
-            match state.words() {
-                Some(words) => write!(f, "{comma}{} if {words}", state.state)?,
-                None => write!(f, "{comma}else {}", state.state)?,
-            }
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for WayCondition {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl WayCondition {
+    /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
+    pub fn in_words(&self, file: &str) -> String {
         match self {
             Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) => {
                 let not = if asked.holds { "" } else { "not " };
+                let place = asked.seen_from(file);
                 if asked.text.contains("||") || asked.text.contains("&&") {
-                    write!(f, "{not}[{}] (line {})", asked.text, asked.line)
+                    format!("{not}[{}] ({place})", asked.text)
                 } else {
-                    write!(f, "{not}{} (line {})", asked.text, asked.line)
+                    format!("{not}{} ({place})", asked.text)
                 }
             }
             Self::Probe(asked) => {
@@ -167,14 +174,24 @@ impl fmt::Display for WayCondition {
                 } else {
                     "does not answer"
                 };
-                write!(f, "the probe {word} (line {})", asked.line)
+                format!("the probe {word} ({})", asked.seen_from(file))
             }
             Self::Skip {
                 level, executed, ..
             } => {
                 let word = if *executed { "off" } else { "on" };
-                write!(f, "skip level {level} is {word}")
+                format!("skip level {level} is {word}")
             }
+        }
+    }
+}
+
+impl Asked {
+    fn seen_from(&self, file: &str) -> String {
+        if *self.file == *file {
+            format!("line {}", self.line)
+        } else {
+            format!("{}:{}", self.file, self.line)
         }
     }
 }
@@ -195,7 +212,7 @@ pub(in crate::interpreter) fn shown(
             decided.state(*axis, *kind)
         };
         let Split { on, off } = split;
-        let (on, off) = (on.within(reach), off.within(reach));
+        let [on, off] = [on, off].map(|ways| ways.within(reach).beyond(reach));
         let size = |ways: &WaySet| ways.conditions().count();
         let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
         let states = if size(&off) <= size(&on) {
@@ -235,7 +252,9 @@ pub(in crate::interpreter) fn ways_of(
     conditions: &[Condition],
 ) -> Vec<Vec<WayCondition>> {
     let mut all: Vec<Vec<WayCondition>> = Vec::new();
-    for way in ways.ways() {
+    let mut in_order: Vec<_> = ways.ways().iter().collect();
+    in_order.sort_by_key(|way| way.iter().map(|it| it.condition).collect::<Vec<_>>());
+    for way in in_order {
         let asked = way.iter().filter_map(|answer| {
             let condition = conditions.get(answer.condition as usize)?;
             Some(condition_of(condition, *answer))

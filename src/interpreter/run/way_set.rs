@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 /// Ways beyond which conditions are left out, which only widens (R14.3).
 const MAX_WAYS: usize = 16;
 
+/// Conditions of one way beyond which the first ones are left out, which only widens.
+const MAX_CONDITIONS: usize = 32;
+
 /// An answer to a condition, or several of which it is one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Answer {
@@ -90,11 +93,38 @@ impl WaySet {
         both
     }
 
+    /// The same with other numbers of the conditions, in the same order.
+    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+        let answer = |answer: &Answer| Answer {
+            condition: number(answer.condition),
+            ..*answer
+        };
+        let ways = self.0.iter();
+        Self(ways.map(|way| way.iter().map(answer).collect()).collect())
+    }
+
     /// Those of the ways that do not contradict others, as they are.
     pub(in crate::interpreter) fn within(&self, others: &Self) -> Self {
         let ways = self.0.iter();
         let agree = |way: &&Way| others.0.iter().any(|other| together(way, other).is_some());
         Self(ways.filter(agree).cloned().collect())
+    }
+
+    /// What the ways say beyond what holds on all of others.
+    pub(in crate::interpreter) fn beyond(mut self, others: &Self) -> Self {
+        let holds = |answer: &Answer| {
+            !others.is_never()
+                && others.0.iter().all(|other| {
+                    let same = |it: &&Answer| it.condition == answer.condition;
+                    let found = other.iter().find(same);
+                    found.is_some_and(|found| found.sides & !answer.sides == 0)
+                })
+        };
+        for way in &mut self.0 {
+            way.retain(|answer| !holds(answer));
+        }
+        self.simplify();
+        self
     }
 
     /// The ways on which any of both holds.
@@ -115,6 +145,10 @@ impl WaySet {
 
     /// Leaves out what says nothing, and conditions while there are too many ways.
     fn simplify(&mut self) {
+        for way in &mut self.0 {
+            let beyond = way.len().saturating_sub(MAX_CONDITIONS);
+            way.drain(..beyond);
+        }
         while self.absorb() || self.shorten() {}
         while self.0.len() > MAX_WAYS {
             let Some(condition) = self.most_named() else {

@@ -23,6 +23,9 @@ const MAX_OPEN: usize = 40;
 /// Conditions that ways may name.
 const MAX_CONDITIONS: usize = 4096;
 
+/// Conditions on values of the program whose answers are remembered; older ones are asked anew.
+const MAX_ASKED: usize = 64;
+
 /// Answers of one condition.
 const MAX_ANSWERS: usize = 60;
 
@@ -70,7 +73,7 @@ impl Interpreter {
         }
         let calls = self.state.control.frames.iter();
         let calls = calls.filter(|frame| frame.program() == program).count();
-        let cost = ITEM * 8 + self.machine.axes.len() * 4 + self.state.control.memory.weight();
+        let cost = ITEM * 8 + self.machine.axes.len() * 4;
         self.state.effort.charge(cost.saturating_mul(answers));
         calls == 1
             && at.macro_depth == 0
@@ -137,9 +140,13 @@ impl Interpreter {
         let condition = self.condition_at(&question, at);
         self.state.track.reach.forget(condition);
         self.state.control.possible.forget(condition);
+        self.state.control.untouched.forget(condition);
         let track = &mut self.state.track;
         track.asked.retain(|asked| asked.condition != condition);
         if let Some(reads) = question.reads {
+            if track.asked.len() >= MAX_ASKED {
+                track.asked.remove(0);
+            }
             track.asked.push(Asked {
                 condition,
                 key,
@@ -167,7 +174,9 @@ impl Interpreter {
             wanted.round = wanted.round.max(known.round + 1);
             let mut named = self.state.track.reach.conditions();
             let mut possible = self.state.control.possible.conditions();
-            if !named.any(|it| it == number) && !possible.any(|it| it == number) {
+            let mut untouched = self.state.control.untouched.conditions();
+            let is_it = |it| it == number;
+            if !(named.any(is_it) || possible.any(is_it) || untouched.any(is_it)) {
                 return number;
             }
         }

@@ -7,6 +7,8 @@ pub(super) mod expression;
 pub(super) mod functions;
 pub(super) mod memory;
 pub(super) mod names;
+pub(super) mod parameter_values;
+pub(super) mod persistent;
 pub(super) mod plain;
 pub(super) mod reads;
 pub(super) mod shared;

@@ -286,7 +286,8 @@ impl<W: Write> Text<W> {
                     Kind::Frict => String::new(),
                     kind => format!(" {kind}"),
                 };
-                format!("{MARK} {}{kind}: {it}", state.name(it.axis))
+                let states = it.in_words(&self.file);
+                format!("{MARK} {}{kind}: {states}", state.name(it.axis))
             })
             .collect();
         let said = std::mem::take(&mut self.possible);

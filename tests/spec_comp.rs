@@ -538,11 +538,14 @@ fn the_unknown_state_ends_with_the_next_command() {
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-      1 line 1 - X:active>unknown
-        FC901 1:1-13
-      2 line 5 - X:unknown>active
-      3 line 6 -
-      end 3 M30 X:active Y:active Z:unconfigured B:ineffective
+      1 line 1 -
+      2 line 2 - X:active>inactive
+      3 line 3 -
+      4 line 4 -
+        FC901 1:5-13
+      5 line 5 - X:unknown>active
+      6 line 6 -
+      end 6 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
 }
 
@@ -569,19 +572,23 @@ fn programs_read_the_state() {
       9 line 9 -
       end 9 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
-    // Of a state that is unknown nothing is known.
+    // Where the state differs by the way, so does what depends on it (R14.1).
     let program = "$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.A.FRICT_COMP_ACTIVE.X\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-      1 line 1 - X:active>unknown
-        FC901 1:1-10
-      2 line 4 - Y:active>unknown
-        FC901 4:1-28
-      3 line 7 -
-        FC401 1:1-10
-        FC401 4:1-28
-      end 3 M30 X:unknown Y:unknown Z:unconfigured B:ineffective
+      1 line 1 -
+      2 line 2 - X:active>inactive
+      3 line 3 -
+        FC901 1:5-10
+      4 line 4 -
+      5 line 5 - Y:active>inactive
+      6 line 6 -
+        FC901 1:5-10
+      7 line 7 -
+        FC401 2:1-18
+        FC401 5:1-18
+      end 7 M30 X:unknown Y:unknown Z:unconfigured B:ineffective
     ");
 }
 

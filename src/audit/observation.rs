@@ -101,6 +101,7 @@ impl Observation {
         match event {
             Event::Started { compensation, .. } => self.stand(scope, compensation),
             Event::Executed(executed) => self.executed(scope, executed),
+            Event::Joined(_) => {}
             Event::Ended(ended) => self.ended(scope, ended),
         }
     }

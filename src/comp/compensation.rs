@@ -262,6 +262,28 @@ impl Compensation {
         self.axes[axis.get()].parameterised = kinds;
     }
 
+    /// The kinds of an axis that another state may have in another way, or that are unknown in any.
+    pub(crate) fn differing(&self, other: &Self, axis: AxisIndex) -> KindSet {
+        let (mine, theirs) = (&self.axes[axis.get()], &other.axes[axis.get()]);
+        let symmetric = |one: KindSet, two: KindSet| one.without(two).union(two.without(one));
+        let differ = symmetric(mine.selected, theirs.selected)
+            .union(symmetric(mine.parameterised, theirs.parameterised));
+        let differ = differ.union(mine.unknown).union(theirs.unknown);
+        differ.intersection(mine.configured)
+    }
+
+    /// Whether the value list of a kind counts as accepted.
+    pub(crate) fn is_parameterised(&self, axis: AxisIndex, kind: Kind) -> bool {
+        self.axes[axis.get()].parameterised.contains(kind)
+    }
+
+    /// A kind becomes known: it is selected, or it is not.
+    pub(crate) fn decide(&mut self, axis: AxisIndex, kind: Kind, selected: Membership) {
+        let state = &mut self.axes[axis.get()];
+        state.selected.assign(kind, selected);
+        state.unknown.remove(kind);
+    }
+
     /// Whether an axis is configured for a kind.
     pub fn is_configured(&self, axis: AxisIndex, kind: Kind) -> bool {
         self.axes[axis.get()].configured.contains(kind)

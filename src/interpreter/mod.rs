@@ -31,12 +31,16 @@ pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
+pub use run::carried_ways::CarriedWays;
 pub use run::event::{
-    Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
+    Ended, EndedBy, Event, Executed, Joined, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
 };
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
-pub use run::options::{Options, RunOutcome, StopPolicy};
+pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
+pub(crate) use run::possible_state::branch_in_words;
+pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayCondition};
+pub(crate) use run::untouched::Found;
 pub use values::carried::{ArrayShape, Carried};
 pub use values::value::Value;
 pub(crate) use values::variable::set_name;

@@ -18,6 +18,11 @@ impl Linter<'_> {
         if executed.seq == 1 && **executed.file == *self.file {
             self.begin = Some(memory::place(executed, Span::default()));
         }
+        if executed.branch != self.branch.as_deref() {
+            // What moved before moved on another way.
+            self.jumps.clear();
+            self.branch = executed.branch.map(<[_]>::to_vec);
+        }
         if !executed.outcomes.is_empty() {
             self.commands(executed, said);
         }
@@ -30,7 +35,11 @@ impl Linter<'_> {
         // The commands of a block act before its motion (R1.9).
         for motion in executed.motions() {
             if self.memory.moved(&motion, executed) {
-                said.extend(moved_before::lint(self, motion.axis, executed));
+                let found = moved_before::lint(self, motion.axis, executed);
+                if found.is_some() {
+                    self.memory.settle(motion.axis);
+                }
+                said.extend(found);
             }
         }
     }

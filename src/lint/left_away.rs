@@ -2,10 +2,10 @@
 //! its second run differs from the first (R1.53).
 
 use super::linter::{EndNote, LeftAway, Linter};
-use super::memory::{Deed, KindMemory, Site};
+use super::memory::{Deed, Site};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::{Ended, EndedBy, ProgramEnd};
+use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
@@ -32,16 +32,27 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
             let is_lost = matches!(did.last, Some((Deed::Lost, _)));
             let passed = passed.filter(|_| end == State::Unknown && !is_lost);
             let passed = passed.filter(|_| has_other_ends(ended));
+            let possible = ended.possible.iter();
+            let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
+            let possible = possible.next();
+            // Where ways differ, the command counts that leads away on some of them.
+            let parted = possible.and_then(|_| {
+                let [off, on] = &did.switched;
+                if is_on { off.as_ref() } else { on.as_ref() }
+            });
+            let passed = passed.or(parted);
             if let Some(site) = passed.or(last.map(|(_, site)| site)) {
                 let subject = Subject {
                     linter,
                     axis,
                     kind,
                     end,
+                    possible,
                     ending,
                     ended,
                 };
-                let diagnostic = match moved_before(linter, axis, did) {
+                let moved_before = did.moved_before.as_ref().filter(|_| did.is_commanded);
+                let diagnostic = match moved_before {
                     _ if end == State::Unknown => subject.may_be_left(site),
                     Some(moved) => subject.second_run_differs(site, moved),
                     None => subject.left_changed(site),
@@ -62,20 +73,14 @@ fn has_other_ends(ended: &Ended<'_>) -> bool {
     ended.ends.iter().any(|end| end.cause.is_some())
 }
 
-/// The first motion of the axis, where it comes before the first command on the kind.
-fn moved_before<'a>(linter: &'a Linter<'_>, axis: AxisIndex, did: &KindMemory) -> Option<&'a Site> {
-    let moved = linter.memory.axis(axis).moved.as_ref()?;
-    did.first
-        .is_some_and(|first| moved.seq < first)
-        .then_some(moved)
-}
-
 /// What is left, and how.
 struct Subject<'a> {
     linter: &'a Linter<'a>,
     axis: AxisIndex,
     kind: Kind,
     end: State,
+    /// The states that are possible, where ways differ.
+    possible: Option<&'a PossibleStates>,
     /// What ends the program.
     ending: &'a str,
     ended: &'a Ended<'a>,
@@ -107,11 +112,16 @@ impl Subject<'_> {
             State::Inactive => State::Active,
             _ => State::Inactive,
         };
+        let away = away.as_str();
+        let what = match self.ways_away(&site.place.file) {
+            Some(ways) => format!("is left {away} after {}{ways}", self.ending),
+            None => format!(
+                "may be left {away} after {}, which is not known offline",
+                self.ending
+            ),
+        };
         let message = format!(
-            "`{keyword}` of axis `{name}` may be left {} after {}, which is not known offline; the \
-             control starts with it {}",
-            away.as_str(),
-            self.ending,
+            "`{keyword}` of axis `{name}` {what}; the control starts with it {}",
             start_up.as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
@@ -141,6 +151,24 @@ impl Subject<'_> {
                 self.way_home()
             ))
             .with_label(moved.place.clone(), "the axis moves here first")
+    }
+
+    /// On which ways it is left away (R14.5).
+    fn ways_away(&self, file: &str) -> Option<String> {
+        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let possible = self.possible?;
+        let mut states = possible.states.iter().map(|it| it.state);
+        let away = states.find(|state| *state != start_up)?;
+        Some(
+            match (
+                possible.ways_to(away, file),
+                possible.ways_to(start_up, file),
+            ) {
+                (Some(ways), _) => format!(" if {ways}"),
+                (None, Some(ways)) => format!(" unless {ways}"),
+                (None, None) => return None,
+            },
+        )
     }
 
     /// The command that makes the state that of the start of the control.

@@ -4,7 +4,7 @@ use super::history::{History, Told};
 use super::memory::{Jump, Memory};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{Executed, Outcome};
+use crate::interpreter::{Executed, Outcome, WayCondition};
 use crate::machine::Machine;
 use crate::text::Place;
 
@@ -47,6 +47,8 @@ pub(crate) struct Linter<'m> {
     found: Vec<State>,
     /// Changes of friction compensation on axes that moved right before.
     pub(super) jumps: Vec<Jump>,
+    /// The way on which the last block was executed.
+    pub(super) branch: Option<Vec<Vec<WayCondition>>>,
 }
 
 impl<'m> Linter<'m> {
@@ -61,6 +63,7 @@ impl<'m> Linter<'m> {
             begin: None,
             found: Vec::new(),
             jumps: Vec::new(),
+            branch: None,
         }
     }
 

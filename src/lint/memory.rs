@@ -69,10 +69,13 @@ impl From<Selection> for Deed {
 /// What the program did to one kind of one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KindMemory {
-    /// The executed block of the first command on it.
-    pub(super) first: Option<u64>,
+    /// Whether a command of the program was about it.
+    pub(super) is_commanded: bool,
     /// What was done to it last; one site for all kinds of a command.
     pub(super) last: Option<(Deed, Arc<Site>)>,
+    /// The first block that moved the axis for sure, homing apart, while it was as the program found
+    /// it, or may have been.
+    pub(super) moved_before: Option<Arc<Site>>,
     /// The last command that switched it off, and the last that switched it on.
     pub(super) switched: [Option<Arc<Site>>; 2],
 }
@@ -102,10 +105,21 @@ pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// The first block that moved the axis for sure, homing apart.
-    pub(super) moved: Option<Site>,
-    /// The first block that moved it in any way, or may have; what is not known at all apart.
+    /// A block that moved it in any way, or may have; what is not known at all apart. The first one, or
+    /// the last while the axis was moved on some ways only.
     pub(super) touched: Option<Touch>,
+    /// Whether it was moved on all ways that lead to that block, or for sure.
+    settled: Settled,
+}
+
+/// What is settled about the first motion of an axis: on some ways of the program it may be another
+/// one (R14.5).
+#[derive(Debug, Clone, Copy, Default)]
+struct Settled {
+    /// Of its motions in any way.
+    any: bool,
+    /// Of those that are sure.
+    sure: bool,
 }
 
 impl AxisMemory {
@@ -166,7 +180,7 @@ impl Memory {
         let memory = &mut self.axes[axis.get()];
         memory.commanded = true;
         for kind in selection.kinds().iter() {
-            memory.kinds[kind as usize].first.get_or_insert(site.seq);
+            memory.kinds[kind as usize].is_commanded = true;
         }
         memory.note(selection.kinds(), selection.into(), &site);
     }
@@ -194,15 +208,16 @@ impl Memory {
     pub(super) fn knows_all(&self, motions: &[MovedAxis]) -> bool {
         let is_known = |motion: &MovedAxis| {
             let memory = &self.axes[motion.axis.get()];
-            (memory.touched.is_some() || !is_of_a_kind(motion))
-                && (memory.moved.is_some() || !counts(motion))
+            (memory.settled.any || !is_of_a_kind(motion))
+                && (memory.settled.sure || !counts(motion))
         };
         motions.iter().all(is_known)
     }
 
-    /// A motion. Says whether it is the first of its axis.
+    /// A motion. Says whether it is the first of its axis on any way.
     pub(super) fn moved(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> bool {
         let memory = &mut self.axes[motion.axis.get()];
+        let is_on_all_ways = executed.branch.is_none();
         let site = || {
             let whole = Span::new(0, executed.text.len());
             let span = if motion.span.end > motion.span.start {
@@ -212,20 +227,32 @@ impl Memory {
             };
             Site::new(executed, span)
         };
-        if counts(motion) {
-            memory.moved.get_or_insert_with(site);
-            if self.is_alone {
+        if counts(motion) && !memory.settled.sure {
+            let site = Arc::new(site());
+            for (kind, memory) in Kind::ALL.into_iter().zip(&mut memory.kinds) {
+                if memory.moved_before.is_none() && executed.found.has(motion.axis, kind) {
+                    memory.moved_before = Some(Arc::clone(&site));
+                }
+            }
+            memory.settled.sure = is_on_all_ways;
+            if self.is_alone && is_on_all_ways {
                 self.moved |= 1 << (motion.axis.get() % 64);
             }
         }
-        let is_new = memory.touched.is_none() && is_of_a_kind(motion);
+        let is_new = !memory.settled.any && is_of_a_kind(motion);
         if is_new {
             memory.touched = Some(Touch {
                 site: site(),
                 kind: motion.kind,
                 certainty: motion.certainty,
             });
+            memory.settled.any = is_on_all_ways;
         }
         is_new
+    }
+
+    /// What there is to say about the first motion of an axis was said.
+    pub(super) fn settle(&mut self, axis: AxisIndex) {
+        self.axes[axis.get()].settled.any = true;
     }
 }

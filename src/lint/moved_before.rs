@@ -4,7 +4,7 @@ use super::history::Maker;
 use super::linter::Linter;
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::{Certainty, Executed, MotionKind};
+use crate::interpreter::{Certainty, Executed, Found, MotionKind};
 
 /// A message shows a block with so many characters.
 const MAX_SHOWN: usize = 60;
@@ -17,23 +17,36 @@ pub(super) fn lint(
     let memory = linter.memory.axis(axis);
     let state = executed.compensation.state(axis, Kind::Frict);
     let found = linter.found(axis);
-    let own = memory.kind(Kind::Frict).first.is_some();
-    if own || found == linter.history.start_up(axis, Kind::Frict) {
+    let start_up = linter.history.start_up(axis, Kind::Frict);
+    if found == start_up {
         return None;
     }
     let name = linter.name(axis);
     let touched = memory.touched.as_ref()?;
-    let how = match (found, state) {
-        (found, _) if touched.certainty == Certainty::Possible => match found {
-            State::Unknown => "may move in an unknown state of friction compensation".to_owned(),
-            known => format!("may move with friction compensation {}", known.as_str()),
-        },
-        (State::Unknown, _) => "moves in an unknown state of friction compensation".to_owned(),
+    let file = &touched.site.place.file;
+    let ways = match executed.found.of(axis, Kind::Frict, file) {
+        Found::Never => return None,
+        Found::Always => String::new(),
+        Found::If(ways) => format!(" if {ways}"),
+    };
+    let may = match touched.certainty {
+        Certainty::Possible => "may move",
+        Certainty::Certain => "moves",
+    };
+    let mut possible = executed.possible.iter();
+    let possible = possible.find(|it| (it.axis, it.kind) == (axis, Kind::Frict));
+    let how = match (found, state, possible) {
+        // An earlier program left it so on some ways only (R14.7).
+        (State::Unknown, State::Unknown, Some(possible)) if ways.is_empty() => format!(
+            "{may} with friction compensation {}",
+            possible.in_words(file)
+        ),
+        (State::Unknown, ..) => format!("{may} in an unknown state of friction compensation"),
         // A region that may or may not be executed could have switched it (R2.51).
-        (found, State::Unknown) => {
+        (found, State::Unknown, None) => {
             format!("may move with friction compensation {}", found.as_str())
         }
-        (_, known) => format!("moves with friction compensation {}", known.as_str()),
+        (found, ..) => format!("{may} with friction compensation {}", found.as_str()),
     };
     let who = match linter.history.maker(axis, Kind::Frict) {
         Some(maker) => named(maker),
@@ -45,7 +58,10 @@ pub(super) fn lint(
     let mut diagnostic = Diagnostic::new(
         Code::Fc403,
         place,
-        format!("axis `{name}` {how}{}, left so by {who}", way(touched.kind)),
+        format!(
+            "axis `{name}` {how}{}{ways}, left so by {who}",
+            way(touched.kind)
+        ),
     )
     .with_axis(name)
     .with_help(format!("set it at program start, `{on}` or `{off}`"));

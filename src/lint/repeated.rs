@@ -14,6 +14,10 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
         // To set at program start what one needs is the recommended habit.
         return None;
     }
+    if taken.outcome.changes > 0 {
+        // What another way switched before, this one did not.
+        return None;
+    }
     let command = &taken.outcome.command;
     let deed = Deed::from(command.selection);
     let kinds = command.selection.kinds();

@@ -76,7 +76,9 @@ impl FeedMoveCounter {
             let counts = &mut self.counts[watched.axis.get()];
             match pace(executed, watched.axis) {
                 None => {}
-                Some(Certainty::Certain) if watched.state != State::Unknown => {
+                Some(Certainty::Certain)
+                    if watched.state != State::Unknown && executed.branch.is_none() =>
+                {
                     let is_line = executed.modal.functions.motion == 1
                         && executed.also_moved.is_empty()
                         && executed.word_motion.is_none();

@@ -93,7 +93,7 @@ impl Sink for Findings {
             // What the lists say is listed once a machine, not once a program.
             Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
             Record::Program { file, .. } => self.program = Some(Arc::from(*file)),
-            Record::Session { .. } | Record::Summary(_) => {}
+            Record::Session { .. } | Record::Join(_) | Record::Summary(_) => {}
         }
         ControlFlow::Continue(())
     }

@@ -271,6 +271,7 @@ impl Session {
         StateView {
             machine: &self.machine,
             compensation: self.interpreter.compensation(),
+            possible: self.interpreter.possible(),
             listed: self.interpreter.occurred(),
             version: self.interpreter.version(),
         }
@@ -349,6 +350,7 @@ impl Session {
             here: Vec::new(),
             broken: false,
             doubtful: false,
+            version: 0,
         };
         let mut listen = |event: Event<'_>| recorder.event(&event);
         let outcome = match program {
@@ -430,6 +432,7 @@ impl Session {
             lost_macros: carried.lost_macros,
             couplings: carried.couplings,
             lost_couplings: carried.lost_couplings,
+            ways: carried.ways,
             lost: carried.lost,
             lost_parameters: carried.lost_parameters,
         }

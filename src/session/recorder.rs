@@ -7,13 +7,15 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
-use crate::interpreter::{Ended, Event, Executed, Note, NoteKind};
+use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, WayCondition, branch_in_words};
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
-use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Footing, Record, Row, Sink, StateView};
+use crate::timeline::{
+    ChangedBy, End, EndNote, EndedBy, Footing, Join, Record, Row, Sink, StateView,
+};
 
 use super::feed_moves::FeedMoveCounter;
 use super::said::{Said, Verdict};
@@ -90,6 +92,8 @@ pub(super) struct Recorder<'a> {
     pub(super) broken: bool,
     /// Whether a configured kind of an axis is unknown at the moment.
     pub(super) doubtful: bool,
+    /// The version of the state that was judged last.
+    pub(super) version: u64,
 }
 
 impl Recorder<'_> {
@@ -98,6 +102,7 @@ impl Recorder<'_> {
             &Event::Started {
                 name,
                 compensation,
+                possible,
                 occurred,
                 version,
             } => {
@@ -113,12 +118,26 @@ impl Recorder<'_> {
                     state: StateView {
                         machine: self.machine,
                         compensation,
+                        possible,
                         listed: occurred,
                         version,
                     },
                 })
             }
             Event::Executed(executed) => self.executed(executed),
+            Event::Joined(joined) => self.sink.record(&Record::Join(Join {
+                program: self.program,
+                seq: joined.seq,
+                file: &joined.place.file,
+                line: joined.place.first_line,
+                state: StateView {
+                    machine: self.machine,
+                    compensation: joined.compensation,
+                    possible: joined.possible,
+                    listed: joined.occurred,
+                    version: joined.version,
+                },
+            })),
             Event::Ended(ended) => self.ended(ended),
         };
         self.broken |= flow.is_break();
@@ -150,11 +169,13 @@ impl Recorder<'_> {
             state: StateView {
                 machine: self.machine,
                 compensation: executed.compensation,
+                possible: executed.possible,
                 listed: executed.occurred,
                 version: executed.version,
             },
             modal: executed.modal,
             motion: executed.motion,
+            branch: executed.branch,
             diagnostics: &self.said,
         }))
     }
@@ -170,6 +191,7 @@ impl Recorder<'_> {
             && executed.doubted.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
+            && executed.version == self.version
             && self.linter.knows(executed)
     }
 
@@ -218,16 +240,22 @@ impl Recorder<'_> {
     fn judge(&mut self, executed: &Executed<'_>) {
         self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
+        if let Some(ways) = executed.branch {
+            self.limit_to(ways, executed.file);
+        }
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
         self.note_allows(executed);
         for withheld in &executed.aside.withheld {
-            is_allowed(&mut self.allows, withheld, executed.line);
+            if !is_allowed(&mut self.allows, withheld, executed.line) {
+                is_allowed(&mut self.allows, withheld, withheld.place.first_line);
+            }
         }
         if !self.said.is_empty() {
             self.filter(executed.line);
         }
         self.doubtful = self.is_doubtful(executed.compensation);
+        self.version = executed.version;
         for change in executed.changes {
             if change.kind == Kind::Frict {
                 self.note_change(executed, change.axis, change.to);
@@ -235,6 +263,16 @@ impl Recorder<'_> {
         }
         for diagnostic in &self.said {
             self.tally.count(diagnostic);
+        }
+    }
+
+    /// Says of what stops the control on which ways it does (R14.5).
+    #[cold]
+    fn limit_to(&mut self, ways: &[Vec<WayCondition>], file: &str) {
+        let errors = self.said.iter_mut();
+        for error in errors.filter(|said| said.code.severity() == Severity::Error) {
+            let words = branch_in_words(ways, file);
+            error.message.push_str(&format!(", if {words}"));
         }
     }
 
@@ -257,7 +295,11 @@ impl Recorder<'_> {
                 Code::Fc409 => diagnostic.place.first_line,
                 _ => line,
             };
-            if is_allowed(allows, diagnostic, line) || allowed {
+            // Where ways meet, it is said of the condition at which they parted.
+            let first_line = diagnostic.place.first_line;
+            let is_silenced = is_allowed(allows, diagnostic, line)
+                || (diagnostic.code == Code::Fc901 && is_allowed(allows, diagnostic, first_line));
+            if is_silenced || allowed {
                 return false;
             }
             match before.take(diagnostic) {
@@ -412,6 +454,7 @@ impl Recorder<'_> {
             state: StateView {
                 machine: self.machine,
                 compensation: ended.compensation,
+                possible: ended.possible,
                 listed: ended.occurred,
                 version: ended.version,
             },

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::comp::{Kind, KindSet};
-use crate::interpreter::{ArrayShape, Carried, Value};
+use crate::interpreter::{ArrayShape, Carried, CarriedWays, Value};
 use crate::lint::Maker;
 use crate::lists::FrictionList;
 use crate::machine::{Axis, AxisSet, Machine, Origin};
@@ -71,6 +71,9 @@ pub struct SavedState {
     /// The axes that coupling groups with unknown members may name.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lost_couplings: Vec<String>,
+    /// The kinds that are unknown because ways through earlier programs differ, with those ways.
+    #[serde(default, skip_serializing_if = "CarriedWays::is_empty")]
+    pub ways: CarriedWays,
     /// Arrays in which some element was written, though it is not known which.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lost: BTreeMap<String, Arc<str>>,
@@ -151,6 +154,9 @@ impl SavedState {
                 return damaged(format!("`{keyword}` of axis `{name}` is not configured"));
             }
         }
+        if !self.ways.fits(machine) {
+            return damaged("a possible state is not one of the machine".to_owned());
+        }
         let known = |entry: &&SavedAxis| machine.find(&entry.axis).is_none();
         match self.axes.iter().find(known) {
             Some(entry) => damaged(format!("the machine has no axis `{}`", entry.axis)),
@@ -175,6 +181,7 @@ impl SavedState {
             lost_macros: self.lost_macros,
             couplings: self.couplings,
             lost_couplings: self.lost_couplings,
+            ways: self.ways,
             lost: self.lost,
             lost_parameters: self.lost_parameters,
         }

@@ -8,13 +8,15 @@
 //! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
 
 mod feed_moves;
+mod possible;
 mod record;
 mod serial;
 
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 pub use feed_moves::FeedMoves;
+pub use possible::Possible;
 pub use record::{
-    AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Record, Repeat, Row, SCHEMA, Sink,
-    StateView, Summary, TOOL,
+    AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Join, Record, Repeat, Row, SCHEMA,
+    Sink, StateView, Summary, TOOL,
 };

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::feed_moves::FeedMoves;
 use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{EndedBy, Modal, Motion};
+use crate::interpreter::{EndedBy, Modal, Motion, PossibleStates, WayCondition};
 use crate::lint::EndNote;
 use crate::machine::Machine;
 use crate::text::Position;
@@ -26,6 +26,8 @@ pub struct StateView<'a> {
     pub machine: &'a Machine,
     /// The state of all kinds on all axes.
     pub compensation: &'a Compensation,
+    /// What of it is unknown because ways differ, with the states that are possible.
+    pub possible: &'a [PossibleStates],
     /// The axes that are listed, by position: all of a configured machine; of an unconfigured one
     /// those that occurred so far.
     pub listed: &'a [bool],
@@ -81,8 +83,26 @@ pub struct Row<'a> {
     pub modal: &'a Modal,
     /// What the block makes the machine do, where the session takes motions.
     pub motion: Option<&'a Motion>,
+    /// The answers of the machine that lead to the block, where it is executed on some ways only: a
+    /// list of ways, each a list of conditions that hold together.
+    pub branch: Option<&'a [Vec<WayCondition>]>,
     /// What there is to say about the block; written right after it.
     pub diagnostics: &'a [Diagnostic],
+}
+
+/// Where ways that differ in an answer of the machine go on as one (R14.2).
+#[derive(Debug, Clone, Copy)]
+pub struct Join<'a> {
+    /// The program of the session, from 1.
+    pub program: u32,
+    /// How many blocks of the program were executed before it.
+    pub seq: u64,
+    /// The file that holds the block at which they meet.
+    pub file: &'a str,
+    /// The line on which that block starts, from 1.
+    pub line: u32,
+    /// The state that all of them may leave.
+    pub state: StateView<'a>,
 }
 
 /// How often a remark applied that was made only once.
@@ -226,6 +246,8 @@ pub enum Record<'a> {
     },
     /// A block was executed.
     Block(Row<'a>),
+    /// Ways meet.
+    Join(Join<'a>),
     /// A program ended.
     End(End<'a>),
     /// The session ended.

@@ -2,9 +2,13 @@
 
 use serde::{Serialize, Serializer};
 
-use super::record::{DiagnosticRecord, End, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL};
-use crate::comp::{Change, Kind, State};
+use super::possible::Possible;
+use super::record::{
+    DiagnosticRecord, End, Join, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL,
+};
+use crate::comp::{Change, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::WayCondition;
 
 /// Axis → state of friction compensation.
 struct Friction<'a>(StateView<'a>);
@@ -14,6 +18,10 @@ impl Serialize for Friction<'_> {
         let states = self.0.axes();
         serializer.collect_map(states.map(|(axis, name)| (name, self.0.state(axis, Kind::Frict))))
     }
+}
+
+fn friction_of(state: StateView<'_>) -> Possible<'_> {
+    Possible::of(state, KindSet::of(Kind::Frict))
 }
 
 /// The names of the listed axes.
@@ -92,12 +100,16 @@ enum Object<'a> {
         #[serde(skip_serializing_if = "Option::is_none")]
         remark: Option<&'a str>,
         friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
     },
     Program {
         program: u32,
         file: &'a str,
         name: Option<&'a str>,
         friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
     },
     Block {
         program: u32,
@@ -108,8 +120,21 @@ enum Object<'a> {
         #[serde(skip_serializing_if = "Option::is_none")]
         level: Option<u32>,
         text: &'a str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        branch: Option<&'a [Vec<WayCondition>]>,
         changes: Changes<'a>,
         friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
+    },
+    Join {
+        program: u32,
+        seq: u64,
+        file: &'a str,
+        line: u32,
+        friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
     },
     Diagnostic {
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,6 +153,8 @@ enum Object<'a> {
         #[serde(skip_serializing_if = "<[_]>::is_empty")]
         repeated: &'a [Repeat],
         friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
     },
     Summary {
         programs: u32,
@@ -138,6 +165,8 @@ enum Object<'a> {
         #[serde(skip_serializing_if = "Uncompensated::is_empty")]
         uncompensated: Uncompensated<'a>,
         friction: Friction<'a>,
+        #[serde(skip_serializing_if = "Possible::is_empty")]
+        possible: Possible<'a>,
     },
 }
 
@@ -151,8 +180,24 @@ impl Serialize for Row<'_> {
             n: self.number,
             level: self.level,
             text: self.text,
+            branch: self.branch,
             changes: Changes::of(self.changes, self.state),
             friction: Friction(self.state),
+            possible: friction_of(self.state),
+        };
+        object.serialize(serializer)
+    }
+}
+
+impl Serialize for Join<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let object = Object::Join {
+            program: self.program,
+            seq: self.seq,
+            file: self.file,
+            line: self.line,
+            friction: Friction(self.state),
+            possible: friction_of(self.state),
         };
         object.serialize(serializer)
     }
@@ -167,6 +212,7 @@ impl Serialize for End<'_> {
             changes: Changes::of(self.changes, self.state),
             repeated: self.repeated,
             friction: Friction(self.state),
+            possible: friction_of(self.state),
         };
         object.serialize(serializer)
     }
@@ -182,6 +228,7 @@ impl Serialize for Summary<'_> {
             opaque: self.opaque,
             uncompensated: Uncompensated(self),
             friction: Friction(self.state),
+            possible: friction_of(self.state),
         };
         object.serialize(serializer)
     }
@@ -196,6 +243,7 @@ impl Serialize for Record<'_> {
                 axes: Axes(state),
                 remark,
                 friction: Friction(state),
+                possible: friction_of(state),
             }
             .serialize(serializer),
             Self::Machine(diagnostic) => {
@@ -211,9 +259,11 @@ impl Serialize for Record<'_> {
                 file,
                 name,
                 friction: Friction(state),
+                possible: friction_of(state),
             }
             .serialize(serializer),
             Self::Block(ref row) => row.serialize(serializer),
+            Self::Join(ref join) => join.serialize(serializer),
             Self::End(ref end) => end.serialize(serializer),
             Self::Summary(summary) => summary.serialize(serializer),
         }

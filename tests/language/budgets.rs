@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::interpreter::{EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
+use frictcomp::interpreter::{Branches, EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
@@ -75,11 +75,13 @@ fn ran(text: &str, options: Options) -> Ran {
 }
 
 fn run(text: &str) -> Ran {
-    ran(text, Options::default())
+    ran(text, Options::default().with_branches(Branches::Passed))
 }
 
 fn going_on() -> Options {
-    Options::default().with_stop(StopPolicy::KeepGoing)
+    Options::default()
+        .with_stop(StopPolicy::KeepGoing)
+        .with_branches(Branches::Passed)
 }
 
 #[test]
@@ -493,7 +495,11 @@ impl Heard {
 
 fn heard(text: &str, stop: StopPolicy) -> Heard {
     let machine = Machine::from_toml(MACHINE).expect("the test's machine");
-    let options = SessionOptions::from(Options::default().with_stop(stop));
+    let options = SessionOptions::from(
+        Options::default()
+            .with_stop(stop)
+            .with_branches(Branches::Passed),
+    );
     let mut session = Session::new(machine, options);
     let mut heard = Heard::default();
     let program = Program::Whole(SourceFile::new("a.nc", text));

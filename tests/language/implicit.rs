@@ -74,7 +74,7 @@ fn which_function_is_called_must_be_known() {
 #[test]
 fn a_program_names_what_its_words_call() {
     // R2.75: until M30, without an equals sign, with the name in a variable
-    let bench = machine("[machine.programs]\nM6 = \"data.nc\"");
+    let bench = machine("[machine.programs]\nM6 = \"data.nc\"").passing_branches();
     let program = "N10 #FILE NAME [ M6=\"change.nc\" G80 \"drill.nc\" ]\nN20 M6\nN30 G80 [1, 2]\nN40 #FILENAME[M6=\"\"]\nN50 M6\nM30";
     assert_snapshot!(bench.run(&[program, "M6\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
@@ -146,13 +146,13 @@ fn a_modal_cycle_that_may_be_in_force_leaves_its_traces() {
 }
 
 #[test]
-fn a_call_that_finds_nothing_in_an_unknown_region_makes_all_unknown() {
-    // R2.51 R2.52
+fn a_call_that_finds_nothing_on_one_way_ends_it() {
+    // R14.5
     for call in ["L nothing.nc", "LL NOTHING", "L CYCLE [NAME=nothing.nc]"] {
         let program = format!("X1 Y1\n$IF V.E.X\n{call}\n$ENDIF\nM30");
         let transcript = Bench::new().run(&[&program]);
         assert!(
-            ends(&transcript)[0].contains("X:unknown Y:unknown"),
+            ends(&transcript)[0].contains("X:active Y:active"),
             "{call}: {transcript}"
         );
     }

@@ -483,10 +483,12 @@ fn an_error_of_the_program_stops_it() {
         ("#ERROR [ID=1 PV1=\"RC=2\"]", false),
         ("#ERROR [ID=1 RC=V.E.A]", false),
         ("$IF P1==2\n#ERROR [RC=2]\n$ENDIF", false),
-        ("$IF V.E.A==2\n#ERROR [RC=2]\n$ENDIF", false),
     ] {
         assert_eq!(left(command), (stops, stops), "{command}");
     }
+    // R14.5: on one way it does, and the other goes on.
+    let one_way = left("$IF V.E.A==2\n#ERROR [RC=2]\n$ENDIF");
+    assert_eq!(one_way, (false, true));
     let program = "X[COMP OFF FRICT]\n#ERROR [RC=2]\nX[COMP ON FRICT]\nM30";
     let said = Bench::new().keep_going().said(program);
     assert!(said.contains("FC318") && !said.contains("FC401"), "{said}");

@@ -7,7 +7,7 @@ use crate::support::{Bench, Handed};
 /// Where X and Y stand after each block.
 fn positions(program: &str) -> String {
     let bench = Bench::on("[[axis]]\nname = \"X\"\n[[axis]]\nname = \"Y\"\n");
-    bench.positions(program)
+    bench.passing_branches().positions(program)
 }
 
 #[test]
@@ -63,9 +63,13 @@ fn a_spline_keeps_its_points() {
     X2 X:2* Y:?*
     M30 X:2* Y:?*
     ");
-    let said = Bench::new().said("#SPLINE ON X10 ; Y20\n#SPLINE ON X1O\nM30");
+    let said = Bench::new()
+        .passing_branches()
+        .said("#SPLINE ON X10 ; Y20\n#SPLINE ON X1O\nM30");
     assert!(said.contains("FC207 2:"), "{said}");
-    let known = Bench::new().positions("P1=7\n#SPLINE ON XP1 (Y3) Y[P1+1]\nM30");
+    let known = Bench::new()
+        .passing_branches()
+        .positions("P1=7\n#SPLINE ON XP1 (Y3) Y[P1+1]\nM30");
     assert!(known.contains("X:7* Y:8*"), "{known}");
 }
 

@@ -411,6 +411,7 @@ fn faults_in_a_called_file_point_there() {
 fn a_file_without_a_program_of_its_own() {
     // R2.8 R2.16
     let bench = Bench::new()
+        .passing_branches()
         .file("lib.nc", "%L A\nX[COMP OFF FRICT]\nM17")
         .file("empty.nc", "")
         .file("notes.nc", "(only words)\n");

@@ -40,7 +40,10 @@ fn a_block_that_may_be_skipped_makes_unknown_what_it_switches() {
     ];
     for program in programs {
         for handed in [Handed::Whole, Handed::LineByLine] {
-            for bench in [Bench::new(), Bench::new().check_all()] {
+            for bench in [
+                Bench::new().passing_branches(),
+                Bench::new().passing_branches().check_all(),
+            ] {
                 let (x, y, said) = left(&bench.handed(handed), program);
                 assert_eq!(x, State::Unknown, "{program}\n{said}");
                 assert!(said.contains("FC901"), "{program}\n{said}");
@@ -87,7 +90,7 @@ fn the_user_says_which_levels_are_on() {
 fn a_skip_level_is_spoken_of_once() {
     // R2.90
     let program = "X[COMP OFF FRICT]\n/X[COMP ON FRICT]\n/Y[COMP OFF FRICT]\nX1\n/X[COMP OFF FRICT]\n/3 Y[COMP ON FRICT]\nM30";
-    let said = Bench::new().said(program);
+    let said = Bench::new().passing_branches().said(program);
     assert_eq!(count(&said, "FC901"), 2, "{said}");
     assert!(
         said.contains(
@@ -101,7 +104,7 @@ fn a_skip_level_is_spoken_of_once() {
     );
     // What a value that it leaves decides names the level and where it came from.
     let program = "P1=0\nX1\n/P1=1\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
-    let said = Bench::new().said(program);
+    let said = Bench::new().passing_branches().said(program);
     assert_eq!(count(&said, "FC901"), 1, "{said}");
     assert!(
         said.contains("FC901 4:1 this control block depends on skip level 1"),
@@ -141,7 +144,9 @@ fn a_skipped_block_that_decides_nothing_says_nothing() {
 #[test]
 fn a_block_that_may_be_skipped_only_perhaps_moves() {
     // R2.90
-    let said = Bench::new().positions("G90 X1\n/G0 X5\nY1\nX2\nM30");
+    let said = Bench::new()
+        .passing_branches()
+        .positions("G90 X1\n/G0 X5\nY1\nX2\nM30");
     let rows: Vec<&str> = said.lines().collect();
     assert!(rows[1].contains("X:?") && rows[2].contains("X:?"), "{said}");
     assert!(rows[3].contains("X:2"), "{said}");
@@ -150,7 +155,10 @@ fn a_block_that_may_be_skipped_only_perhaps_moves() {
 #[test]
 fn what_the_control_refuses_in_a_block_that_may_be_skipped_is_said() {
     // R2.90
-    for bench in [Bench::new(), Bench::new().check_all()] {
+    for bench in [
+        Bench::new().passing_branches(),
+        Bench::new().passing_branches().check_all(),
+    ] {
         let said = bench.said(
             "/Z[COMP ON FRICT]\n/X[COMP ONN FRICT]\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30",
         );
@@ -189,24 +197,30 @@ fn a_jump_beside_a_probe_may_be_taken() {
     ] {
         let program = format!("{jump}\nX[COMP OFF FRICT]\nN50:\n[OUT]\nM30");
         for handed in [Handed::Whole, Handed::LineByLine] {
-            let (x, _, said) = left(&Bench::new().handed(handed), &program);
+            let (x, _, said) = left(&Bench::new().passing_branches().handed(handed), &program);
             assert_eq!(x, State::Unknown, "{jump}\n{said}");
             assert!(said.contains("FC902"), "{jump}\n{said}");
         }
     }
-    let said = Bench::new().said("G310 X10 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30");
+    let said = Bench::new()
+        .passing_branches()
+        .said("G310 X10 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30");
     assert!(said.contains("the signal of the probe"), "{said}");
     // Nothing between differs.
-    let said = Bench::new().said("G310 X10 $GOTO N50\nX20\nN50: M30");
+    let said = Bench::new()
+        .passing_branches()
+        .said("G310 X10 $GOTO N50\nX20\nN50: M30");
     assert_eq!(said, "");
     // Without a probe the jump is one.
     let (x, ..) = left(
-        &Bench::new(),
+        &Bench::new().passing_branches(),
         "G1 X10 F100 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30",
     );
     assert_eq!(x, State::Active);
     // Where the axis stopped, only the probe knows.
-    let stands = Bench::new().positions("G90 G1 X1 F100\nG310 X10\nM30");
+    let stands = Bench::new()
+        .passing_branches()
+        .positions("G90 G1 X1 F100\nG310 X10\nM30");
     assert!(
         stands.lines().nth(1).is_some_and(|row| row.contains("X:?")),
         "{stands}"
@@ -217,7 +231,7 @@ fn a_jump_beside_a_probe_may_be_taken() {
 fn an_unknown_jump_is_no_all_clear() {
     // R2.52 R2.91
     let program = "$IF V.E.A == 1 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30";
-    let said = Bench::new().said(program);
+    let said = Bench::new().passing_branches().said(program);
     assert!(!said.contains("assumes"), "{said}");
     assert!(
         said.contains("FC902 1:1 whether this jump is taken depends on `V.E.A`"),
@@ -239,12 +253,15 @@ fn written_machine_data_transfers_the_list_again() {
         "#MACHINE DATA [AX=X AXPARAM \"lr_param.frict_comp 0\"]",
     ] {
         let program = format!("{write}\nM30");
-        let (x, y, said) = left(&Bench::new(), &program);
+        let (x, y, said) = left(&Bench::new().passing_branches(), &program);
         assert_eq!((x, y), (State::Unknown, State::Active), "{write}\n{said}");
         assert!(said.contains("FC314 1:1"), "{write}\n{said}");
     }
     // By the number of the axis, which only lists give.
-    let (x, y, said) = left(&Bench::new(), "#MACHINE DATA [AXNR=1 P-AXIS-00522=0]\nM30");
+    let (x, y, said) = left(
+        &Bench::new().passing_branches(),
+        "#MACHINE DATA [AXNR=1 P-AXIS-00522=0]\nM30",
+    );
     assert_eq!((x, y), (State::Unknown, State::Unknown), "{said}");
     let numbered = crate::support::MACHINE.replacen("name = \"X\"", "name = \"X\"\nnumber = 7", 1);
     let numbered = numbered.replacen("name = \"Y\"", "name = \"Y\"\nnumber = 8", 1);
@@ -253,14 +270,17 @@ fn written_machine_data_transfers_the_list_again() {
     assert_eq!((x, y), (State::Unknown, State::Active), "{said}");
     // Any other parameter takes away what NC commands set, and only that.
     let other = "#MACHINE DATA [AX=X kenngr.swe_pos=100]";
-    let (x, _, said) = left(&Bench::new(), &format!("{other}\nM30"));
+    let (x, _, said) = left(&Bench::new().passing_branches(), &format!("{other}\nM30"));
     assert_eq!(x, State::Active, "{said}");
     assert!(!said.contains("FC314"), "{said}");
-    let (x, _, said) = left(&Bench::new(), &format!("X[COMP OFF FRICT]\n{other}\nM30"));
+    let (x, _, said) = left(
+        &Bench::new().passing_branches(),
+        &format!("X[COMP OFF FRICT]\n{other}\nM30"),
+    );
     assert_eq!(x, State::Unknown, "{said}");
     assert!(said.contains("FC314 2:1"), "{said}");
     let (x, _, said) = left(
-        &Bench::new(),
+        &Bench::new().passing_branches(),
         &format!("$IF V.E.A==1\n{other}\n$ENDIF\nM30"),
     );
     assert_eq!(x, State::Unknown, "{said}");
@@ -270,7 +290,7 @@ fn written_machine_data_transfers_the_list_again() {
 fn an_unknown_value_is_spoken_of_once_with_its_root() {
     // R2.95
     let program = "$IF V.E.A == 1\nP1 = 3\n$ELSE\nP1 = 4\n$ENDIF\n$IF P1 == 3\nX[COMP OFF FRICT]\n$ENDIF\n$IF P1 == 4\nX[COMP OFF FRICT]\n$ENDIF\nM30";
-    let said = Bench::new().said(program);
+    let said = Bench::new().passing_branches().said(program);
     assert_eq!(count(&said, "FC901"), 1, "{said}");
     assert!(
         said.contains("FC901 6:1 this control block depends on `V.E.A`"),
@@ -284,9 +304,14 @@ fn an_unknown_value_is_spoken_of_once_with_its_root() {
     // Another axis is another thing to say.
     let program =
         "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.A == 2\nY[COMP OFF FRICT]\n$ENDIF\nM30";
-    assert_eq!(count(&Bench::new().said(program), "FC901"), 2);
+    assert_eq!(
+        count(&Bench::new().passing_branches().said(program), "FC901"),
+        2
+    );
     // Many equal calls.
-    let said = Bench::new().said("L V.E.NAME\nL V.E.NAME\nX[COMP ON FRICT]\nL V.E.NAME\nM30");
+    let said = Bench::new()
+        .passing_branches()
+        .said("L V.E.NAME\nL V.E.NAME\nX[COMP ON FRICT]\nL V.E.NAME\nM30");
     assert_eq!(count(&said, "FC902"), 1, "{said}");
     let external = format!(
         "[machine]\nexternal = [\"*.ecy\"]\n{}",
@@ -303,7 +328,7 @@ fn an_unknown_value_is_spoken_of_once_with_its_root() {
 fn a_missing_program_is_the_root_of_what_it_would_have_written() {
     // R2.95
     let program = "L meas.ecy\n$IF V.P.RESULT > 3\nX[COMP OFF FRICT]\n$ENDIF\n$IF P10 > 3\nG0 X10\n$ENDIF\nM30";
-    let said = Bench::new().check_all().said(program);
+    let said = Bench::new().passing_branches().check_all().said(program);
     assert_eq!(count(&said, "FC320"), 1, "{said}");
     assert_eq!(count(&said, "FC311"), 0, "{said}");
     assert_eq!(count(&said, "FC901"), 1, "{said}");
@@ -329,11 +354,19 @@ fn nothing_is_said_where_nothing_can_differ() {
         "$IF V.E.A == 1 $GOTO N50\nX10\nN50: M30",
         "%L S\nX1\nM17\n%MAIN\n$IF V.E.A == 1\nLL S\n$ENDIF\nM30",
     ] {
-        assert_eq!(Bench::new().said(program), "", "{program}");
+        assert_eq!(
+            Bench::new().passing_branches().said(program),
+            "",
+            "{program}"
+        );
         // An `allow` that is unused because of this stays.
         let allowed = program.replacen("V.E.A == 1", "V.E.A == 1 ; frictcomp: allow FC901", 1);
         if !program.contains("$GOTO") {
-            assert_eq!(Bench::new().said(&allowed), "", "{allowed}");
+            assert_eq!(
+                Bench::new().passing_branches().said(&allowed),
+                "",
+                "{allowed}"
+            );
         }
     }
     for program in [
@@ -345,7 +378,7 @@ fn nothing_is_said_where_nothing_can_differ() {
         "$IF V.E.A == 1\nM30\n$ENDIF\nX1\nM30",
         "%L S\nX[COMP OFF FRICT]\nM17\n%MAIN\n$IF V.E.A == 1\nLL S\n$ENDIF\nM30",
     ] {
-        let said = Bench::new().said(program);
+        let said = Bench::new().passing_branches().said(program);
         assert!(said.contains("FC901"), "{program}\n{said}");
     }
 }

@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use crate::support::{Bench, MACHINE};
 
 fn run(program: &str) -> String {
-    Bench::new().run(&[program])
+    Bench::new().passing_branches().run(&[program])
 }
 
 #[test]
@@ -66,11 +66,13 @@ fn an_array_of_unknown_size_has_unknown_elements() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
-      2 line 4 - X:active>unknown
-        FC901 4:1-18
-      3 line 7 -
-        FC401 4:1-18
-      end 3 M30 X:unknown Y:active Z:unconfigured B:ineffective
+      2 line 4 -
+      3 line 5 - X:active>inactive
+      4 line 6 -
+        FC901 4:5-18
+      5 line 7 -
+        FC401 5:1-18
+      end 5 M30 X:unknown Y:active Z:unconfigured B:ineffective
     ");
     // A size that no array has is refused where it stands.
     for size in ["-1", "99999999999", "P9"] {
@@ -102,7 +104,7 @@ fn unknown_branches_are_not_executed() {
       12 line 19 -
       end 12 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
-    assert_snapshot!(Bench::new().positions(program), @"
+    assert_snapshot!(Bench::new().passing_branches().positions(program), @"
     P1=1 P2=1 X:? Y:? Z:? B:?
     X1 Y1 Z1 X:1 Y:1 Z:1 B:?
     $IF V.E.A > 1 X:? Y:1 Z:1 B:?
@@ -168,6 +170,7 @@ fn unknown_regions_reach_through_calls() {
     // R2.51: calls by name, local calls of called files, cycles, configured words, macros.
     let machine = format!("[machine.programs]\nG80 = \"g80.nc\"\n{MACHINE}");
     let bench = Bench::on(&machine)
+        .passing_branches()
         .file(
             "sub.nc",
             "%L IN\nX[COMP OFF FRICT]\nM17\n%SUB\nLL IN\nL sub.nc\nM17",
@@ -208,7 +211,7 @@ fn unknown_regions_reach_through_calls() {
 fn unknown_modal_words() {
     // R2.51
     let program = "X1 Y1\n$IF V.E.A\nG91\n#TRAFO ON\n$ENDIF\nX1\nG90 X1\n$IF V.E.A\n#TRAFO OFF\n$ENDIF\n#TRAFO OFF\n$IF V.E.A\nG92 X5\n$ENDIF\nX5\nG92 X0\nX6\n$IF V.E.A\n#VAR\nV.L.N = 1\n#ENDVAR\n$ENDIF\nYV.L.N\nM30";
-    assert_snapshot!(Bench::new().positions(program), @"
+    assert_snapshot!(Bench::new().passing_branches().positions(program), @"
     X1 Y1 X:1 Y:1 Z:? B:?
     $IF V.E.A X:?* Y:?* Z:?* B:?*
     X1 X:?* Y:?* Z:?* B:?*
@@ -265,7 +268,7 @@ fn values_that_the_user_gives_are_known() {
 
 /// The state of X and Y after a program, as far as it is not in its start-up state.
 fn at_the_end(files: &[&str]) -> [bool; 2] {
-    let said = Bench::new().run(files);
+    let said = Bench::new().passing_branches().run(files);
     ["X", "Y"].map(|axis| said.contains(&format!("{axis}:active>unknown")))
 }
 
@@ -433,7 +436,7 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
             false,
         ),
     ] {
-        let bench = Bench::new().keep_going();
+        let bench = Bench::new().passing_branches().keep_going();
         let said = bench.run(&[&program]);
         let left = if unknown {
             "M30 X:unknown"
@@ -449,11 +452,21 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
     }
     // What is as the command wants it stays known either way.
     let program = format!("$IF V.E.A\n{enable}$ENDIF\nX[COMP ON FRICT]\nM30");
-    assert!(Bench::new().run(&[&program]).contains("M30 X:active"));
+    assert!(
+        Bench::new()
+            .passing_branches()
+            .run(&[&program])
+            .contains("M30 X:active")
+    );
     // The next program finds the groups as little known.
     let next = format!("#ENABLE AX LINK [1]\n{off}M30");
     let first = "$IF V.E.A\n#SET AX LINK [1, Y=X]\n$ENDIF\nM30";
-    assert!(Bench::new().run(&[first, &next]).contains("M30 X:unknown"));
+    assert!(
+        Bench::new()
+            .passing_branches()
+            .run(&[first, &next])
+            .contains("M30 X:unknown")
+    );
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn left(bench: &Bench, program: &str) -> (State, String) {
 fn what_another_way_leaves_otherwise_is_unknown() {
     // R2.51 R2.52
     for (program, expected) in PROGRAMS {
-        let bench = || Bench::new().keep_going();
+        let bench = || Bench::new().passing_branches().keep_going();
         for handed in [Handed::Whole, Handed::LineByLine] {
             let (claimed, said) = left(&bench().handed(handed), program);
             assert_eq!(claimed, expected, "{program}\n{said}");

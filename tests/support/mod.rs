@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind};
-use frictcomp::interpreter::{Event, Interpreter, Options, PositionFrame, Value};
+use frictcomp::interpreter::{Branches, Event, Interpreter, Options, PositionFrame, Value};
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::{SourceFile, TextLines};
@@ -64,6 +64,12 @@ impl Bench {
 
     pub(crate) fn handed(mut self, handed: Handed) -> Self {
         self.handed = handed;
+        self
+    }
+
+    /// Where a condition is unknown, no branch is executed (R2.51).
+    pub(crate) fn passing_branches(mut self) -> Self {
+        self.options.run.branches = Branches::Passed;
         self
     }
 
@@ -184,7 +190,8 @@ impl Bench {
     pub(crate) fn positions(&self, program: &str) -> String {
         let compensation = self.machine.compensation();
         let machine = std::sync::Arc::new(self.machine.clone());
-        let mut run = Interpreter::new(machine.clone(), compensation, Options::default());
+        let options = Options::default().with_branches(self.options.run.branches);
+        let mut run = Interpreter::new(machine.clone(), compensation, options);
         for (name, setting) in &self.options.settings {
             run.set(name, setting);
         }
@@ -352,6 +359,7 @@ impl Sink for Transcript {
                 writeln!(self.text, "  end {} {} {states}", end.seq, end.by.as_str())
                     .expect("text");
             }
+            Record::Join(_) => {}
             Record::Summary(summary) => {
                 if !summary.opaque.is_empty() {
                     writeln!(self.text, "opaque {:?}", summary.opaque).expect("text");

@@ -98,6 +98,7 @@ impl Sink for Timeline {
                     show_progress(blocks, line);
                 }
             }
+            Record::Join(ref join) => self.rows.see(join.state),
             Record::End(ref end) => {
                 for note in end.notes {
                     self.say(note.seq, &note.diagnostic);

@@ -41,9 +41,10 @@ impl Sink for Quiet {
             Record::Machine(said) => self.say([*said]),
             Record::Block(row) => self.say(row.diagnostics),
             Record::End(end) => self.say(end.notes.iter().map(|note| &note.diagnostic)),
-            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {
-                ControlFlow::Continue(())
-            }
+            Record::Session { .. }
+            | Record::Program { .. }
+            | Record::Join(_)
+            | Record::Summary(_) => ControlFlow::Continue(()),
         }
     }
 }

@@ -16,7 +16,7 @@ use frictcomp::audit::{
     Archive, Auditor, MendedEnd, Mending, Missed, ProgramAudit, Sequence, Step, insertions,
 };
 use frictcomp::comp::{Kind, KindSet};
-use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
+use frictcomp::interpreter::{Branches, Event, Interpreter, Observer, Options};
 use frictcomp::text::SourceFile;
 
 /// Blocks between two looks at the clock.
@@ -38,7 +38,8 @@ impl AuditOptions {
     /// Programs that run in this way, on all processors, with an eye on friction compensation.
     pub fn new(run: Options) -> Self {
         Self {
-            run,
+            // Its own runs tell the states apart that programs find.
+            run: run.with_branches(Branches::Passed),
             kinds: KindSet::of(Kind::Frict),
             workers: processors(),
         }

@@ -166,7 +166,7 @@ impl<W: Write> Sink for Csv<W> {
                 self.end(end);
                 return self.output.flush();
             }
-            Record::Machine(_) | Record::Program { .. } | Record::Summary(_) => {}
+            Record::Machine(_) | Record::Program { .. } | Record::Join(_) | Record::Summary(_) => {}
         }
         self.output.settle()
     }

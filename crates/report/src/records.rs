@@ -2,7 +2,9 @@
 
 use frictcomp::comp::{Change, Kind, KindSet};
 use frictcomp::diagnostic::{Diagnostic, Fix, Severity};
-use frictcomp::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL};
+use frictcomp::timeline::{
+    End, Join, Possible, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL,
+};
 
 use super::strings::{integer, optional, separated, string};
 use super::view::View;
@@ -75,6 +77,7 @@ impl Encoder {
                 self.close(out, state);
             }
             Record::Block(ref row) => self.block(out, row),
+            Record::Join(ref join) => self.join(out, join),
             Record::End(ref end) => self.end(out, end),
             Record::Summary(summary) => self.summary(out, summary),
         }
@@ -104,6 +107,10 @@ impl Encoder {
         }
         out.extend_from_slice(b",\"text\":");
         string(out, row.text);
+        if let Some(branch) = row.branch {
+            out.extend_from_slice(b",\"branch\":");
+            let _ = serde_json::to_writer(&mut *out, branch);
+        }
         self.changes(out, row.changes, row.state);
         self.close(out, row.state);
         let place = Place {
@@ -113,6 +120,19 @@ impl Encoder {
         for diagnostic in row.diagnostics {
             self.diagnostic(out, diagnostic, Some(place));
         }
+    }
+
+    fn join(&mut self, out: &mut Vec<u8>, join: &Join<'_>) {
+        self.open(out, "join");
+        out.extend_from_slice(b",\"program\":");
+        integer(out, join.program);
+        out.extend_from_slice(b",\"seq\":");
+        integer(out, join.seq);
+        out.extend_from_slice(b",\"file\":");
+        string(out, join.file);
+        out.extend_from_slice(b",\"line\":");
+        integer(out, join.line);
+        self.close(out, join.state);
     }
 
     fn end(&mut self, out: &mut Vec<u8>, end: &End<'_>) {
@@ -305,8 +325,9 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
         string(out, state.state(axis, Kind::Frict).as_str());
     });
     out.push(b'}');
+    let possible = Possible::of(state, view.kinds);
     if view.kinds == KindSet::of(Kind::Frict) {
-        return;
+        return append_possible(out, possible);
     }
     out.extend_from_slice(b",\"compensation\":{");
     separated(out, state.axes(), |out, (axis, name)| {
@@ -320,6 +341,15 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
         out.push(b'}');
     });
     out.push(b'}');
+    append_possible(out, possible);
+}
+
+/// Appends `possible` where a state is unknown because ways differ (R14.2).
+fn append_possible(out: &mut Vec<u8>, possible: Possible<'_>) {
+    if !possible.is_empty() {
+        out.extend_from_slice(b",\"possible\":");
+        let _ = serde_json::to_writer(out, &possible);
+    }
 }
 
 /// Axis → feed moves while it was not active (R13.12).

@@ -72,7 +72,7 @@ impl Interpreter {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
                 let name = unquoted(span.of(at.text));
-                self.state.memory.macro_or_text(name)
+                self.state.control.memory.macro_or_text(name)
             }
             CallName::Variable(place) => self.value(Operand::Expression(place), at)?,
         })

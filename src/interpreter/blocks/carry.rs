@@ -27,13 +27,13 @@ impl Interpreter {
         let keyword = bracket.keyword.to_ascii_uppercase();
         let body = span.of(at.text).to_ascii_uppercase();
         if ends_following(&keyword) {
-            self.state.couplings.unfollow(&gear_of(axis));
+            self.state.control.couplings.unfollow(&gear_of(axis));
         }
         let Some(row) = moving::of_bracket(&keyword, &body) else {
             return;
         };
         self.see(axis);
-        self.state.modal.forget_position(axis);
+        self.state.control.modal.forget_position(axis);
         if row.moves == Moves::Follower {
             self.gear_in(axis, &body);
             return;
@@ -81,16 +81,16 @@ impl Interpreter {
         let value = value.map(|text| text.trim_start_matches([' ', '\t', '=']));
         let value = value.and_then(|text| text.split([' ', '\t', ']']).next());
         let angle = value.and_then(|text| self.number_in(text, at));
-        self.state.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
+        self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
     }
 
     /// Notes what moves along with what the block moves.
     #[inline]
     pub(in crate::interpreter) fn carry_along(&mut self, words: AxisWords) {
-        let carries = self.state.couplings.carry()
-            || !self.state.modal.transformed.is_empty()
+        let carries = self.state.control.couplings.carry()
+            || !self.state.control.modal.transformed.is_empty()
             || self.work.word_row.is_some();
-        if carries && self.state.described.is_none() {
+        if carries && self.state.control.described.is_none() {
             self.carry(words);
         }
     }
@@ -161,7 +161,7 @@ impl Interpreter {
     }
 
     fn is_skewed(&self) -> bool {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         modal.skewed && !modal.transformed.contains("#MCS")
     }
 
@@ -176,7 +176,7 @@ impl Interpreter {
             .collect();
         let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
         let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
-        for name in &self.state.modal.transformed {
+        for name in &self.state.control.modal.transformed {
             let Some((axes, certainty)) = self.frame(name) else {
                 continue;
             };
@@ -207,7 +207,7 @@ impl Interpreter {
 
     /// Axes that follow what the block moves.
     pub(in crate::interpreter) fn move_followers(&mut self, words: AxisWords) {
-        if !self.state.couplings.carry() {
+        if !self.state.control.couplings.carry() {
             return;
         }
         let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
@@ -227,7 +227,7 @@ impl Interpreter {
             return;
         }
         let own = moving.clone();
-        let links = self.state.couplings.links();
+        let links = self.state.control.couplings.links();
         // R2.60: groups may be many.
         self.state.effort.charge(ITEM * links.len());
         // Each round settles an axis more, or is the last.

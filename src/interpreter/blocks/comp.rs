@@ -28,13 +28,18 @@ impl Interpreter {
         };
         let result = axis.and_then(|axis| {
             self.see(axis);
+            let kinds = command.selection.kinds();
+            self.state.control.possible.replace(axis, kinds);
             self.state
+                .control
                 .compensation
                 .switch(axis, command.selection, &mut self.work.changes)
                 .map(|()| axis)
         });
         match &result {
             Ok(axis) => {
+                let kinds = command.selection.kinds();
+                self.state.control.untouched.switch(*axis, kinds);
                 self.warn_coupled(command, *axis, at);
                 self.warn_transformed(command, at);
                 self.warn_opposite(command, *axis, at);
@@ -55,7 +60,7 @@ impl Interpreter {
 
     /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
     fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
-        if self.state.compensation.coupling(axis) != Coupling::Perhaps {
+        if self.state.control.compensation.coupling(axis) != Coupling::Perhaps {
             return;
         }
         let name = &command.axis;
@@ -72,7 +77,7 @@ impl Interpreter {
     /// FC411: the control may refuse COMP while a transformation is active; which ones is not
     /// documented (R1.42).
     fn warn_transformed(&mut self, command: &CompCommand, at: &At<'_>) {
-        let active = self.state.modal.transformed.iter();
+        let active = self.state.control.modal.transformed.iter();
         let active: Vec<String> = active
             .filter(|name| chain::is_transformation(name))
             .map(|name| format!("`{name}`"))
@@ -157,7 +162,9 @@ impl Interpreter {
     fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
         let selects =
             matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
-        if !selects || self.state.compensation.state(axis, Kind::Frict) != State::Ineffective {
+        if !selects
+            || self.state.control.compensation.state(axis, Kind::Frict) != State::Ineffective
+        {
             return;
         }
         let name = &command.axis;

@@ -9,6 +9,14 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
 
 impl Interpreter {
+    /// Something is declared or deleted.
+    fn write_anything(&mut self) {
+        let seq = self.state.seq;
+        let (control, track) = (&mut self.state.control, &mut self.state.track);
+        track.ways.write_anything(seq);
+        track.write_anything(&mut control.memory);
+    }
+
     pub(in crate::interpreter) fn delete(
         &mut self,
         hash: &Hash,
@@ -20,12 +28,12 @@ impl Interpreter {
             };
             match self.target_place(place, at)? {
                 Place::Parameter(_, index) => {
-                    self.state.ways.write_anything(self.state.seq);
-                    self.state.memory.delete_parameter(index);
+                    self.write_anything();
+                    self.state.control.memory.delete_parameter(index);
                 }
                 Place::Variable(name) => {
-                    self.state.ways.write_anything(self.state.seq);
-                    self.state.memory.delete(&name);
+                    self.write_anything();
+                    self.state.control.memory.delete(&name);
                 }
                 unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
                     self.write(unknown, Value::Number(0.0));
@@ -42,7 +50,7 @@ impl Interpreter {
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
         self.journal.begin_anew();
-        self.state.ways.write_anything(self.state.seq);
+        self.write_anything();
         for declaration in declarations {
             let mut stack = std::mem::take(&mut self.work.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
@@ -61,7 +69,7 @@ impl Interpreter {
                 Value::Number(0.0)
             };
             self.work.wrote = true;
-            let memory = &mut self.state.memory;
+            let memory = &mut self.state.control.memory;
             if dimensions.is_empty() {
                 let value = values.into_iter().next().unwrap_or(default);
                 match name.strip_prefix('P').map(str::parse) {

@@ -9,10 +9,12 @@ use std::sync::Arc;
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::Step;
+use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::value::Value;
@@ -42,6 +44,9 @@ impl Interpreter {
         }
         let value = self.value(*condition, at)?;
         if let Value::Unknown(cause) = &value {
+            if self.part_at_jump(*condition, cause, at) {
+                return Ok(Some(false));
+            }
             self.leave_jump(cause, flow_span(at.block), at);
             return Ok(Some(false));
         }
@@ -58,7 +63,7 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
-        let Some(frame) = self.state.frames.running_mut() else {
+        let Some(frame) = self.state.control.frames.running_mut() else {
             return Ok(None);
         };
         let entry = frame.next - 1;
@@ -91,6 +96,9 @@ impl Interpreter {
                     self.write(place, value.clone());
                 }
                 if let Value::Unknown(cause) = &value {
+                    if self.part_at_cases(*operand, cause, span, at) {
+                        return Ok(None);
+                    }
                     self.skip_unknown(entry..links.end, cause, span, at)
                 } else {
                     self.seek(Seeking::Case(value));
@@ -138,6 +146,10 @@ impl Interpreter {
                 let value = self.value(*condition, at)?;
                 match (&value, value.truth()) {
                     (Value::Unknown(cause), _) => {
+                        let goals = [links.opener, entry + 1].map(Goal::block);
+                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
+                            return Ok(None);
+                        }
                         self.skip_unknown(links.opener..entry, cause, span, at)
                     }
                     (_, Some(true)) => Some(Step::Jump(links.opener)),
@@ -148,6 +160,10 @@ impl Interpreter {
                 let value = self.value(*condition, at)?;
                 match (&value, value.truth()) {
                     (Value::Unknown(cause), _) => {
+                        let goals = [entry + 1, links.opener].map(Goal::block);
+                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
+                            return Ok(None);
+                        }
                         self.skip_unknown(links.opener..entry, cause, span, at)
                     }
                     (_, Some(false)) => Some(Step::Jump(links.opener)),
@@ -162,7 +178,7 @@ impl Interpreter {
     }
 
     fn seek(&mut self, seeking: Seeking) {
-        if let Some(frame) = self.state.frames.running_mut() {
+        if let Some(frame) = self.state.control.frames.running_mut() {
             frame.seeking = Some(seeking);
         }
     }
@@ -176,7 +192,15 @@ impl Interpreter {
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => self.skip_unknown(self.current_block(), cause, span, at),
+            (Value::Unknown(cause), _) => {
+                let whole = self.current_block();
+                let mut goals = [whole.start + 1, next].map(Goal::block);
+                goals[1].seeking = (next != whole.end).then_some(Seeking::Condition);
+                if self.part_at(condition, cause, (ConditionKind::Branch, span), goals, at) {
+                    return Ok(None);
+                }
+                self.skip_unknown(whole, cause, span, at)
+            }
             (_, Some(true)) => None,
             (_, Some(false)) => {
                 self.seek(Seeking::Condition);
@@ -195,7 +219,13 @@ impl Interpreter {
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => self.skip_unknown(region, cause, span, at),
+            (Value::Unknown(cause), _) => {
+                let goals = [region.start + 1, region.end + 1].map(Goal::block);
+                if self.part_at(condition, cause, (ConditionKind::Loop, span), goals, at) {
+                    return Ok(None);
+                }
+                self.skip_unknown(region, cause, span, at)
+            }
             (_, Some(true)) => None,
             (_, Some(false)) => Some(Step::Jump(region.end + 1)),
             (_, None) => return Err(no_condition(span)),
@@ -213,11 +243,15 @@ impl Interpreter {
         let counter = &count.counter;
         let end = self.value(count.end, at)?;
         let step = self.value(count.step, at)?;
-        let region_end = self.state.frames.running().map_or(opener, |frame| {
+        let region_end = self.state.control.frames.running().map_or(opener, |frame| {
             self.programs.index(frame.unit).links(opener).end
         });
         for value in [counter, &end, &step] {
             if let Value::Unknown(cause) = value {
+                let goals = [opener + 1, region_end + 1].map(Goal::block);
+                if self.part_at_count(cause, span, goals, at) {
+                    return Ok(None);
+                }
                 return Ok(self.skip_unknown(opener..region_end, cause, span, at));
             }
         }
@@ -245,7 +279,7 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
-        let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Ok(None);
         };
         let parsed = self.programs.parsed(unit, opener);
@@ -312,7 +346,7 @@ impl Interpreter {
                 return Ok(None);
             }
         };
-        let Some(frame) = self.state.frames.running() else {
+        let Some(frame) = self.state.control.frames.running() else {
             return Ok(None);
         };
         let found = self
@@ -372,26 +406,12 @@ impl Interpreter {
                 return None;
             }
             Flow::EndFor | Flow::EndDo(_) | Flow::EndWhile | Flow::Until(_) => {
-                let frame = self.state.frames.running()?;
+                let frame = self.state.control.frames.running()?;
                 self.programs.index(frame.unit).links(whole.start).opener..whole.start
             }
             _ => whole,
         };
         self.skip_unknown(region, cause, span, at)
-    }
-
-    /// Where a jump goes that is not taken.
-    fn exit(&mut self, target: &JumpTarget, at: &At<'_>) -> Result<Exit, Box<Fault>> {
-        let value = match target {
-            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
-            JumpTarget::Number(operand) => self.value(*operand, at)?,
-            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
-        };
-        Ok(match value {
-            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
-            Value::Text(name) => Exit::label(&name),
-            Value::Unknown(_) => Exit::AnyLabel,
-        })
     }
 
     /// FC902: a jump that is not known offline (R2.91).

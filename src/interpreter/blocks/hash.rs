@@ -58,9 +58,9 @@ impl Interpreter {
             "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling(rest, hash.span, at),
             "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
             "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
-            "#DISABLE MODAL CYCLE" => self.state.cycles = ModalCycles::default(),
+            "#DISABLE MODAL CYCLE" => self.state.control.cycles = ModalCycles::default(),
             "#INIT MACRO TAB" => {
-                self.state.memory.clear_macros();
+                self.state.control.memory.clear_macros();
                 self.define_machine_macros();
             }
             "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
@@ -68,8 +68,11 @@ impl Interpreter {
             name if is_file_name(name) => self.name_programs(hash, at),
             opener if description_end(opener).is_some() => self.describe(hash, at),
             end if self.ends_description(end) => {
-                if let Some(description) = self.state.described.take() {
-                    self.state.modal.end_description(&description.before);
+                if let Some(description) = self.state.control.described.take() {
+                    self.state
+                        .control
+                        .modal
+                        .end_description(&description.before);
                 }
             }
             "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
@@ -77,7 +80,7 @@ impl Interpreter {
             "#ERROR" => self.report_error(hash, at, intent),
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
-                self.state.modal.hash(name);
+                self.state.control.modal.hash(name);
                 self.rotate(name, rest, at);
                 self.couple_by(name, rest);
                 self.command_motion(name, rest, hash.span);
@@ -104,7 +107,7 @@ impl Interpreter {
     fn touch(&mut self, hash: &Hash, at: &At<'_>) {
         match hash_command(&hash.name) {
             Some(Touches::Motion) => {
-                self.state.modal.forget_positions();
+                self.state.control.modal.forget_positions();
                 self.perhaps_move_all();
             }
             Some(Touches::Friction) => {
@@ -211,7 +214,7 @@ impl Interpreter {
 
     /// The cycle that runs keeps what it did to G functions and feed.
     fn retain_cycle_changes(&mut self) {
-        if let Some(frame) = self.state.frames.cycle_mut() {
+        if let Some(frame) = self.state.control.frames.cycle_mut() {
             frame.restores = None;
         }
     }

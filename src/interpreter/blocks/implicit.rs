@@ -30,7 +30,10 @@ impl Interpreter {
                 Some(number) if !chain::is_named_m(number) => {
                     let called = self.call_word(word, span, at, intent);
                     if !called && !self.machine.harmless.has_function(letter, number) {
-                        self.state.modal.note_transformed(&format!("M{number}"));
+                        self.state
+                            .control
+                            .modal
+                            .note_transformed(&format!("M{number}"));
                     }
                     return;
                 }
@@ -87,7 +90,10 @@ impl Interpreter {
             self.warn_unknown_g(number, span, at);
             self.pass_over_implicit(number);
         } else if !chain::is_named_g(number) {
-            self.state.modal.note_transformed(&format!("G{number}"));
+            self.state
+                .control
+                .modal
+                .note_transformed(&format!("G{number}"));
         }
         false
     }
@@ -167,14 +173,14 @@ impl Interpreter {
                 FileName::Written(name) => Value::Text(name.into()),
                 FileName::Elsewhere(name) => self.named_elsewhere(name),
             };
-            self.state.named.insert(word, value);
+            self.state.control.named.insert(word, value);
             self.work.wrote = true;
         }
     }
 
     /// The text of a variable, or that it is not known.
     fn named_elsewhere(&mut self, name: &str) -> Value {
-        match self.state.memory.variable(name) {
+        match self.state.control.memory.variable(name) {
             Some(value @ Value::Text(_)) => value,
             _ => Value::Unknown(name.into()),
         }

@@ -175,7 +175,7 @@ impl Interpreter {
             }
             Item::MacroDefinition(name, code) => {
                 let (name, code) = (unquoted(name.of(at.text)), unquoted(code.of(at.text)));
-                self.state.memory.define_macro(name, code);
+                self.state.control.memory.define_macro(name, code);
                 self.work.wrote = true;
                 Ok(())
             }
@@ -203,7 +203,9 @@ impl Interpreter {
                     return Ok(());
                 }
                 if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(intent, at) {
-                    self.leave_jump(&PROBE.into(), *span, at);
+                    if !self.part_at_probe(at) {
+                        self.leave_jump(&PROBE.into(), *span, at);
+                    }
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);
@@ -242,7 +244,7 @@ impl Interpreter {
     /// A macro in place of words: its code is a block of its own, executed here (R2.35).
     fn expand(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
         let name = unquoted(span.of(at.text));
-        let code = match self.state.memory.macro_code(name) {
+        let code = match self.state.control.memory.macro_code(name) {
             Some(Value::Text(code)) => Arc::clone(code),
             Some(Value::Unknown(cause)) => {
                 let cause = Arc::clone(cause);

@@ -9,6 +9,7 @@ pub(super) mod hash;
 pub(super) mod implicit;
 pub(super) mod items;
 pub(super) mod pace;
+pub(super) mod parting;
 pub(super) mod probing;
 pub(super) mod resolve;
 pub(super) mod sequence;

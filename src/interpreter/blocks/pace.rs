@@ -33,7 +33,7 @@ impl Interpreter {
             let geometry = self.geometry();
             geometry.simplified = geometry.simplified.union(what.into());
         } else {
-            self.state.modal.simplify(what, holds);
+            self.state.control.modal.simplify(what, holds);
         }
     }
 
@@ -52,7 +52,7 @@ impl Interpreter {
         let value = span.of(at.text).split_once('=').map(|(_, value)| value);
         let percent = value.and_then(|value| self.number_in(value.trim(), at));
         let weight = percent.filter(|it| *it > 0.0).map(|it| it / 100.0);
-        self.state.modal.pace.weigh_rapid(weight);
+        self.state.control.modal.pace.weigh_rapid(weight);
     }
 
     /// What a `#` command says about the velocity of paths.
@@ -60,14 +60,14 @@ impl Interpreter {
         match name {
             "#OVERRIDE" => {
                 let change = self.factors_in(rest, at);
-                self.state.modal.pace.override_path(change);
+                self.state.control.modal.pace.override_path(change);
             }
-            "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
+            "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
             _ => {
                 if let Some(command) = ContouringCommand::of(name) {
-                    let before = *self.state.modal.contouring_of(command);
+                    let before = *self.state.control.modal.contouring_of(command);
                     let next = command.parameters(before, rest, |value| self.number_in(value, at));
-                    *self.state.modal.contouring_of(command) = next;
+                    *self.state.control.modal.contouring_of(command) = next;
                 }
                 if let Some((what, holds)) = simplified::of_command(name) {
                     self.simplify(what, holds);
@@ -92,7 +92,7 @@ impl Interpreter {
                 self.spindle_words(body, at);
             } else if self.machine.channel.main_spindle.is_empty() {
                 // It may be the main spindle under its own name.
-                self.state.modal.pace.forget_spindle();
+                self.state.control.modal.pace.forget_spindle();
             }
             return;
         }
@@ -101,7 +101,7 @@ impl Interpreter {
         };
         if keyword.starts_with("OVERRIDE") {
             let change = self.factors_in(body, at);
-            self.state.modal.pace.override_axis(axis, change);
+            self.state.control.modal.pace.override_axis(axis, change);
         }
         let body = body.to_ascii_uppercase();
         if let Some(what) = simplified::of_bracket(&keyword, &body) {
@@ -115,11 +115,11 @@ impl Interpreter {
             let upper = word.to_ascii_uppercase();
             if upper.starts_with("REV") {
                 let speed = self.number_in(word[3..].trim_start_matches('='), at);
-                self.state.modal.pace.speed(speed);
+                self.state.control.modal.pace.speed(speed);
             } else if let Some(number) = upper.strip_prefix('M')
                 && let Ok(number) = number.parse()
             {
-                self.state.modal.pace.m(number);
+                self.state.control.modal.pace.m(number);
             }
         }
     }

@@ -49,13 +49,19 @@ impl Interpreter {
             self.pass_over_external(wanted, at);
             return None;
         }
-        let unit = self.state.frames.running().map_or(0, |frame| frame.unit);
+        let unit = self
+            .state
+            .control
+            .frames
+            .running()
+            .map_or(0, |frame| frame.unit);
         let caller = Caller {
             unit,
             file: at.file,
         };
         let here = self
             .state
+            .control
             .frames
             .program()
             .filter(|_| self.is_here(&wanted));
@@ -70,7 +76,7 @@ impl Interpreter {
             Err(fault) => {
                 let cause = program(&wanted.name);
                 self.enter_root(&cause, wanted.span, at);
-                self.state.memory.miss(&cause);
+                self.state.control.memory.miss(&cause);
                 self.work.diagnostics.push(at.diagnostic(*fault));
                 return None;
             }
@@ -78,7 +84,7 @@ impl Interpreter {
         let is_refused = !self.programs.index(found.unit).refused.is_empty();
         if is_refused && found.unit > 0 {
             // What is wrong with the file is said at the first call of it (R2.85).
-            if self.state.refused.insert(found.unit) {
+            if self.state.control.refused.insert(found.unit) {
                 let refused = &self.programs.index(found.unit).refused;
                 self.work.diagnostics.extend(refused.said.iter().cloned());
             }
@@ -87,13 +93,13 @@ impl Interpreter {
             }
         }
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.cycles = ModalCycles::of(Repeated {
+            self.state.control.cycles = ModalCycles::of(Repeated {
                 call: RepeatedCall::Program(found),
                 own: wanted.own.clone(),
                 after_motion_only,
             });
         }
-        let depth = self.state.frames.level() + 1;
+        let depth = self.state.control.frames.level() + 1;
         if depth > self.options.limits.calls {
             let fault = Fault::new(
                 Code::Fc911,
@@ -145,7 +151,7 @@ impl Interpreter {
             self.tell_once(&program(&name), "call", fault, at);
         }
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.cycles = ModalCycles::of(Repeated {
+            self.state.control.cycles = ModalCycles::of(Repeated {
                 call: RepeatedCall::External(name),
                 own: wanted.own,
                 after_motion_only,
@@ -162,7 +168,7 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        if self.state.cycles.is_empty() {
+        if self.state.control.cycles.is_empty() {
             return step;
         }
         let mut calls = match step {
@@ -173,7 +179,7 @@ impl Interpreter {
                 Vec::new()
             }
         };
-        for cycle in self.state.cycles.known().to_vec() {
+        for cycle in self.state.control.cycles.known().to_vec() {
             if moved || !cycle.after_motion_only {
                 calls.extend(self.repeat(cycle, &calls, at, finder));
             }
@@ -196,7 +202,7 @@ impl Interpreter {
                 return None;
             }
         };
-        let inside = self.state.frames.iter().any(|frame| {
+        let inside = self.state.control.frames.iter().any(|frame| {
             frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
         });
         if inside || calls.iter().any(|call| call.found == found) {
@@ -222,7 +228,7 @@ impl Interpreter {
     /// Whether a part is one of the program that is executed.
     pub(in crate::interpreter) fn is_here(&self, wanted: &Wanted) -> bool {
         let own_name = || {
-            let found = self.state.frames.program()?;
+            let found = self.state.control.frames.program()?;
             let index = self.programs.index(found.unit);
             index.sections[found.section].name.clone()
         };
@@ -242,8 +248,8 @@ impl Interpreter {
         let Some(part) = &wanted.part else {
             return Ok(None);
         };
-        let here = self.state.frames.program() == Some(found);
-        let call = self.state.frames.entry();
+        let here = self.state.control.frames.program() == Some(found);
+        let call = self.state.control.frames.entry();
         let end = self.programs.section(found).end;
         let first = self
             .programs
@@ -312,17 +318,17 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Step {
-        if self.state.ending.is_none() {
+        if self.state.control.ending.is_none() {
             self.meet_at_end(finder);
             if let Some(name) = self.machine.programs.end.clone() {
                 let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
-                self.state.frames.clear();
+                self.state.control.frames.clear();
                 if let Some(request) = self.resolve(wanted, at, finder) {
-                    self.state.ending = Some(by);
+                    self.state.control.ending = Some(by);
                     return Step::Call(vec![request]);
                 }
             }
         }
-        Step::End(self.state.ending.take().unwrap_or(by))
+        Step::End(self.state.control.ending.take().unwrap_or(by))
     }
 }

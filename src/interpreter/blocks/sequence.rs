@@ -98,7 +98,7 @@ impl Interpreter {
         at: &At<'_>,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let here = self.state.frames.level();
+        let here = self.state.control.frames.level();
         let level = match back.levels {
             Levels::One => here.saturating_sub(1),
             Levels::Main => 0,
@@ -137,7 +137,7 @@ impl Interpreter {
                     intent.step = Some(Step::ReturnTo(Destination { level, entry: None }));
                     return Ok(());
                 };
-                let frame = self.state.frames.at_level(level);
+                let frame = self.state.control.frames.at_level(level);
                 let program = frame.map_or(ProgramId::FIRST, Frame::program);
                 let found = self.programs.block_of(program, &name, &self.state.effort);
                 if found.is_none() {

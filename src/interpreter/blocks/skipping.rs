@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::cycles::RepeatedCall;
-use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Region;
@@ -32,20 +31,13 @@ impl Interpreter {
         self.open_undecided(&cause, Span::new(0, at.text.trim_end().len()), at);
         let region = self.forget_block(at, &cause);
         self.perhaps_repeat_cycles(&region, &cause);
-        let next = self.state.frames.running().map_or(0, |frame| frame.next);
+        let next = self
+            .state
+            .control
+            .frames
+            .running()
+            .map_or(0, |frame| frame.next);
         self.note_exits(&region, next.saturating_sub(1)..=next, &cause, None);
-    }
-
-    /// Takes a note of the level as of a value of the machine.
-    fn note_unknown(&mut self, cause: &str, at: &At<'_>) {
-        if self.options.notes == Notes::Taken {
-            let note = Note {
-                kind: NoteKind::Unknown,
-                name: cause.to_owned(),
-                place: at.place(Span::new(0, at.text.trim_end().len())),
-            };
-            self.work.notes.borrow_mut().push(note);
-        }
     }
 
     /// Says which COMP commands and values the control refuses if it executes the block.
@@ -65,13 +57,13 @@ impl Interpreter {
             Item::Comp(command) => Some(command),
             _ => None,
         });
-        let before = self.state.compensation.clone();
+        let before = self.state.control.compensation.clone();
         let (changes, outcomes) = (self.work.changes.len(), self.work.outcomes.len());
         let doubted = self.work.doubted.len();
         for command in commands {
             self.comp(command, at);
         }
-        self.state.compensation = before;
+        self.state.control.compensation = before;
         self.work.changes.truncate(changes);
         self.work.outcomes.truncate(outcomes);
         self.work.doubted.truncate(doubted);
@@ -79,7 +71,7 @@ impl Interpreter {
 
     /// A modal cycle is repeated after the block if the control executes it.
     fn perhaps_repeat_cycles(&mut self, region: &Region, cause: &Arc<str>) {
-        for cycle in self.state.cycles.known().to_vec() {
+        for cycle in self.state.control.cycles.known().to_vec() {
             if cycle.after_motion_only && !region.moves() {
                 continue;
             }

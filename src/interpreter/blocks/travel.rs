@@ -26,8 +26,8 @@ impl Interpreter {
         value: Option<f64>,
         span: Span,
     ) {
-        let metric = self.state.modal.is_known(Group::Unit);
-        let inch = self.state.modal.functions.inch;
+        let metric = self.state.control.modal.is_known(Group::Unit);
+        let inch = self.state.control.modal.functions.inch;
         let value = value.filter(|_| metric);
         let value = value.map(|value| if inch { value * 25.4 } else { value });
         let geometry = self.geometry();
@@ -42,7 +42,7 @@ impl Interpreter {
     /// round (R2.46). They end where they stand.
     #[inline]
     pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
-        let turns = matches!(self.state.modal.functions.motion, 2 | 3);
+        let turns = matches!(self.state.control.modal.functions.motion, 2 | 3);
         if (turns || self.work.geometry.is_some()) && words == AxisWords::Motion {
             self.move_around_in_plane(turns);
         }
@@ -53,7 +53,7 @@ impl Interpreter {
         let plane = letters.into_iter().flatten();
         let geometry = self.work.geometry.as_ref();
         let centred = geometry.is_some_and(|it| it.centre.iter().any(Option::is_some));
-        let is_circle = turns || !self.state.modal.is_known(Group::Motion);
+        let is_circle = turns || !self.state.control.modal.is_known(Group::Motion);
         let own = self.work.moved.len();
         let word = self.work.moved.iter();
         let word = word.filter(|word| letters.contains(&Some(word.axis)));
@@ -95,14 +95,14 @@ impl Interpreter {
         let index = index
             .and_then(rounded)
             .and_then(|index| u32::try_from(index).ok());
-        let value = index.and_then(|index| self.state.memory.parameter(index));
+        let value = index.and_then(|index| self.state.control.memory.parameter(index));
         let seconds = value.and_then(|value| value.number());
         self.geometry().dwell = Some(seconds);
     }
 
     /// The position of every axis, for a block that may move.
     pub(in crate::interpreter) fn stand(&self) -> Vec<Option<f64>> {
-        self.state.modal.positions().to_vec()
+        self.state.control.modal.positions().to_vec()
     }
 
     /// Makes the motion of the block, which started at `from`.
@@ -115,7 +115,7 @@ impl Interpreter {
         let geometry = self.work.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
             // The radius holds until another one is given (PM, radius programming).
-            self.state.modal.radius = radius;
+            self.state.control.modal.radius = radius;
         }
         let Some(from) = from else { return };
         let geometry = geometry.unwrap_or_default();
@@ -138,7 +138,7 @@ impl Interpreter {
             let by_axis = self.work.moved.first().map(|word| word.value);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
-        let circular = matches!(self.state.modal.functions.motion, 2 | 3);
+        let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let centred = geometry.centre.iter().any(Option::is_some);
         let moves = !self.work.moved.is_empty() || (circular && centred);
         let form = match words {
@@ -147,7 +147,7 @@ impl Interpreter {
             AxisWords::Homing => Form::Unknown("homing ends at a reference point of the machine"),
             AxisWords::Reference | AxisWords::Other => return None,
         };
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         Some(Motion::Travel(Travel {
             form,
             axes: self.work.moved.iter().map(|word| word.axis).collect(),
@@ -165,7 +165,7 @@ impl Interpreter {
     }
 
     fn form(&self, geometry: &Geometry, from: &[Option<f64>]) -> Form {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         if let Some(reason) = geometry.foreign {
             return Form::Unknown(reason);
         }
@@ -180,7 +180,7 @@ impl Interpreter {
     }
 
     fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> Form {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         let letters = [b'X', b'Y'].map(|letter| modal.main_axis(letter));
         let [Some(first), Some(second)] = letters else {
             return Form::Unknown("the active plane is not known");
@@ -216,7 +216,7 @@ impl Interpreter {
     /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
     /// program (PM/206537483). Only with G162 a word may be left out.
     fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         if !modal.is_known(Group::CircleCentre) {
             return None;
         }
@@ -234,7 +234,7 @@ impl Interpreter {
 
     /// What F, overrides and the spindle make of the velocity of the block.
     fn path_feed(&self, geometry: &Geometry) -> PathFeed {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         let haste = match modal.functions.motion {
             0 if modal.is_known(Group::Motion) => Haste::Rapid,
             _ => Haste::Feed,
@@ -275,7 +275,7 @@ impl Interpreter {
     /// What the overrides leave of the velocity; G166 suppresses those that are programmed
     /// (PM/206744331).
     fn override_share(&self, geometry: &Geometry, haste: Haste) -> Option<f64> {
-        let pace = &self.state.modal.pace;
+        let pace = &self.state.control.modal.pace;
         if geometry.at_full_speed {
             return pace.weight(haste);
         }
@@ -295,7 +295,7 @@ impl Interpreter {
 
     /// E, which counts with G94 only (PM/206811147).
     fn end_feed(&self, geometry: &Geometry) -> Option<f64> {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         let is_per_minute = modal.functions.feed_mode == 94 && modal.functions.motion != 0;
         let value = geometry.end_feed.flatten().filter(|_| is_per_minute)?;
         let unit_mm = modal.unit_per_min();

@@ -77,7 +77,9 @@ impl Interpreter {
                 let name = name.of(at.text);
                 match self.names.get(name).copied() {
                     Some(axis) => self.axis_word(axis, word.span, number),
-                    None if self.is_main_spindle(name) => self.state.modal.pace.speed(number),
+                    None if self.is_main_spindle(name) => {
+                        self.state.control.modal.pace.speed(number)
+                    }
                     None if name.starts_with('S') => {}
                     None => self.lack_axis(name, word.span, at),
                 }
@@ -101,7 +103,7 @@ impl Interpreter {
         let axis = self.letters[usize::from(upper - b'A')];
         let mut fault = not_known(span.of(at.text), span);
         if let Some(axis) = axis {
-            self.state.modal.forget_position(axis);
+            self.state.control.modal.forget_position(axis);
             fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
         }
         self.work.diagnostics.push(at.diagnostic(fault));
@@ -109,7 +111,7 @@ impl Interpreter {
 
     /// A word of an axis that the machine does not have.
     fn lack_axis(&mut self, name: &str, span: Span, at: &At<'_>) {
-        let exchanged = &self.state.channel_axes;
+        let exchanged = &self.state.control.channel_axes;
         let is_exchanged = exchanged.doubtful || exchanged.names.contains_key(name);
         if self.machine.axes_are_listed && !is_exchanged {
             self.work.lacking.push((name.to_owned(), at.in_block(span)));
@@ -183,7 +185,7 @@ impl Interpreter {
         if *intent.groups[group as usize].get_or_insert(number) != number {
             return false;
         }
-        self.state.modal.set(group, number);
+        self.state.control.modal.set(group, number);
         true
     }
 
@@ -208,7 +210,7 @@ impl Interpreter {
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
     pub(in crate::interpreter) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &At<'_>) {
-        let modal = &self.state.modal;
+        let modal = &self.state.control.modal;
         let absolute = modal.functions.absolute && modal.is_known(Group::Distance);
         if !absolute || words == AxisWords::Other {
             return;
@@ -259,7 +261,7 @@ impl Interpreter {
         }
         let machine = std::sync::Arc::clone(&self.machine);
         for (axis, span) in self.moved_in_automatic(words) {
-            let state = |kind| self.state.compensation.state(axis, kind);
+            let state = |kind| self.state.control.compensation.state(axis, kind);
             let required = machine.axis(axis).monitored();
             let missing = required
                 .iter()
@@ -321,12 +323,12 @@ impl Interpreter {
             (b'G', None) => {
                 intent.probes = true;
                 self.unknown_word("G", span, at);
-                self.state.modal.forget_g(None);
+                self.state.control.modal.forget_g(None);
             }
             (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
             (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => intent.returns = true,
-            (b'S', _) => self.state.modal.pace.speed(number),
+            (b'S', _) => self.state.control.modal.pace.speed(number),
             (b'E', _) => self.geometry().end_feed = Some(number),
             (b'F', _) => intent.feed = Feed::Given(number),
             (b'M', None) => {
@@ -340,7 +342,7 @@ impl Interpreter {
                 // A function may wait for its acknowledgement.
                 self.work.rests.set(true);
                 if let (b'M', Some(number)) = (letter, number) {
-                    self.state.modal.pace.m(number);
+                    self.state.control.modal.pace.m(number);
                 }
                 self.function_word(FunctionWord { letter, number }, span, at, intent);
             }
@@ -385,23 +387,23 @@ impl Interpreter {
             }
         }
         match (group, number) {
-            (Some(group), _) => self.state.modal.set(group, number),
+            (Some(group), _) => self.state.control.modal.set(group, number),
             (None, 4) => {
                 intent.axis_words = AxisWords::Other;
                 self.work.dwells = true;
             }
-            (None, 20..=23) => self.state.modal.mirror(number),
+            (None, 20..=23) => self.state.control.modal.mirror(number),
             // PM/207256971, 207263627
-            (None, 150) => self.state.modal.hash("#SPLINE OFF"),
-            (None, 151) => self.state.modal.hash("#SPLINE ON"),
+            (None, 150) => self.state.control.modal.hash("#SPLINE OFF"),
+            (None, 151) => self.state.control.modal.hash("#SPLINE ON"),
             // PM/969743115: its axis words are the centre of the rotation.
             (None, 68) => {
-                self.state.modal.hash("#ROTATION ON");
+                self.state.control.modal.hash("#ROTATION ON");
                 intent.axis_words = AxisWords::Other;
                 self.pass_over("G68", span, at);
             }
             (None, 69) => {
-                self.state.modal.hash("#ROTATION OFF");
+                self.state.control.modal.hash("#ROTATION OFF");
                 self.pass_over("G69", span, at);
             }
             (None, 60) => {
@@ -416,7 +418,7 @@ impl Interpreter {
                 self.pass_over("G129", span, at);
             }
             (None, 96 | 97) => {
-                self.state.modal.pace.cut(number == 96);
+                self.state.control.modal.pace.cut(number == 96);
                 self.pass_over(&format!("G{number}"), span, at);
             }
             (None, 92) => intent.axis_words = AxisWords::Reference,
@@ -452,19 +454,19 @@ impl Interpreter {
     /// wherever they stand, and F belongs to the feed mode of its block.
     pub(in crate::interpreter) fn move_axes(&mut self, intent: &Intent, at: &At<'_>) {
         if let Feed::Given(feed) = intent.feed {
-            self.state.modal.set_feed(feed);
+            self.state.control.modal.set_feed(feed);
         }
-        if self.state.described.is_some() {
+        if self.state.control.described.is_some() {
             self.work.moved.clear();
             self.work.geometry = None;
             return;
         }
         // The lint of switches on the way looks at arcs (R1.57).
-        let is_arc = matches!(self.state.modal.functions.motion, 2 | 3);
+        let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let start = (is_arc || self.options.motions == Motions::Taken).then(|| self.stand());
         let before = intent.radius.map(|_| self.ends());
         let coordinates = self.coordinates();
-        let modal = &mut self.state.modal;
+        let modal = &mut self.state.control.modal;
         match intent.axis_words {
             AxisWords::Motion => modal.move_axes(&mut self.work.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
@@ -490,13 +492,13 @@ impl Interpreter {
     fn ends(&self) -> Vec<Option<f64>> {
         let words = self.work.moved[..self.coordinates()].iter();
         words
-            .map(|word| self.state.modal.position(word.axis).value)
+            .map(|word| self.state.control.modal.position(word.axis).value)
             .collect()
     }
 
     /// FC316: R makes no full circle, the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &At<'_>) {
-        let circular = matches!(self.state.modal.functions.motion, 2 | 3);
+        let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let ends = self.ends();
         let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
         if circular && stays {

@@ -31,3 +31,10 @@ pub(in crate::interpreter) enum AxisWords {
     /// G04 and the like: other values.
     Other,
 }
+
+/// A coordinate that counts from a place; not known where any part is not, nor where the sum
+/// leaves the range of numbers.
+#[inline]
+pub(super) fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
+    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::axis_words::AxisWord;
+use super::axis_words::{AxisWord, shifted};
 use super::chain::{self, Step};
 use super::contouring::{Contouring, ContouringCommand};
 use super::group::{Group, GroupSet};
@@ -115,11 +115,22 @@ pub(in crate::interpreter) struct Saved {
     transformed: [bool; 2],
 }
 
-/// A coordinate that counts from a place; not known where any part is not, nor where the sum
-/// leaves the range of numbers.
-#[inline]
-fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
-    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
+impl Saved {
+    /// What may also have been saved instead becomes unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        if self == other {
+            return;
+        }
+        for group in Group::ALL {
+            self.functions.unknown.insert(group);
+        }
+        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
+            *mine |= theirs;
+        }
+    }
 }
 
 /// G functions that take positions away from the machine's.
@@ -388,6 +399,13 @@ impl Modal {
             Group::CircleCentre => u32::from(functions.centre_absolute),
             Group::ExactStop => u32::from(functions.block_end == BlockEnd::ExactStop),
         }
+    }
+
+    /// Whether it is known that two states have different functions of a group in force, or unknown
+    /// in one of them only.
+    pub(in crate::interpreter) fn differs_in(&self, other: &Self, group: Group) -> bool {
+        let (mine, theirs) = (self.is_known(group), other.is_known(group));
+        mine != theirs || (mine && self.value(group) != other.value(group))
     }
 
     /// The groups in which two states differ, or may, become unknown.

@@ -32,7 +32,7 @@ impl Interpreter {
         let word = word.number.map(|number| format!("{letter}{number}"));
         let words = word.into_iter().chain([letter.to_string()]);
         for word in words {
-            match self.state.named.get(&word) {
+            match self.state.control.named.get(&word) {
                 Some(Value::Text(name)) if name.is_empty() => return Configured::None,
                 Some(Value::Text(name)) => return Configured::Program(name.to_string()),
                 Some(Value::Unknown(cause)) => return Configured::Unknown(cause.clone()),
@@ -48,13 +48,13 @@ impl Interpreter {
     /// Whether any word calls a program.
     #[inline]
     pub(in crate::interpreter) fn calls_by_words(&self) -> bool {
-        !self.machine.programs.words.is_empty() || !self.state.named.is_empty()
+        !self.machine.programs.words.is_empty() || !self.state.control.named.is_empty()
     }
 
     /// A word whose number is not known: it may call any program.
     pub(in crate::interpreter) fn unknown_word(&mut self, letter: &str, span: Span, at: &At<'_>) {
         self.forget_all(&letter.into());
-        self.state.modal.note_transformed(letter);
+        self.state.control.modal.note_transformed(letter);
         if self.work.unread.get() {
             return;
         }
@@ -82,9 +82,12 @@ impl Interpreter {
 
     /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
     pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
-        self.state.modal.forget_positions();
+        self.state.control.modal.forget_positions();
         self.perhaps_move_all();
-        self.state.modal.note_transformed(&format!("G{number}"));
+        self.state
+            .control
+            .modal
+            .note_transformed(&format!("G{number}"));
     }
 
     /// A word in a region that may or may not be executed.
@@ -132,7 +135,7 @@ impl Interpreter {
                     self.pass_over_implicit(number);
                 } else if !known {
                     let word = format!("{letter}{number}");
-                    self.state.modal.note_transformed(&word);
+                    self.state.control.modal.note_transformed(&word);
                 }
             }
             ('M', None) => self.forget_all(cause),

@@ -16,14 +16,14 @@ impl Interpreter {
     ) {
         let group = self.group_of(rest, at);
         self.work.wrote = true;
-        let changed = self.state.couplings.define(&group, axes);
+        let changed = self.state.control.couplings.define(&group, axes);
         self.mark_coupled(changed);
     }
 
     pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, span: Span, at: &At<'_>) {
         let group = self.group_of(rest, at);
         self.simplify(Simplification::Coupling, Holds::On);
-        if let Some(changed) = self.state.couplings.enable(&group) {
+        if let Some(changed) = self.state.control.couplings.enable(&group) {
             self.mark_coupled(changed);
             self.lose_followers(&group);
         } else {
@@ -34,11 +34,11 @@ impl Interpreter {
 
     /// Axes that follow others are anywhere from here on: `slave=master` (PM/207120267).
     fn lose_followers(&mut self, group: &str) {
-        let groups = self.state.couplings.groups();
+        let groups = self.state.control.couplings.groups();
         let axes = groups.filter(|(name, _)| *name == group);
         let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
         for axis in followers.collect::<Vec<_>>() {
-            self.state.modal.forget_position(axis);
+            self.state.control.modal.forget_position(axis);
         }
     }
 
@@ -46,39 +46,39 @@ impl Interpreter {
     pub(in crate::interpreter) fn disable_coupling(&mut self, rest: &str, at: &At<'_>) {
         let group = self.group_of(rest, at);
         let changed = if group.is_empty() {
-            self.state.couplings.release_last()
+            self.state.control.couplings.release_last()
         } else {
-            self.state.couplings.release(&group)
+            self.state.control.couplings.release(&group)
         };
         self.mark_coupled(changed);
-        if !self.state.couplings.is_any() {
+        if !self.state.control.couplings.is_any() {
             self.simplify(Simplification::Coupling, Holds::Off);
         }
     }
 
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
     pub(in crate::interpreter) fn release_couplings(&mut self) {
-        let changed = self.state.couplings.release_all();
+        let changed = self.state.control.couplings.release_all();
         self.mark_coupled(changed);
         self.simplify(Simplification::Coupling, Holds::Off);
     }
 
     /// Any coupling may be in force, or none.
     pub(in crate::interpreter) fn doubt_couplings(&mut self) {
-        let changed = self.state.couplings.doubt();
-        self.state.couplings.doubt_followers(&[]);
+        let changed = self.state.control.couplings.doubt();
+        self.state.control.couplings.doubt_followers(&[]);
         if !changed.is_empty() {
             self.simplify(Simplification::Coupling, Holds::On);
         }
         for axis in &changed {
-            self.state.modal.forget_position(*axis);
+            self.state.control.modal.forget_position(*axis);
         }
         self.mark_coupled(changed);
     }
 
     /// These axes may be coupled by groups whose members are unknown.
     pub(in crate::interpreter) fn doubt_definitions(&mut self, axes: &[AxisIndex]) {
-        let changed = self.state.couplings.doubt_definitions(axes);
+        let changed = self.state.control.couplings.doubt_definitions(axes);
         self.mark_coupled(changed);
     }
 
@@ -89,19 +89,22 @@ impl Interpreter {
         };
         let off = name.split(' ').any(|word| word == "OFF");
         match row.moves {
-            Moves::Gantry if off => self.state.couplings.unfollow(GANTRY),
+            Moves::Gantry if off => self.state.control.couplings.unfollow(GANTRY),
             Moves::Gantry => {
                 let mut axes = self.axes_in(rest);
                 axes.dedup();
                 if axes.len() < 2 {
                     axes = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
-                    return self.state.couplings.doubt_followers(&axes);
+                    return self.state.control.couplings.doubt_followers(&axes);
                 }
                 let pairs = axes
                     .iter()
                     .flat_map(|one| axes.iter().map(|other| (*one, *other)));
                 let pairs = pairs.filter(|(one, other)| one != other).collect();
-                self.state.couplings.follow(GANTRY.to_owned(), pairs);
+                self.state
+                    .control
+                    .couplings
+                    .follow(GANTRY.to_owned(), pairs);
             }
             Moves::Follower => self.link_gear(rest, off),
             _ => {}
@@ -125,19 +128,19 @@ impl Interpreter {
         let target = targets.first().copied();
         let key = target.map_or_else(|| CAXTRACK.to_owned(), gear_of);
         match target {
-            None if off => self.state.couplings.end_following(),
-            Some(_) if off => self.state.couplings.unfollow(&key),
+            None if off => self.state.control.couplings.end_following(),
+            Some(_) if off => self.state.control.couplings.unfollow(&key),
             Some(target) if !sources.is_empty() => {
-                self.state.modal.forget_position(target);
+                self.state.control.modal.forget_position(target);
                 let pairs = sources.into_iter().map(|source| (target, source)).collect();
-                self.state.couplings.follow(key, pairs);
+                self.state.control.couplings.follow(key, pairs);
             }
-            Some(_) if self.state.couplings.is_following(&key) => {}
-            Some(target) => self.state.couplings.doubt_followers(&[target]),
+            Some(_) if self.state.control.couplings.is_following(&key) => {}
+            Some(target) => self.state.control.couplings.doubt_followers(&[target]),
             None => {
                 let turned = sources.first().copied().or_else(|| self.axis_named("C"));
                 let turned: Vec<AxisIndex> = turned.into_iter().collect();
-                self.state.couplings.doubt_followers(&turned);
+                self.state.control.couplings.doubt_followers(&turned);
             }
         }
     }
@@ -152,9 +155,9 @@ impl Interpreter {
         match master.and_then(|master| self.axis_or_number(master)) {
             Some(master) => {
                 let pairs = vec![(axis, master)];
-                self.state.couplings.follow(gear_of(axis), pairs);
+                self.state.control.couplings.follow(gear_of(axis), pairs);
             }
-            None => self.state.couplings.doubt_followers(&[axis]),
+            None => self.state.control.couplings.doubt_followers(&[axis]),
         }
     }
 
@@ -170,8 +173,8 @@ impl Interpreter {
 
     fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
         for axis in changed {
-            let coupling = self.state.couplings.of(axis);
-            self.state.compensation.set_coupled(axis, coupling);
+            let coupling = self.state.control.couplings.of(axis);
+            self.state.control.compensation.set_coupled(axis, coupling);
         }
     }
 

@@ -17,24 +17,24 @@ pub(in crate::interpreter) const DESCRIPTIONS: [(&str, &str); 3] = [
 impl Interpreter {
     /// The blocks up to the end describe geometry.
     pub(in crate::interpreter) fn describe(&mut self, hash: &Hash, at: &At<'_>) {
-        if self.state.described.is_none() {
-            self.state.described = Some(Box::new(Description {
+        if self.state.control.described.is_none() {
+            self.state.control.described = Some(Box::new(Description {
                 opener: hash.name.clone(),
                 place: at.place(hash.span),
-                before: self.state.modal.clone(),
+                before: self.state.control.modal.clone(),
             }));
         }
     }
 
     /// Whether a command ends the description that is open.
     pub(in crate::interpreter) fn ends_description(&self, name: &str) -> bool {
-        let open = self.state.described.as_ref();
+        let open = self.state.control.described.as_ref();
         open.is_some_and(|open| description_end(&open.opener) == Some(name))
     }
 
     /// FC208: the program ends inside a description.
     pub(in crate::interpreter) fn open_description(&mut self) -> Option<Diagnostic> {
-        let open = self.state.described.take()?;
+        let open = self.state.control.described.take()?;
         let end = description_end(&open.opener)?;
         let message = format!("`{}` has no `{end}`", open.opener);
         let help = format!("write `{end}` in a block of its own");

@@ -83,7 +83,7 @@ impl Interpreter {
         work: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
         static NONE: BTreeMap<u32, Value> = BTreeMap::new();
-        let frame = self.state.frames.running();
+        let frame = self.state.control.frames.running();
         let given = match frame {
             Some(frame) if frame.level > 0 => Given::ByCall,
             _ => Given::FromOutside,
@@ -101,7 +101,7 @@ impl Interpreter {
             },
             effort: &self.state.effort,
             scope: Scope {
-                memory: &self.state.memory,
+                memory: &self.state.control.memory,
                 reads: self.state.watching.then_some(&self.state.reads),
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
@@ -154,13 +154,13 @@ impl Interpreter {
         }
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
-        if is_state && self.state.modal.transformed.contains("G41") {
+        if is_state && self.state.control.modal.transformed.contains("G41") {
             self.work.flushing.replace(Some(name.to_owned()));
         }
         match own {
             OwnVariable::Active(axis, kind) => {
                 self.work.asked.borrow_mut().push((axis, kind));
-                match self.state.compensation.state(axis, kind) {
+                match self.state.control.compensation.state(axis, kind) {
                     State::Unknown => None,
                     state => Some((state == State::Active).into()),
                 }
@@ -172,12 +172,27 @@ impl Interpreter {
                 Some(ready.into())
             }
             OwnVariable::Absolute(axis) => {
-                let position = self.state.modal.position(axis);
+                let position = self.state.control.modal.position(axis);
                 let is_of_machine = position.frame == PositionFrame::Machine;
                 let value = position.value.filter(|_| is_of_machine);
                 value.map(Value::Number)
             }
-            OwnVariable::Programmed(axis) => self.state.modal.programmed(axis).map(Value::Number),
+            OwnVariable::Programmed(axis) => {
+                self.state.control.modal.programmed(axis).map(Value::Number)
+            }
+        }
+    }
+
+    /// Whether the value of a variable follows from the state of the run.
+    pub(in crate::interpreter) fn is_own(&self, name: &str) -> bool {
+        self.own_variable(name).is_some()
+    }
+
+    /// The kind of an axis whose state a variable shows.
+    pub(in crate::interpreter) fn active_variable(&self, name: &str) -> Option<(AxisIndex, Kind)> {
+        match self.own_variable(name)? {
+            OwnVariable::Active(axis, kind) => Some((axis, kind)),
+            _ => None,
         }
     }
 
@@ -246,16 +261,17 @@ impl Interpreter {
                 self.doubt(axis, KindSet::of(kind));
             }
             OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
-                self.state.modal.forget_position(axis);
+                self.state.control.modal.forget_position(axis);
             }
         }
     }
 
     /// Whether the call gave an own parameter (R2.79).
     fn is_given(&self, index: u32) -> Option<Value> {
-        let frame = self.state.frames.running()?;
+        let frame = self.state.control.frames.running()?;
         let name = format!("@P{index}");
-        let given = frame.own.contains_key(&index) || self.state.memory.variable(&name).is_some();
+        let given =
+            frame.own.contains_key(&index) || self.state.control.memory.variable(&name).is_some();
         (given || frame.level > 0).then(|| given.into())
     }
 
@@ -298,21 +314,26 @@ impl Interpreter {
         }
         self.work.wrote = true;
         self.journal.write(&place, &value);
-        if self.state.ways.is_open() {
-            self.state.ways.write(&place, self.state.seq);
+        self.state
+            .track
+            .write(&place, &mut self.state.control.memory);
+        if self.state.track.ways.is_open() {
+            self.state.track.ways.write(&place, self.state.seq);
         }
         match place {
             Place::Parameter(Owner::Program, index) => {
-                self.state.memory.set_parameter(index, value);
+                self.state.control.memory.set_parameter(index, value);
             }
             Place::Parameter(Owner::Call, index) => {
-                if let Some(frame) = self.state.frames.running_mut() {
+                if let Some(frame) = self.state.control.frames.running_mut() {
                     frame.own.insert(index, value);
                 }
             }
-            Place::Variable(name) => self.state.memory.set_variable(&name, value),
-            Place::Elements(name, cause) => self.state.memory.forget_elements(&name, &cause),
-            Place::Parameters(cause) => self.state.memory.forget_parameters(&cause),
+            Place::Variable(name) => self.state.control.memory.set_variable(&name, value),
+            Place::Elements(name, cause) => {
+                self.state.control.memory.forget_elements(&name, &cause)
+            }
+            Place::Parameters(cause) => self.state.control.memory.forget_parameters(&cause),
             Place::Nowhere => {}
         }
     }

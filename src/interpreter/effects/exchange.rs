@@ -50,12 +50,12 @@ impl Interpreter {
         &self,
         name: &str,
     ) -> Result<Addressed, CompensationError> {
-        let channel = &self.state.channel_axes;
+        let channel = &self.state.control.channel_axes;
         if channel.doubtful {
             return Ok(Addressed::Any);
         }
         Ok(match channel.names.get(name) {
-            None => Addressed::Axis(self.state.compensation.resolve(name)?),
+            None => Addressed::Axis(self.state.control.compensation.resolve(name)?),
             Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
             Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
             Some(Meaning::Unknown) => Addressed::Any,
@@ -67,14 +67,14 @@ impl Interpreter {
         let Some(exchange) = exchange(&hash.name) else {
             return;
         };
-        self.state.modal.hash(&hash.name);
+        self.state.control.modal.hash(&hash.name);
         let rest = hash.rest.of(at.text);
         let every = |word: &str| hash.name.ends_with(word) || rest.trim_start().starts_with(word);
         if every("DEFAULT") {
-            self.state.channel_axes = ChannelAxes::default();
+            self.state.control.channel_axes = ChannelAxes::default();
         }
         match exchange {
-            Exchange::Restore if self.state.channel_axes == ChannelAxes::default() => {}
+            Exchange::Restore if self.state.control.channel_axes == ChannelAxes::default() => {}
             Exchange::Restore => self.doubt_exchange(),
             Exchange::Undescribed => {
                 self.doubt_exchange();
@@ -114,7 +114,7 @@ impl Interpreter {
             let number = number.and_then(|number| self.number_in(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
-            let names = &mut self.state.channel_axes.names;
+            let names = &mut self.state.control.channel_axes.names;
             let own = self.machine.find(name);
             if own.is_some() && meaning == own.map(Meaning::Axis) {
                 names.remove(name);
@@ -138,7 +138,7 @@ impl Interpreter {
     }
 
     fn release_axis(&mut self, name: &str) {
-        let names = &mut self.state.channel_axes.names;
+        let names = &mut self.state.control.channel_axes.names;
         let known = names.get(name).copied();
         let own = self.machine.find(name).map(Meaning::Axis);
         let released = match known.or(own) {
@@ -152,7 +152,7 @@ impl Interpreter {
 
     /// Releases every axis but those of these names.
     fn release_others(&mut self, stay: &[&str]) {
-        let names = &self.state.channel_axes.names;
+        let names = &self.state.control.channel_axes.names;
         let is_here = |name: &str| !matches!(names.get(name), Some(Meaning::Released(_)));
         let machine = self.machine.axes.iter().map(|axis| &axis.name);
         let gone: BTreeSet<String> = machine
@@ -170,7 +170,7 @@ impl Interpreter {
 
     /// An exchange that may or may not have been executed.
     pub(in crate::interpreter) fn doubt_exchange(&mut self) {
-        self.state.channel_axes.doubtful = true;
+        self.state.control.channel_axes.doubtful = true;
     }
 }
 

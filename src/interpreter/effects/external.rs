@@ -28,9 +28,9 @@ impl Interpreter {
             self.forget_memory(&program(name));
         }
         if !keeps.positions {
-            self.state.modal.forget_positions();
+            self.state.control.modal.forget_positions();
             self.perhaps_move_all();
-            self.state.modal.note_transformed(name);
+            self.state.control.modal.note_transformed(name);
         }
     }
 }

@@ -26,7 +26,7 @@ impl Interpreter {
                     Value::Unknown(cause.clone()),
                 );
             }
-            Unread::Spindle => self.state.modal.pace.forget_spindle(),
+            Unread::Spindle => self.state.control.modal.pace.forget_spindle(),
         }
     }
 
@@ -39,8 +39,8 @@ impl Interpreter {
                 .name("everything that a program can change");
         }
         self.forget_memory(cause);
-        self.state.memory.forget_macros(cause, |_, _| false);
-        self.state.modal.forget_words();
+        self.state.control.memory.forget_macros(cause, |_, _| false);
+        self.state.control.modal.forget_words();
         self.perhaps_move_all();
         self.doubt_couplings();
         self.forget_compensation();
@@ -71,14 +71,19 @@ impl Interpreter {
     pub(in crate::interpreter) fn forget_memory(&mut self, cause: &Arc<str>) {
         self.journal.begin_anew();
         self.work.wrote = true;
-        self.state.memory.forget_all(cause);
+        self.state
+            .track
+            .write_anything(&mut self.state.control.memory);
+        self.state.control.memory.forget_all(cause);
     }
 
     /// Every kind of every axis becomes unknown.
     pub(in crate::interpreter) fn forget_compensation(&mut self) {
+        self.state.control.possible.clear();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state
+                .control
                 .compensation
                 .forget(axis, KindSet::ALL, &mut self.work.changes);
         }
@@ -91,7 +96,7 @@ impl Interpreter {
             let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
             last.is_some_and(|(_, own)| unescaped(own) == code)
         };
-        self.state.memory.forget_macros(cause, stays);
+        self.state.control.memory.forget_macros(cause, stays);
     }
 
     /// A COMP command switched kinds of an axis, but it is not known of which.
@@ -104,7 +109,7 @@ impl Interpreter {
     /// A command that may or may not have been executed (R2.51).
     pub(in crate::interpreter) fn forget_hash(&mut self, name: &str, cause: &Arc<str>) {
         match name {
-            "#DISABLE MODAL CYCLE" => self.state.cycles.doubt(),
+            "#DISABLE MODAL CYCLE" => self.state.control.cycles.doubt(),
             "#INIT MACRO TAB" => self.doubt_macros(cause),
             "#ENABLE AX LINK"
             | "#AX LINK ON"
@@ -112,9 +117,9 @@ impl Interpreter {
             | "#AX LINK OFF"
             | "#DISABLE AX LINK ALL"
             | "#AX LINK OFF ALL" => self.doubt_couplings(),
-            name if is_follower_command(name) => self.state.couplings.doubt_followers(&[]),
+            name if is_follower_command(name) => self.state.control.couplings.doubt_followers(&[]),
             "#RETAIN CYCLE CHANGES" => {
-                if let Some(frame) = self.state.frames.cycle_mut() {
+                if let Some(frame) = self.state.control.frames.cycle_mut() {
                     frame.retains = Retains::Perhaps;
                 }
             }
@@ -123,17 +128,17 @@ impl Interpreter {
                 .any(|(begin, end)| [*begin, *end].contains(&name)) =>
             {
                 // What follows may be a description, or not.
-                let modal = &mut self.state.modal;
+                let modal = &mut self.state.control.modal;
                 modal.forget_words();
                 modal.note_transformed(name);
             }
-            "#OVERRIDE" => self.state.modal.pace.forget_overrides(),
-            "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
+            "#OVERRIDE" => self.state.control.modal.pace.forget_overrides(),
+            "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
             name => {
                 if let Some((what, Holds::On)) = simplified::of_command(name) {
-                    self.state.modal.perhaps_simplify(what);
+                    self.state.control.modal.perhaps_simplify(what);
                 }
-                self.state.modal.forget_hash(name);
+                self.state.control.modal.forget_hash(name);
             }
         }
     }

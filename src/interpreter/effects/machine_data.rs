@@ -58,7 +58,7 @@ impl Interpreter {
             other => plainly_named(&self.machine, other, text),
         };
         let start = self.machine.compensation();
-        let now = &self.state.compensation;
+        let now = &self.state.control.compensation;
         let is_lost = |axis: AxisIndex, kind: &Kind| {
             let (now, start) = (now.state(axis, *kind), start.state(axis, *kind));
             written(text) == Written::Friction || (now != start && now != State::Unknown)

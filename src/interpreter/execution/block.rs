@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::items::MAX_SAID;
 use crate::interpreter::coordinates::axis_words::AxisWords;
@@ -11,9 +12,10 @@ use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
-use crate::interpreter::run::state::Last;
+use crate::interpreter::run::path::Last;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::interpreter::run::untouched::FoundStates;
 use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::Fault;
 use crate::syntax::ast::Item;
@@ -31,7 +33,7 @@ impl Interpreter {
         }
         self.move_around(words);
         self.carry_along(words);
-        if self.any_required && self.state.described.is_none() {
+        if self.any_required && self.state.control.described.is_none() {
             let goes_on = !self.work.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
@@ -47,9 +49,11 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> ControlFlow<Departure> {
         self.work.clear();
+        self.work.diagnostics.append(&mut self.met);
+        self.work.aside.withheld.append(&mut self.met_withheld);
         self.state.seq += 1;
         self.state.blocks += 1;
-        if self.state.ways.has_targets() {
+        if self.state.track.ways.has_targets() {
             self.arrive(finder);
         }
         let mut intent = Intent::default();
@@ -85,6 +89,7 @@ impl Interpreter {
         let is_over = !is_plain && self.settle(at);
         if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
+            self.replace_possible();
         }
         self.remember_last(at);
         self.work.aside.asked.append(self.work.asked.get_mut());
@@ -94,16 +99,17 @@ impl Interpreter {
             Some(Step::End(ended_by(&self.work.diagnostics)))
         } else if undecided.is_some() {
             intent.step
-        } else if calls.is_empty() && intent.goes_on() && self.state.cycles.is_empty() {
+        } else if calls.is_empty() && intent.goes_on() && self.state.control.cycles.is_empty() {
             None
         } else {
             match self.step(intent, calls, at, finder) {
-                Some(Step::Jump(target)) if self.state.frames.is_passed(target) => {
+                Some(Step::Jump(target)) if self.state.control.frames.is_passed(target) => {
                     Some(self.come_round(target, at, finder))
                 }
                 step => step,
             }
         };
+        self.show_ways();
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
@@ -127,8 +133,15 @@ impl Interpreter {
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             stopped,
-            compensation: &self.state.compensation,
-            modal: &self.state.modal,
+            compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
+            found: FoundStates {
+                untouched: &self.state.control.untouched,
+                reach: &self.state.track.reach,
+                conditions: &self.state.conditions,
+            },
+            branch: self.shown.branch.as_deref(),
+            modal: &self.state.control.modal,
             occurred: &self.state.occurred,
             version: self.version,
         }));
@@ -196,7 +209,7 @@ impl Interpreter {
             intent.step = Some(Step::Call(calls));
         }
         if let Some(by) = intent.end {
-            if self.state.ending.is_none() && at.level > 0 {
+            if self.state.control.ending.is_none() && at.level > 0 {
                 let fault = Fault::new(
                     Code::Fc315,
                     Span::new(0, at.text.len()),
@@ -205,7 +218,7 @@ impl Interpreter {
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
-            if at.used.is_none() && self.state.ending.is_none() {
+            if at.used.is_none() && self.state.control.ending.is_none() {
                 self.work.end = Some(OwnEnd {
                     place: at.place(Span::new(0, at.text.len())),
                     is_passed_into: !self.may_be_jumped_to(at),
@@ -225,13 +238,21 @@ impl Interpreter {
 
     /// Whether a jump of the running program may go to the block.
     fn may_be_jumped_to(&self, at: &At<'_>) -> bool {
-        let Some(frame) = self.state.frames.running() else {
+        let Some(frame) = self.state.control.frames.running() else {
             return true;
         };
         let labels = at.block.items.iter();
         let has_label = labels.clone().any(|item| matches!(item, Item::Label(_)));
         let text = self.programs.index(frame.unit).source.text();
         (has_label || at.block.number.is_some()) && names_target(text, at.text)
+    }
+
+    /// What the block changed is known by itself.
+    fn replace_possible(&mut self) {
+        let possible = &mut self.state.control.possible;
+        for change in &self.work.changes {
+            possible.replace(change.axis, KindSet::of(change.kind));
+        }
     }
 
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.

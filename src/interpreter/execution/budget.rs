@@ -30,9 +30,10 @@ impl Interpreter {
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
         let held = || {
             self.state
+                .control
                 .memory
                 .weight()
-                .saturating_add(self.state.couplings.len())
+                .saturating_add(self.state.control.couplings.len())
         };
         if wrote && held() > limit {
             return Some(too_many_values(limit, at));
@@ -50,7 +51,7 @@ impl Interpreter {
         )
         .with_help(Advice::RaiseBudget(Budget::Work));
         let diagnostic = at.diagnostic(fault);
-        match self.state.frames.running() {
+        match self.state.control.frames.running() {
             Some(frame) => self.with_loop(diagnostic, frame.unit, frame.next.saturating_sub(1)),
             None => diagnostic,
         }

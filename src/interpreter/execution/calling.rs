@@ -1,26 +1,31 @@
 //! How programs are entered and left.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::{Frame, Retains};
-use crate::interpreter::run::step::{Destination, Request};
+use crate::interpreter::run::step::{Destination, Request, Step};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
     pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
         let ProgramId { unit, section } = request.found;
-        let level = self.state.frames.level() + 1;
+        let level = self.state.control.frames.level() + 1;
         self.state
+            .control
             .memory
             .enter_call(usize::try_from(level).unwrap_or(usize::MAX));
         let restores = match request.form {
             CallForm::Plain => None,
-            CallForm::Cycle => Some(Box::new(self.state.modal.save())),
+            CallForm::Cycle => Some(Box::new(self.state.control.modal.save())),
         };
         self.journal.begin_anew();
-        self.state.frames.push(Frame {
+        let depth = self.state.control.frames.depth();
+        self.state.track.change_level(depth);
+        self.state.control.frames.push(Frame {
             unit,
             section,
             next: request.passage.map_or(
@@ -39,19 +44,24 @@ impl Interpreter {
     }
 
     pub(in crate::interpreter) fn leave(&mut self) {
-        if let Some(frame) = self.state.frames.pop() {
+        if let Some(frame) = self.state.control.frames.pop() {
             self.journal.begin_anew();
+            let depth = self.state.control.frames.depth();
+            self.state.track.change_level(depth);
+            self.state.track.loops.retain(|known| known.depth <= depth);
             self.state
+                .control
                 .memory
                 .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
             if let Some(saved) = &frame.restores {
-                let kept = (frame.retains == Retains::Perhaps).then(|| self.state.modal.clone());
-                self.state.modal.restore(saved);
+                let kept =
+                    (frame.retains == Retains::Perhaps).then(|| self.state.control.modal.clone());
+                self.state.control.modal.restore(saved);
                 if let Some(kept) = kept {
-                    self.state.modal.doubt(&kept);
+                    self.state.control.modal.doubt(&kept);
                 }
             }
-            if self.state.ways.has_targets() {
+            if self.state.track.ways.has_targets() {
                 self.leave_ways(&frame);
             }
         }
@@ -60,7 +70,7 @@ impl Interpreter {
     /// Calls the next of several programs that one block calls.
     #[cold]
     pub(in crate::interpreter) fn call_waiting(&mut self) {
-        let frame = self.state.frames.running_mut();
+        let frame = self.state.control.frames.running_mut();
         if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
             self.push_call(request);
         }
@@ -69,7 +79,7 @@ impl Interpreter {
     /// A part of a program begins once more, or a program is left.
     pub(in crate::interpreter) fn end_of_pass(&mut self) {
         let executed = self.state.seq;
-        let frame = self.state.frames.running_mut();
+        let frame = self.state.control.frames.running_mut();
         let again = frame.and_then(|frame| {
             let start = frame.passage.as_mut()?.again(executed)?;
             frame.next = start;
@@ -85,13 +95,14 @@ impl Interpreter {
     pub(in crate::interpreter) fn go_back(&mut self, to: &Destination) {
         while self
             .state
+            .control
             .frames
             .running()
             .is_some_and(|frame| frame.level > to.level)
         {
             self.leave();
         }
-        if let Some(frame) = self.state.frames.running_mut() {
+        if let Some(frame) = self.state.control.frames.running_mut() {
             frame.waiting.clear();
             if let Some(entry) = to.entry {
                 frame.next = entry;
@@ -102,7 +113,7 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn enter(&mut self, unit: usize, section: usize) {
         let next = self.programs.section(ProgramId { unit, section }).start;
-        self.state.frames.push(Frame {
+        self.state.control.frames.push(Frame {
             unit,
             section,
             next,
@@ -115,5 +126,48 @@ impl Interpreter {
             waiting: Vec::new(),
             passage: None,
         });
+    }
+
+    /// Does what a block asked for. `Break` when the program ends.
+    pub(in crate::interpreter) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
+        match step {
+            // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
+            Step::Begin => {}
+            Step::Jump(entry) => {
+                if let Some(endless) = self.endless_loop() {
+                    self.work.over.push(endless);
+                    self.work.endless = true;
+                    return ControlFlow::Break(EndedBy::Budget);
+                }
+                if let Some(frame) = self.state.control.frames.running_mut() {
+                    frame.next = entry;
+                }
+            }
+            Step::Call(mut requests) => {
+                let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
+                    return ControlFlow::Continue(());
+                };
+                if let Some(frame) = self.state.control.frames.running_mut() {
+                    requests.reverse();
+                    frame.waiting = requests;
+                }
+                self.push_call(first);
+            }
+            Step::Return => match self.state.control.frames.running() {
+                Some(frame) if frame.level > 0 => self.end_of_pass(),
+                _ => {
+                    // A subprogram run by itself ends as it should.
+                    self.state.last = None;
+                    return ControlFlow::Break(EndedBy::EndOfFile);
+                }
+            },
+            Step::ReturnTo(destination) => self.go_back(&destination),
+            Step::End(by) => return ControlFlow::Break(by),
+            Step::Covered => {
+                self.work.covered = true;
+                return ControlFlow::Break(EndedBy::EndOfFile);
+            }
+        }
+        ControlFlow::Continue(())
     }
 }

@@ -3,14 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Compensation};
-use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::comp::{AxisIndex, Compensation, KindSet};
+use crate::diagnostic::Collected;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::at::{At, Shown};
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
+use crate::interpreter::run::path::Last;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
+use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::AxisKinds;
 use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::RawBlock;
@@ -45,27 +47,14 @@ impl Interpreter {
             return outcome;
         };
         let mut notes = self.refused();
-        notes.extend(self.work.over.take());
-        if by == EndedBy::EndOfFile && !self.state.frames.is_empty() {
+        notes.extend(self.work.over.drain(..));
+        if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
             notes.extend(self.missing_end());
         }
         if self.options.stop == StopPolicy::CheckAll {
             self.check_all_unexecuted(&mut notes);
         }
         self.ended(by, &notes, observer)
-    }
-
-    /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
-    pub(in crate::interpreter) fn missing_end(&self) -> Option<Diagnostic> {
-        let last = self.state.last.as_ref()?;
-        let place = Place {
-            file: last.file.clone(),
-            text: last.text.as_str().into(),
-            first_line: last.line,
-            span: Span::new(0, last.text.len()),
-        };
-        let message = "the program ends here without M30 or M02";
-        Some(Diagnostic::new(Code::Fc310, place, message).with_help("end it with `M30`"))
     }
 
     pub(in crate::interpreter) fn ended(
@@ -84,16 +73,38 @@ impl Interpreter {
         if !beside.is_empty() {
             notes.to_mut().append(&beside);
         }
+        let mut by = by;
+        let mut met = Vec::new();
+        if self.state.ended.is_empty() {
+            self.state
+                .track
+                .assumed
+                .undo(&mut self.state.control.memory);
+        } else {
+            (by, met) = self.meet_ended(by);
+        }
+        notes.to_mut().extend(self.met.drain(..));
         let at = self.work.end.take();
-        let ends = self.all_ends(at.as_ref());
+        let mut ends = self.all_ends(at.as_ref());
+        if !met.is_empty() {
+            ends.splice(..1.min(ends.len()), met);
+        }
         let mut changes = std::mem::take(&mut self.work.changes);
-        changes.extend(self.state.compensation.program_end());
+        changes.extend(self.state.control.compensation.program_end());
         if !changes.is_empty() {
             self.version += 1;
         }
-        self.state.frames.clear();
+        for change in &changes {
+            let kinds = KindSet::of(change.kind);
+            self.state.control.possible.replace(change.axis, kinds);
+        }
+        self.state.control.frames.clear();
         self.release_couplings();
-        self.state.couplings.end_following();
+        self.state.control.couplings.end_following();
+        // The program ends on all ways.
+        self.state.track.reach = WaySet::always();
+        self.version += u64::from(!self.state.control.possible.is_empty());
+        self.show_ways();
         // The observer wants no more, or it does not: the program has ended either way.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
@@ -105,7 +116,8 @@ impl Interpreter {
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,
-            compensation: &self.state.compensation,
+            compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
             occurred: &self.state.occurred,
             version: self.version,
         }));
@@ -114,14 +126,9 @@ impl Interpreter {
 
     /// Every end that the program may reach, with the state that is left there.
     fn all_ends(&mut self, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
-        let others = std::mem::take(&mut self.state.ways.ends);
-        let own = self.state.ways.own.take();
-        let last = self.state.last.as_ref().map(|last| Place {
-            file: last.file.clone(),
-            text: last.text.as_str().into(),
-            first_line: last.line,
-            span: Span::new(0, last.text.len()),
-        });
+        let others = std::mem::take(&mut self.state.track.ways.ends);
+        let own = self.state.track.ways.own.take();
+        let last = self.state.last.as_ref().map(Last::place);
         let place = at.map(|end| end.place.clone()).or(last);
         let reached = place.map(|place| ProgramEnd {
             place,
@@ -142,7 +149,7 @@ impl Interpreter {
 
     /// The state after a program end with these kinds.
     fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
-        let mut compensation = self.state.compensation.clone();
+        let mut compensation = self.state.control.compensation.clone();
         for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
             let axis = AxisIndex::new(position);
             compensation.restore(axis, kinds.selected, kinds.unknown);

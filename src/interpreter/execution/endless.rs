@@ -16,11 +16,13 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::loops::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::path::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::path::{Path, Track};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::target::Target;
 
@@ -36,6 +38,22 @@ const MOST_PASSES: u64 = 1 << 20;
 /// How often a loop is run until its state repeats. One that is left more often stands in another
 /// loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
+
+/// Passes of a loop that is left on other ways and whose own condition is known.
+const MOST_FOLLOWED_PASSES: u64 = 32;
+
+/// The same of a `$FOR`, which ends by itself.
+const MOST_COUNTED_PASSES: u64 = 1000;
+
+/// Passes after which a loop that is joined at its head is given up (R14.4).
+const MOST_JOINED_PASSES: u64 = 64;
+
+/// Whether it is known that a loop is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Repeats {
+    Known,
+    Unknown,
+}
 
 /// Why a loop need not be run any further.
 #[derive(Debug)]
@@ -55,7 +73,11 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Step {
-        let left = self.note_pass(target).and_then(|why| {
+        let why = self.note_pass(target);
+        if self.is_left_meanwhile() {
+            return self.follow_loop(target, Repeats::Known, finder);
+        }
+        let left = why.and_then(|why| {
             if let Enough::TooMany(cause) = &why {
                 self.forget_loop(cause, finder);
             }
@@ -65,11 +87,112 @@ impl Interpreter {
         left.unwrap_or(Step::Jump(target))
     }
 
+    /// A way that only the machine decides leads back: what the control does next on it.
+    pub(in crate::interpreter) fn come_back(
+        &mut self,
+        target: EntryIndex,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let _ = self.note_pass(target);
+        self.follow_loop(target, Repeats::Unknown, finder)
+    }
+
+    /// Whether other ways have left the innermost loop.
+    fn is_left_meanwhile(&self) -> bool {
+        let Some(known) = self.state.track.loops.last() else {
+            return false;
+        };
+        let ended = self.state.ended.iter().map(|ended| &ended.path);
+        let mut others = self.state.pending.iter().chain(ended);
+        others.any(|path| path.parted >= known.since)
+    }
+
+    /// A loop that is left on other ways is followed until a pass begins with what passes before it
+    /// began with (R14.3).
+    #[cold]
+    fn follow_loop(
+        &mut self,
+        target: EntryIndex,
+        repeats: Repeats,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let Some(mut known) = self.state.track.loops.pop() else {
+            return Step::Jump(target);
+        };
+        if let Some(counters) = known.endless.take() {
+            self.lose_counters(&counters, known.since);
+        }
+        let index = self.programs.index(known.unit);
+        let place = (known.depth, known.unit, known.head);
+        let counts = index.links(known.head).opener == known.head && target == known.head + 1;
+        let most = match repeats {
+            Repeats::Unknown => 0,
+            Repeats::Known if self.state.track.open_loops.contains(&place) => 0,
+            Repeats::Known if counts => MOST_COUNTED_PASSES,
+            Repeats::Known => MOST_FOLLOWED_PASSES,
+        };
+        if known.passes > most + MOST_JOINED_PASSES {
+            let after = known.from.saturating_add(1);
+            self.state.track.loops.push(known);
+            self.forget_loop(&"a loop that goes on too long".into(), finder);
+            return Step::Jump(after);
+        }
+        let now = self.at_head(target);
+        let cause = "a loop that is repeated".into();
+        match known.covered.take() {
+            Some(before) if before.covers(&now, &cause) => return Step::Covered,
+            Some(mut before) if known.passes > most => {
+                before.join(now, &cause);
+                let Path { control, track, .. } = (*before).clone();
+                self.state.control = control;
+                self.state.track.reach = track.reach;
+                self.state.track.assumed = track.assumed;
+                self.state.track.asked = track.asked;
+                self.journal.begin_anew();
+                known.covered = Some(before);
+            }
+            _ => known.covered = Some(Box::new(now)),
+        }
+        self.state.track.loops.push(known);
+        Step::Jump(target)
+    }
+
+    /// The state with which a pass begins.
+    fn at_head(&mut self, target: EntryIndex) -> Path {
+        if let Some(frame) = self.state.control.frames.running_mut() {
+            frame.next = target;
+        }
+        let (control, track) = (&self.state.control, &self.state.track);
+        let cost = ITEM * 8 + self.machine.axes.len() * 4;
+        self.state.effort.charge(cost);
+        Path {
+            control: control.clone(),
+            track: Track {
+                reach: track.reach.clone(),
+                asked: track.asked.clone(),
+                assumed: track.assumed.clone(),
+                ..Track::default()
+            },
+            parted: self.state.seq,
+        }
+    }
+
+    /// What only counts has any value where other ways have left a loop that is not run to its end.
+    fn lose_counters(&mut self, counters: &[Target], since: u64) {
+        let cause: Arc<str> = "a loop that is repeated".into();
+        let ended = self.state.ended.iter_mut().map(|ended| &mut ended.path);
+        for path in self.state.pending.iter_mut().chain(ended) {
+            if path.parted >= since {
+                path.control.memory.lose(counters, &cause);
+            }
+        }
+    }
+
     /// Counts a pass of a loop; why it need not be run any further, where that is so.
     fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
-        let depth = self.state.frames.depth();
-        let place = self.state.frames.program()?;
-        let from = self.state.frames.running()?.next.checked_sub(1)?;
+        let depth = self.state.control.frames.depth();
+        let place = self.state.control.frames.program()?;
+        let from = self.state.control.frames.running()?.next.checked_sub(1)?;
         let index = self.programs.index(place.unit);
         // A `$FOR` goes back to the block after its opener.
         let head = if index.is_linked(from) {
@@ -77,17 +200,17 @@ impl Interpreter {
         } else {
             target
         };
-        while let Some(last) = self.state.loops.last() {
+        while let Some(last) = self.state.track.loops.last() {
             let stays =
                 last.depth < depth || (last.depth == depth && last.is_around(place, head, from));
             if stays {
                 break;
             }
-            self.state.loops.pop();
+            self.state.track.loops.pop();
         }
-        let known = self.state.loops.last();
+        let known = self.state.track.loops.last();
         if known.is_none_or(|last| last.depth < depth || last.head != head) {
-            self.state.loops.push(Loop {
+            self.state.track.loops.push(Loop {
                 depth,
                 unit: place.unit,
                 section: place.section,
@@ -97,9 +220,10 @@ impl Interpreter {
                 since: self.state.seq,
                 mark: None,
                 endless: None,
+                covered: None,
             });
         }
-        let last = self.state.loops.last_mut()?;
+        let last = self.state.track.loops.last_mut()?;
         last.from = last.from.max(from);
         last.passes += 1;
         let (passes, is_due) = (last.passes, last.is_due());
@@ -121,7 +245,7 @@ impl Interpreter {
     /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
     #[cold]
     fn repeats(&mut self) -> bool {
-        let Some(mut last) = self.state.loops.pop() else {
+        let Some(mut last) = self.state.track.loops.pop() else {
             return false;
         };
         if let Some(mark) = &last.mark {
@@ -129,12 +253,16 @@ impl Interpreter {
             if last.passes >= mark.pass + LONGEST_PERIOD {
                 last.mark = None;
             }
-        } else if self.state.memory.weight() <= MAX_WEIGHT {
-            last.mark = Some(Box::new(mark_of(&self.state, last.passes)));
+        } else if self.state.control.memory.weight() <= MAX_WEIGHT {
+            last.mark = Some(Box::new(Mark {
+                pass: last.passes,
+                control: self.state.control.clone(),
+                occurred: self.state.occurred.clone(),
+            }));
         }
         let repeats = last.endless.is_some();
-        self.state.loops.push(last);
-        self.state.watching = self.state.loops.iter().any(|known| known.mark.is_some());
+        self.state.track.loops.push(last);
+        self.state.watching = watches(&self.state.track);
         if !self.state.watching {
             *self.state.reads.borrow_mut() = Reads::default();
         }
@@ -143,21 +271,24 @@ impl Interpreter {
 
     /// The value that may end a loop which was left often enough.
     fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
-        let mut left = self.state.left_loops.iter();
+        let mut left = self.state.track.left_loops.iter();
         let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
         (found.times >= RUN_THROUGH).then(|| found.cause.clone())
     }
 
     /// Where the innermost loop may be left.
     fn way_out(&self) -> Option<WayOut> {
-        let last = self.state.loops.last()?;
-        self.state.ways.out_of(last.depth, last.from, last.since)
+        let last = self.state.track.loops.last()?;
+        self.state
+            .track
+            .ways
+            .out_of(last.depth, last.from, last.since)
     }
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
     #[cold]
     fn forget_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
-        let Some(last) = self.state.loops.last() else {
+        let Some(last) = self.state.track.loops.last() else {
             return;
         };
         let (unit, head, from) = (last.unit, last.head, last.from);
@@ -179,12 +310,12 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let known = self.state.loops.pop()?;
+        let known = self.state.track.loops.pop()?;
         let (unit, head) = (known.unit, known.head);
-        let mut left = self.state.left_loops.iter_mut();
+        let mut left = self.state.track.left_loops.iter_mut();
         match left.find(|it| (it.unit, it.head) == (unit, head)) {
             Some(left) => left.times = left.times.saturating_add(1),
-            None => self.state.left_loops.push(LeftLoop {
+            None => self.state.track.left_loops.push(LeftLoop {
                 unit,
                 head,
                 times: 1,
@@ -221,7 +352,7 @@ impl Interpreter {
 
     /// FC910 where the innermost loop is known to be endless.
     pub(in crate::interpreter) fn endless_loop(&self) -> Option<Diagnostic> {
-        let known = self.state.loops.last()?;
+        let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
         Some(self.endless(known, counters))
     }
@@ -247,51 +378,26 @@ impl Interpreter {
 
     /// How often the loop that begins at a block was repeated.
     pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
-        let loops = self.state.loops.iter().rev();
+        let loops = self.state.track.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
         let found = known.find(|known| known.head == opener);
         found.map(|known| known.passes)
     }
 }
 
-/// The state at the start of a pass.
-fn mark_of(state: &State, pass: u64) -> Mark {
-    Mark {
-        pass,
-        compensation: state.compensation.clone(),
-        memory: state.memory.clone(),
-        modal: state.modal.clone(),
-        frames: state.frames.clone(),
-        occurred: state.occurred.clone(),
-        couplings: state.couplings.clone(),
-        cycles: state.cycles.clone(),
-        refused: state.refused.clone(),
-        ending: state.ending,
-        named: state.named.clone(),
-        channel_axes: state.channel_axes.clone(),
-        described: state.described.clone(),
-    }
-}
-
 /// What differs from the state of the moment, where that only counts; `None` where anything
 /// else differs.
 fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
-    let same = mark.frames == state.frames
-        && mark.modal == state.modal
-        && mark.compensation == state.compensation
-        && mark.occurred == state.occurred
-        && mark.couplings.is_like(&state.couplings)
-        && mark.cycles == state.cycles
-        && mark.refused == state.refused
-        && mark.ending == state.ending
-        && mark.named == state.named
-        && mark.channel_axes == state.channel_axes
-        && mark.described == state.described;
-    if !same {
+    if mark.occurred != state.occurred {
         return None;
     }
-    let differing = mark.memory.differing_numbers(&state.memory)?;
+    let differing = mark.control.differing_numbers(&state.control)?;
     let reads = state.reads.borrow();
     let only_counts = differing.iter().all(|target| !reads.has(target));
     only_counts.then_some(differing)
+}
+
+/// Whether a loop is compared with an earlier pass.
+pub(super) fn watches(track: &Track) -> bool {
+    track.loops.iter().any(|known| known.mark.is_some())
 }

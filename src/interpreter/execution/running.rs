@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::at::{At, Shown};
-use crate::interpreter::run::event::{EndedBy, Observer};
+use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
 use crate::interpreter::run::step::{Departure, Step};
@@ -18,8 +18,17 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         loop {
-            let Some(frame) = self.state.frames.running() else {
-                return RunOutcome::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
+            if !self.state.pending.is_empty() {
+                if self.choose_path() {
+                    self.tell_joined(observer);
+                }
+            }
+            let Some(frame) = self.state.control.frames.running() else {
+                let ending = self.state.control.ending.take();
+                match self.end_path(ending.unwrap_or(EndedBy::EndOfFile)) {
+                    Some(by) => return RunOutcome::Ended(by),
+                    None => continue,
+                }
             };
             let (unit, section, next) = (frame.unit, frame.section, frame.next);
             if !frame.waiting.is_empty() {
@@ -30,33 +39,49 @@ impl Interpreter {
             if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
                 if frame.level == 0 {
                     self.meet_at_end(finder);
-                    return RunOutcome::Ended(EndedBy::EndOfFile);
+                    match self.end_path(EndedBy::EndOfFile) {
+                        Some(by) => return RunOutcome::Ended(by),
+                        None => continue,
+                    }
                 }
                 self.end_of_pass();
                 continue;
             }
             let is_repeated = self.programs.was_read(unit, next);
             let parsed = self.programs.parsed(unit, next);
-            if let Some(frame) = self.state.frames.running_mut() {
+            if let Some(frame) = self.state.control.frames.running_mut() {
                 frame.next = next + 1;
             }
             if self.is_skipped(&parsed.block) {
                 continue;
             }
+            if let Some(level) = self.undecided_level(&parsed.block)
+                && self.part_by_skip(level, &parsed)
+            {
+                if let Some(frame) = self.state.control.frames.running_mut() {
+                    frame.next = next;
+                }
+                self.take_sides(None, finder);
+                continue;
+            }
             let called_from = self
                 .state
+                .control
                 .frames
                 .running_mut()
                 .and_then(|frame| frame.called_from.take());
-            let level = self.state.frames.level();
+            let level = self.state.control.frames.level();
             let shown = Shown::default();
             let at = At::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);
-                self.work.over = Some(over);
-                return RunOutcome::Ended(EndedBy::Budget);
+                self.work.over.push(over);
+                match self.end_path(EndedBy::Budget) {
+                    Some(by) => return RunOutcome::Ended(by),
+                    None => continue,
+                }
             }
-            let depth = self.state.frames.depth();
+            let depth = self.state.control.frames.depth();
             let spent = self.state.effort.spent();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
@@ -64,59 +89,74 @@ impl Interpreter {
                     .effort
                     .repeat(parsed.weight, self.work.said, spent);
             }
-            if let Some(frame) = self.state.frames.at_depth_mut(depth) {
+            if let Some(frame) = self.state.control.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;
             }
             let step = match flow {
-                ControlFlow::Continue(()) => continue,
+                ControlFlow::Continue(()) if self.sides.is_empty() => continue,
+                ControlFlow::Continue(()) => {
+                    self.take_sides(None, finder);
+                    continue;
+                }
                 ControlFlow::Break(Departure::Step(step)) => step,
-                ControlFlow::Break(Departure::Paused) => return RunOutcome::Paused,
+                ControlFlow::Break(Departure::Paused) if self.sides.is_empty() => {
+                    return RunOutcome::Paused;
+                }
+                ControlFlow::Break(Departure::Paused) => {
+                    let step = self.state.parked.take();
+                    self.state.parked = self.part_and_step(step, finder);
+                    return RunOutcome::Paused;
+                }
+            };
+            let Some(step) = self.part_and_step(Some(step), finder) else {
+                continue;
             };
             if let ControlFlow::Break(by) = self.follow(step) {
-                if by != EndedBy::Error {
+                if by != EndedBy::Error && !self.work.covered {
                     self.meet_at_end(finder);
                 }
-                return RunOutcome::Ended(by);
+                match self.end_path(by) {
+                    Some(by) => return RunOutcome::Ended(by),
+                    None => {}
+                }
             }
         }
     }
 
-    /// Does what a block asked for. `Break` when the program ends.
-    pub(in crate::interpreter) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
-        match step {
-            // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
-            Step::Begin => {}
-            Step::Jump(entry) => {
-                if let Some(endless) = self.endless_loop() {
-                    self.work.over = Some(endless);
-                    self.work.endless = true;
-                    return ControlFlow::Break(EndedBy::Budget);
-                }
-                if let Some(frame) = self.state.frames.running_mut() {
-                    frame.next = entry;
-                }
-            }
-            Step::Call(mut requests) => {
-                let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
-                    return ControlFlow::Continue(());
-                };
-                if let Some(frame) = self.state.frames.running_mut() {
-                    requests.reverse();
-                    frame.waiting = requests;
-                }
-                self.push_call(first);
-            }
-            Step::Return => match self.state.frames.running() {
-                Some(frame) if frame.level > 0 => self.end_of_pass(),
-                _ => {
-                    // A subprogram run by itself ends as it should.
-                    self.state.last = None;
-                    return ControlFlow::Break(EndedBy::EndOfFile);
-                }
-            },
-            Step::ReturnTo(destination) => self.go_back(&destination),
-            Step::End(by) => return ControlFlow::Break(by),
+    /// Says where ways meet.
+    #[cold]
+    fn tell_joined(&mut self, observer: &mut dyn Observer) {
+        let Some(frame) = self.state.control.frames.running() else {
+            return;
+        };
+        let place = self.programs.index(frame.unit).block_place(frame.next);
+        self.show_ways();
+        // A run stops at blocks; whoever wants to stop does so at the next one.
+        let _ = observer.event(Event::Joined(Joined {
+            seq: self.state.seq,
+            place: &place,
+            compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
+            occurred: &self.state.occurred,
+            version: self.version,
+        }));
+    }
+
+    /// The run parts after a block that asked, unless it ends or returns in any case. Returns what is
+    /// left to do.
+    fn part_and_step(&mut self, step: Option<Step>, finder: &mut dyn Finder) -> Option<Step> {
+        if self.sides.is_empty() {
+            return step;
         }
-        ControlFlow::Continue(())
+        match step {
+            None | Some(Step::Call(_)) => {
+                self.take_sides(step.as_ref(), finder);
+                None
+            }
+            step => {
+                self.sides.clear();
+                step
+            }
+        }
     }
 }

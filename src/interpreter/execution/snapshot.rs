@@ -146,7 +146,12 @@ impl Interpreter {
             return Err(ResumeError::Damaged("its content is not what was saved"));
         }
         let machine = machine.into();
-        if !snapshot.state.compensation.fits(machine.axis_setups()) {
+        if !snapshot
+            .state
+            .control
+            .compensation
+            .fits(machine.axis_setups())
+        {
             return Err(ResumeError::OtherMachine);
         }
         let mut resumed = Self::with_state(machine, options, snapshot.state);

@@ -14,10 +14,10 @@ use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::path::Track;
 use crate::interpreter::run::step::{Request, Step};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::run::undecided::Told;
-use crate::interpreter::run::ways::Ways;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
 
@@ -97,23 +97,30 @@ impl Interpreter {
 
     /// Prepares the state for a program start.
     pub(in crate::interpreter) fn start(&mut self) {
-        self.state.modal = self.state.modal.next_program(&self.machine.channel);
-        self.state.memory.start_program(self.machine.parameters);
-        self.state.frames.clear();
+        self.state.control.modal = self.state.control.modal.next_program(&self.machine.channel);
+        self.state
+            .control
+            .memory
+            .start_program(self.machine.parameters);
+        self.state.control.untouched.clear();
+        self.state.control.frames.clear();
         self.state.seq = 0;
-        self.state.cycles = ModalCycles::default();
-        self.state.loops.clear();
-        self.state.left_loops.clear();
+        self.state.control.cycles = ModalCycles::default();
         self.state.watching = false;
-        self.state.refused.clear();
+        self.state.control.refused.clear();
         self.state.once.clear();
-        self.state.ending = None;
+        self.state.control.ending = None;
         self.state.last = None;
         self.state.parked = None;
-        self.state.named.clear();
-        self.state.channel_axes = ChannelAxes::default();
-        self.state.described = None;
-        self.state.ways = Ways::default();
+        self.state.control.named.clear();
+        self.state.control.channel_axes = ChannelAxes::default();
+        self.state.control.described = None;
+        self.state.track = Track::default();
+        self.state.pending.clear();
+        self.state.ended.clear();
+        self.sides.clear();
+        self.met.clear();
+        self.met_withheld.clear();
         self.state.told = Told::default();
         self.programs.clear();
         self.pending.clear();
@@ -129,9 +136,11 @@ impl Interpreter {
         name: Option<&str>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<()> {
+        self.show_ways();
         observer.event(Event::Started {
             name,
-            compensation: &self.state.compensation,
+            possible: &self.shown.possible,
+            compensation: &self.state.control.compensation,
             occurred: &self.state.occurred,
             version: self.version,
         })

@@ -242,7 +242,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Option<RunOutcome> {
-        let frame = self.state.frames.running();
+        let frame = self.state.control.frames.running();
         if frame.is_none_or(|frame| frame.level == 0) {
             return None;
         }
@@ -250,7 +250,7 @@ impl Interpreter {
             RunOutcome::Ended(EndedBy::EndOfFile) => None,
             RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
-                notes.extend(self.work.over.take());
+                notes.extend(self.work.over.drain(..));
                 Some(self.ended(by, &notes, observer))
             }
             stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),
@@ -281,7 +281,7 @@ impl Interpreter {
                     let found =
                         self.programs
                             .block_of(ProgramId::FIRST, &sought.label, &self.state.effort);
-                    match (found, self.state.frames.running_mut()) {
+                    match (found, self.state.control.frames.running_mut()) {
                         (Some(entry), Some(frame)) => frame.next = entry,
                         _ => return self.ended(EndedBy::Error, &one(sought.missing), observer),
                     }

@@ -2,10 +2,13 @@
 //! looked up later without further checks.
 
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::path::Track;
 use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::step::{Request, Step};
+use crate::interpreter::run::ways::Ways;
 use crate::text::Place;
 
 /// Counters of a run stay below this for centuries, and a damaged one above it would run over.
@@ -22,26 +25,77 @@ impl Interpreter {
     pub(in crate::interpreter) fn check_state(&self) -> Doubt {
         self.check_axes()?;
         self.check_counters()?;
-        self.check_frames()?;
+        self.check_frames(&self.state.control)?;
         self.check_calls()?;
-        self.check_ways()?;
+        self.check_ways(&self.state.track.ways)?;
+        self.check_paths()?;
         let state = &self.state;
         let begins = !self.programs.units().is_empty()
-            || (state.frames.is_empty() && state.parked.is_none());
+            || (state.control.frames.is_empty() && state.parked.is_none());
         holds(begins, "a run without a file")
     }
 
     fn check_axes(&self) -> Doubt {
-        let (state, axes) = (&self.state, self.machine.axes.len());
-        holds(state.occurred.len() == axes, "occurrences of other axes")?;
-        let described = state.described.iter().map(|described| &described.before);
-        let mut modals = described.chain([&state.modal]);
+        let axes = self.machine.axes.len();
+        let occurred = &self.state.occurred;
+        holds(occurred.len() == axes, "occurrences of other axes")?;
+        self.check_axes_of(&self.state.control)
+    }
+
+    fn check_axes_of(&self, control: &ControlState) -> Doubt {
+        let axes = self.machine.axes.len();
+        let described = control.described.iter().map(|described| &described.before);
+        let mut modals = described.chain([&control.modal]);
         holds(
             modals.all(|modal| modal.fits(axes)),
             "positions of other axes",
         )?;
-        holds(state.couplings.fits(axes), "a coupling of other axes")?;
-        holds(state.channel_axes.fits(axes), "a name of another axis")
+        holds(control.couplings.fits(axes), "a coupling of other axes")?;
+        holds(control.channel_axes.fits(axes), "a name of another axis")?;
+        let conditions = self.state.conditions.len();
+        let possible =
+            control.possible.fits(axes, conditions) && control.untouched.fits(axes, conditions);
+        holds(possible, "a condition that is not there")
+    }
+
+    /// The other ways through the program, and those that have ended.
+    fn check_paths(&self) -> Doubt {
+        let ended = self.state.ended.iter().map(|ended| &ended.path);
+        for path in self.state.pending.iter().chain(ended) {
+            let is_machine = path.control.compensation.fits(self.machine.axis_setups());
+            holds(is_machine, "a way on another machine")?;
+            self.check_axes_of(&path.control)?;
+            self.check_frames(&path.control)?;
+            let cycles = self.has_cycles(&path.control.cycles);
+            holds(cycles, "a cycle that is not there")?;
+            self.check_ways(&path.track.ways)?;
+            self.check_track(&path.track)?;
+        }
+        self.check_track(&self.state.track)
+    }
+
+    fn check_track(&self, track: &Track) -> Doubt {
+        let conditions = self.state.conditions.len();
+        let mut named = track.reach.conditions();
+        let is_known = named.all(|condition| (condition as usize) < conditions);
+        holds(is_known, "a condition that is not there")?;
+        let mut loops = track.loops.iter();
+        let loops = loops.all(|known| {
+            let before = known.covered.as_ref();
+            known.fits(MOST_COUNTED)
+                && self.has(known.program())
+                && before.is_none_or(|before| {
+                    self.check_axes_of(&before.control).is_ok()
+                        && self.check_frames(&before.control).is_ok()
+                        && self.has_cycles(&before.control.cycles)
+                        && before
+                            .track
+                            .reach
+                            .conditions()
+                            .all(|it| (it as usize) < conditions)
+                })
+        });
+        holds(loops, "a loop in a program that is not there")
     }
 
     fn check_counters(&self) -> Doubt {
@@ -55,39 +109,43 @@ impl Interpreter {
         ];
         let counted = counted.iter().all(|count| *count < MOST_COUNTED);
         holds(counted, "a counter that is too large")?;
-        let mut loops = state.loops.iter();
-        let loops = loops.all(|known| known.fits(MOST_COUNTED) && self.has(known.program()));
-        holds(loops, "a loop in a program that is not there")?;
         let lines = state.last.iter().all(|last| last.line < MOST_LINES);
         holds(lines, "a line that no text has")
     }
 
-    fn check_frames(&self) -> Doubt {
-        let frames = self.state.frames.iter().all(|frame| self.has_frame(frame));
+    fn check_frames(&self, control: &ControlState) -> Doubt {
+        let depth = control.frames.depth();
+        let frames = control.frames.iter();
+        let frames = frames
+            .map(|frame| self.has_frame(frame, depth))
+            .all(|has| has);
         holds(frames, "a block that is not there")
     }
 
     fn check_calls(&self) -> Doubt {
         let state = &self.state;
-        holds(self.has_cycles(&state.cycles), "a cycle that is not there")?;
+        holds(
+            self.has_cycles(&state.control.cycles),
+            "a cycle that is not there",
+        )?;
         let parked = match &state.parked {
             Some(Step::Jump(entry)) => state
+                .control
                 .frames
                 .running()
                 .is_some_and(|frame| self.has_block(frame.program(), *entry)),
             Some(Step::Call(requests)) => requests.iter().all(|request| self.has_request(request)),
             Some(Step::ReturnTo(back)) => back.entry.is_none_or(|entry| {
                 let to = |frame: &&Frame| frame.level <= back.level;
-                let frame = state.frames.iter().rev().find(to);
+                let frame = state.control.frames.iter().rev().find(to);
                 frame.is_none_or(|frame| self.has_block(frame.program(), entry))
             }),
-            Some(Step::Begin | Step::Return | Step::End(_)) | None => true,
+            Some(Step::Begin | Step::Return | Step::End(_) | Step::Covered) | None => true,
         };
         holds(parked, "a step to a block that is not there")
     }
 
-    fn check_ways(&self) -> Doubt {
-        let ways = &self.state.ways;
+    fn check_ways(&self, ways: &Ways) -> Doubt {
         let axes = self.machine.axes.len();
         holds(ways.fit(axes), "a way of other axes")?;
         let tails = ways.tails().all(|(place, _)| self.has(place));
@@ -108,10 +166,9 @@ impl Interpreter {
         section.is_some_and(|section| (section.start..=section.end).contains(&entry))
     }
 
-    fn has_frame(&self, frame: &Frame) -> bool {
+    fn has_frame(&self, frame: &Frame, depth: usize) -> bool {
         let program = frame.program();
-        let is_deep =
-            usize::try_from(frame.level).is_ok_and(|level| level > self.state.frames.depth());
+        let is_deep = usize::try_from(frame.level).is_ok_and(|level| level > depth);
         let called = frame.called_from.iter();
         !is_deep
             && self.has_block(program, frame.next)

@@ -11,7 +11,7 @@ use crate::interpreter::coordinates::moving::Certainty;
 ///
 /// Where a coupling command may or may not have been executed, no group is known any more until it
 /// is redefined, and every axis that a group ever named may be coupled or not.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Couplings {
     groups: BTreeMap<String, Group>,
     /// The groups in force, in the order in which they were enabled.
@@ -44,6 +44,21 @@ struct Group {
     axes: Vec<AxisIndex>,
     /// The turn at which it was enabled, while it is in force.
     enabled: Option<u64>,
+}
+
+impl PartialEq for Couplings {
+    /// Whether the blocks that follow find the same couplings.
+    fn eq(&self, other: &Self) -> bool {
+        let groups = |couplings: &Self| {
+            let groups = couplings.groups.iter();
+            let groups = groups.map(|(name, group)| (name.clone(), group.axes.clone()));
+            groups.collect::<Vec<_>>()
+        };
+        self.enabled.values().eq(other.enabled.values())
+            && (&self.followers, &self.strays) == (&other.followers, &other.strays)
+            && (&self.named, self.vague, self.doubted) == (&other.named, other.vague, other.doubted)
+            && groups(self) == groups(other)
+    }
 }
 
 impl Couplings {
@@ -191,6 +206,19 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 
+    /// Other couplings may be in force instead. Returns the axes whose coupling may have changed.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
+        if self == other {
+            return Vec::new();
+        }
+        self.named.extend(&other.named);
+        let mut followers: Vec<AxisIndex> = other.strays.iter().copied().collect();
+        let pairs = other.followers.values().flatten();
+        followers.extend(pairs.map(|(axis, _)| *axis));
+        self.doubt_followers(&followers);
+        self.doubt()
+    }
+
     /// Groups with these axes may have been defined, or redefined: that changes a coupling only
     /// where some group may be in force.
     pub(in crate::interpreter) fn doubt_definitions(
@@ -204,19 +232,6 @@ impl Couplings {
         self.version = self.version.wrapping_add(1);
         self.groups.clear();
         Vec::new()
-    }
-
-    /// Whether the blocks that follow find the same couplings.
-    pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
-        let groups = |couplings: &Self| {
-            let groups = couplings.groups.iter();
-            let groups = groups.map(|(name, group)| (name.clone(), group.axes.clone()));
-            groups.collect::<Vec<_>>()
-        };
-        self.enabled.values().eq(other.enabled.values())
-            && (&self.followers, &self.strays) == (&other.followers, &other.strays)
-            && (&self.named, self.vague, self.doubted) == (&other.named, other.vague, other.doubted)
-            && groups(self) == groups(other)
     }
 
     /// Whether it names no other axes than so many.

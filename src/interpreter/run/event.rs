@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::possible_state::{PossibleStates, WayCondition};
+use super::untouched::FoundStates;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -162,6 +164,12 @@ pub struct Executed<'a> {
     pub stopped: bool,
     /// The state after it.
     pub compensation: &'a Compensation,
+    /// What of it is unknown because ways differ, with the states that are possible.
+    pub possible: &'a [PossibleStates],
+    /// Where the state is the one that the program found.
+    pub(crate) found: FoundStates<'a>,
+    /// The answers of the machine that lead here, where the block is executed on some ways only.
+    pub branch: Option<&'a [Vec<WayCondition>]>,
     /// G functions and positions after it.
     pub modal: &'a Modal,
     /// The axes that occurred so far.
@@ -190,6 +198,23 @@ impl Executed<'_> {
             None => MotionKind::Feed,
         }
     }
+}
+
+/// Ways that go on as one.
+#[derive(Debug, Clone, Copy)]
+pub struct Joined<'a> {
+    /// How many blocks of the program were executed before.
+    pub seq: u64,
+    /// The block at which they meet.
+    pub place: &'a Place,
+    /// The state that all of them may leave.
+    pub compensation: &'a Compensation,
+    /// What of it is unknown because ways differ, with the states that are possible.
+    pub possible: &'a [PossibleStates],
+    /// The axes that occurred so far.
+    pub occurred: &'a [bool],
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
 }
 
 /// A place where a program ends, or may.
@@ -227,6 +252,8 @@ pub struct Ended<'a> {
     pub unsaid: &'a BTreeMap<Code, u64>,
     /// The state that is left.
     pub compensation: &'a Compensation,
+    /// What of it is unknown because ways differ, with the states that are possible.
+    pub possible: &'a [PossibleStates],
     /// The axes that occurred so far.
     pub occurred: &'a [bool],
     /// Rises whenever the state or the axes that occurred change.
@@ -243,6 +270,8 @@ pub enum Event<'a> {
         name: Option<&'a str>,
         /// The state that it starts with.
         compensation: &'a Compensation,
+        /// What of it is unknown because ways differ, with the states that are possible.
+        possible: &'a [PossibleStates],
         /// The axes that occurred so far.
         occurred: &'a [bool],
         /// Rises whenever the state or the axes that occurred change.
@@ -250,6 +279,9 @@ pub enum Event<'a> {
     },
     /// A block was executed.
     Executed(Executed<'a>),
+    /// Ways that differ in an answer of the machine meet before a block (R14.1). A run does not stop
+    /// here; `Break` has no effect.
+    Joined(Joined<'a>),
     /// The program ended.
     Ended(Ended<'a>),
 }

@@ -5,24 +5,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::channel_axes::ChannelAxes;
-use super::coupling::Couplings;
-use super::cycles::ModalCycles;
+use super::control::ControlState;
 use super::journal::{Journal, Regions, Scan};
 use super::options::{Handed, Options};
-use super::stack::CallStack;
+use super::path::{BranchSide, Track};
+use super::possible_state::{PossibleStates, WayCondition, shown, ways_of};
 use super::state::State;
 use super::step::Sought;
 use super::undecided::Told;
-use super::ways::{Departing, Ways};
+use super::ways::Departing;
 use super::work::Work;
 use crate::comp::{AxisIndex, Compensation, KindSet};
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
 use crate::interpreter::values::effort::Effort;
-use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::value::Value;
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::syntax::SkipLevels;
@@ -68,6 +66,14 @@ pub struct Interpreter {
     pub(in crate::interpreter) pending: Vec<Scan>,
     /// Ways that leave at the block that is executed.
     pub(in crate::interpreter) departing: Vec<Departing>,
+    /// Where the answers to the condition of the block lead that is executed.
+    pub(in crate::interpreter) sides: Vec<BranchSide>,
+    /// The states that are possible, as users see them, and where they count.
+    pub(in crate::interpreter) shown: Shown,
+    /// What there is to say about ways that met before the block that is executed.
+    pub(in crate::interpreter) met: Vec<Diagnostic>,
+    /// The same where it was said before, or where nothing differs.
+    pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
     pub(in crate::interpreter) regions: Regions,
     /// What there is to say about lines that are no blocks and not kept.
     pub(in crate::interpreter) lost: Collected,
@@ -77,7 +83,49 @@ pub struct Interpreter {
     pub(in crate::interpreter) work: Work,
 }
 
+/// What is shown of the ways that lead to a block.
+#[derive(Debug, Clone, Default)]
+pub(in crate::interpreter) struct Shown {
+    version: u64,
+    pub(in crate::interpreter) possible: Vec<PossibleStates>,
+    pub(in crate::interpreter) branch: Option<Vec<Vec<WayCondition>>>,
+}
+
 impl Interpreter {
+    /// Brings up to date what is shown of ways.
+    #[inline]
+    pub(in crate::interpreter) fn show_ways(&mut self) {
+        let is_plain = self.state.control.possible.is_empty() && self.state.track.reach.is_always();
+        if is_plain && self.shown.possible.is_empty() && self.shown.branch.is_none() {
+            return;
+        }
+        self.show_ways_anew();
+    }
+
+    #[cold]
+    fn show_ways_anew(&mut self) {
+        if self.shown.version == self.version {
+            return;
+        }
+        let State {
+            control,
+            track,
+            conditions,
+            ..
+        } = &self.state;
+        let state = (&control.compensation, &control.possible);
+        self.shown = Shown {
+            version: self.version,
+            possible: shown(state, &track.reach, conditions),
+            branch: (!track.reach.is_always()).then(|| ways_of(&track.reach, conditions)),
+        };
+    }
+
+    /// The kinds that are unknown because ways differ, with the states that are possible (R14.2).
+    pub fn possible(&self) -> &[PossibleStates] {
+        &self.shown.possible
+    }
+
     /// An interpreter for a machine whose compensation is in a given state.
     pub fn new(
         machine: impl Into<Arc<Machine>>,
@@ -92,31 +140,23 @@ impl Interpreter {
             .iter()
             .map(|axis| configured || axis.frict_comp_origin != crate::machine::Origin::Default)
             .collect();
+        let modal = Modal::at_start(axes, &machine.channel);
         let state = State {
-            compensation,
-            memory: Memory::default(),
-            modal: Modal::at_start(axes, &machine.channel),
-            frames: CallStack::default(),
+            control: ControlState::new(compensation, modal),
+            track: Track::default(),
+            pending: Vec::new(),
+            ended: Vec::new(),
+            conditions: Vec::new(),
             seq: 0,
             blocks: 0,
             effort: Effort::default(),
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
             occurred,
-            couplings: Couplings::default(),
-            channel_axes: ChannelAxes::default(),
-            cycles: ModalCycles::default(),
-            loops: Vec::new(),
-            left_loops: Vec::new(),
             watching: false,
             reads: RefCell::default(),
-            refused: BTreeSet::new(),
-            ending: None,
             last: None,
             parked: None,
-            named: BTreeMap::new(),
-            described: None,
-            ways: Ways::default(),
             told: Told::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
@@ -153,6 +193,10 @@ impl Interpreter {
             sought: None,
             pending: Vec::new(),
             departing: Vec::new(),
+            sides: Vec::new(),
+            met: Vec::new(),
+            met_withheld: Vec::new(),
+            shown: Shown::default(),
             regions: Regions::new(),
             lost: Collected::default(),
             journal: Journal::default(),
@@ -164,7 +208,7 @@ impl Interpreter {
 
     /// Gives a variable the value that only the machine knows (R2.36).
     pub fn set(&mut self, name: &str, setting: &Setting) {
-        self.state.memory.give(name, setting.into());
+        self.state.control.memory.give(name, setting.into());
         self.journal.begin_anew();
     }
 
@@ -172,7 +216,7 @@ impl Interpreter {
     /// is passed over.
     pub fn place(&mut self, name: &str, position: f64) {
         if let Some(axis) = self.axis_named(name) {
-            self.state.modal.place(axis, Some(position));
+            self.state.control.modal.place(axis, Some(position));
         }
     }
 
@@ -183,7 +227,7 @@ impl Interpreter {
 
     /// The compensation state of the moment.
     pub fn compensation(&self) -> &Compensation {
-        &self.state.compensation
+        &self.state.control.compensation
     }
 
     /// The axes that occurred so far, by position; every axis of a configured machine.
@@ -214,37 +258,38 @@ impl Interpreter {
 
     /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
-        self.state.modal.position(axis)
+        self.state.control.modal.position(axis)
     }
 
     /// The G functions in force.
     pub fn modal(&self) -> &Modal {
-        &self.state.modal
+        &self.state.control.modal
     }
 
     /// The `V.S.` variables, which outlive programs (R2.34).
     pub fn shared_variables(&self) -> BTreeMap<String, Value> {
-        self.state.memory.shared()
+        self.state.control.memory.shared()
     }
 
     /// The values that the running program sees, by name: the own parameters of its call, the
     /// parameters in the order of their numbers, and the variables.
     pub fn values(&self) -> Vec<(String, Value)> {
-        let running = self.state.frames.running();
+        let running = self.state.control.frames.running();
         let own = running.into_iter().flat_map(|frame| &frame.own);
         let own = own.map(|(index, value)| (format!("@P{index}"), value.clone()));
-        own.chain(self.state.memory.all()).collect()
+        own.chain(self.state.control.memory.all()).collect()
     }
 
     /// Takes over the compensation state of an earlier session.
     pub fn set_compensation(&mut self, compensation: Compensation) {
-        self.state.compensation = compensation;
+        self.state.control.possible.clear();
+        self.state.control.compensation = compensation;
         self.version += 1;
     }
 
     /// The axis that `@X` means in the plane in force.
     pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
-        let letter = self.state.modal.main_axis(letter)?;
+        let letter = self.state.control.modal.main_axis(letter)?;
         self.letters[usize::from(letter - b'A')]
     }
 
@@ -287,16 +332,29 @@ impl Interpreter {
     /// The skip level that decides whether a block is executed, where that is not known.
     #[inline]
     pub(in crate::interpreter) fn undecided_level(&self, block: &Block) -> Option<u8> {
-        block.skip.filter(|_| self.skip_levels().is_none())
+        block
+            .skip
+            .filter(|_| self.skip_levels().is_none() && !self.is_on_marked_way())
+    }
+
+    /// Whether the way that is followed executes the blocks with a skip mark around this one.
+    fn is_on_marked_way(&self) -> bool {
+        let frames = &self.state.control.frames;
+        let here = frames.running().zip(self.state.track.marked);
+        here.is_some_and(|(frame, marked)| {
+            (marked.depth, marked.unit) == (frames.depth(), frame.unit)
+                && (marked.first < frame.next && frame.next <= marked.after)
+        })
     }
 
     /// The level that decides whether the parts of a control block belong together: one of them has a
     /// skip mark and its opener has none.
     pub(in crate::interpreter) fn split_level(&self) -> Option<u8> {
-        let frame = self.state.frames.running()?;
+        let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
         let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
-        self.skip_levels().is_none().then_some(level)
+        let is_known = self.skip_levels().is_some() || self.is_on_marked_way();
+        (!is_known).then_some(level)
     }
 
     /// The work of the session so far, in units: characters of macros, texts and regions that were
@@ -320,13 +378,13 @@ impl Interpreter {
     /// 208400267).
     pub(in crate::interpreter) fn define_machine_macros(&mut self) {
         for (name, code) in &self.machine.programs.macros {
-            self.state.memory.define_macro(name, code);
+            self.state.control.memory.define_macro(name, code);
         }
     }
 
     /// The statement that is executed and the end of its control block.
     pub(in crate::interpreter) fn current_block(&self) -> Range<EntryIndex> {
-        self.state.frames.running().map_or(0..0, |frame| {
+        self.state.control.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
             entry..self.programs.index(frame.unit).links(entry).end
         })
@@ -334,7 +392,8 @@ impl Interpreter {
 
     /// Kinds of an axis become unknown.
     pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
-        let compensation = &mut self.state.compensation;
+        self.state.control.possible.replace(axis, kinds);
+        let compensation = &mut self.state.control.compensation;
         compensation.forget(axis, kinds, &mut self.work.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);
         if !doubted.is_empty() {

@@ -18,6 +18,18 @@ pub enum StopPolicy {
     CheckAll,
 }
 
+/// What happens where a condition depends on what only the machine knows (R14.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Branches {
+    /// Every way is executed, and what they agree on is known.
+    #[default]
+    Followed,
+    /// None is, and whatever any of them could change is unknown (R2.51). So it is, too, where blocks
+    /// say what they move.
+    Passed,
+}
+
 /// How programs are run.
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
@@ -35,6 +47,8 @@ pub struct Options {
     pub notes: Notes,
     /// Whether blocks say what they move.
     pub motions: Motions,
+    /// What happens where a condition depends on what only the machine knows.
+    pub branches: Branches,
 }
 
 impl Options {
@@ -65,6 +79,12 @@ impl Options {
     /// The same with another value of [`notes`](Self::notes).
     pub fn with_notes(mut self, notes: Notes) -> Self {
         self.notes = notes;
+        self
+    }
+
+    /// The same with another value of [`branches`](Self::branches).
+    pub fn with_branches(mut self, branches: Branches) -> Self {
+        self.branches = branches;
         self
     }
 

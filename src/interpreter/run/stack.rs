@@ -1,12 +1,14 @@
 //! The call stack: the programs that run, each called by the one before it.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::step::{Passage, Request};
 use crate::interpreter::coordinates::modal;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::names::join_value;
 use crate::interpreter::values::value::Value;
 use crate::text::Place;
 
@@ -67,7 +69,54 @@ pub(in crate::interpreter) enum Seeking {
     Case(Value),
 }
 
+impl Frame {
+    /// Another way stands at the same block: what differs becomes unknown.
+    fn join(&mut self, other: &Self, cause: &Arc<str>) {
+        let Self {
+            // Both stand at the same block.
+            unit: _,
+            section: _,
+            next: _,
+            level: _,
+            seeking: _,
+            waiting: _,
+            own,
+            called_from,
+            restores,
+            retains,
+            passage,
+        } = other;
+        let given: Vec<u32> = self.own.keys().chain(own.keys()).copied().collect();
+        for index in given {
+            let mut mine = self.own.get(&index).cloned();
+            join_value(&mut mine, own.get(&index), cause);
+            if let Some(value) = mine {
+                self.own.insert(index, value);
+            }
+        }
+        if self.called_from.is_none() {
+            self.called_from.clone_from(called_from);
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.restores, restores) {
+            mine.doubt(theirs);
+        }
+        if *retains == Retains::Perhaps {
+            self.retains = Retains::Perhaps;
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.passage, passage) {
+            mine.begun = mine.begun.min(theirs.begun);
+        }
+    }
+}
+
 impl CallStack {
+    /// Another way stands at the same block: what differs becomes unknown.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) {
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            mine.join(theirs, cause);
+        }
+    }
+
     /// The program whose blocks are executed.
     #[inline]
     pub(in crate::interpreter) fn running(&self) -> Option<&Frame> {

@@ -25,6 +25,8 @@ pub(in crate::interpreter) enum Step {
     /// The same with a place to return to.
     ReturnTo(Destination),
     End(EndedBy),
+    /// Nowhere: another way does what this one would do (R14.3).
+    Covered,
 }
 
 /// Why the next block is not the one that follows.

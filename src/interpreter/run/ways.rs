@@ -183,6 +183,36 @@ impl Ways {
         !self.open.is_empty()
     }
 
+    /// Those of another way that comes to the same block.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+        let Self {
+            open,
+            end,
+            ends,
+            own: _,
+            written,
+            everything,
+        } = other;
+        for way in open {
+            if !self.open.contains(way) {
+                self.add(way.clone());
+            }
+        }
+        if let Some(way) = end
+            && self.end != *end
+        {
+            self.add_end(Way::clone(way));
+        }
+        for end in ends {
+            self.note_end(end.clone());
+        }
+        for (target, seq) in &written.0 {
+            let last = self.written.0.entry(target.clone()).or_default();
+            *last = (*last).max(*seq);
+        }
+        self.everything = self.everything.max(*everything);
+    }
+
     /// A value was written.
     pub(in crate::interpreter) fn write(&mut self, place: &Place, seq: u64) {
         if self.written.0.len() >= MAX_WRITTEN {

@@ -76,8 +76,10 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block that says that the program ends.
     pub(in crate::interpreter) end: Option<OwnEnd>,
-    /// The budget that ended the run.
-    pub(in crate::interpreter) over: Option<Diagnostic>,
+    /// What ended the run or a way through it: a budget, or the end of a file without M30.
+    pub(in crate::interpreter) over: Vec<Diagnostic>,
+    /// Whether another way does what this one would do from here on.
+    pub(in crate::interpreter) covered: bool,
     /// Whether that is a loop that never ends.
     pub(in crate::interpreter) endless: bool,
     /// Whether calls are nested too deeply for the run to go on (R9.91).

@@ -20,7 +20,7 @@ impl Interpreter {
         cause: &Arc<str>,
         say: Option<Span>,
     ) {
-        let Some(place) = self.state.frames.program() else {
+        let Some(place) = self.state.control.frames.program() else {
             return;
         };
         self.note_ends(region, cause);
@@ -66,7 +66,7 @@ impl Interpreter {
         }
         let kinds = self.all_kinds();
         for &place in &region.ends {
-            self.state.ways.note_end(WayEnd {
+            self.state.track.ways.note_end(WayEnd {
                 place,
                 cause: cause.clone(),
                 kinds: kinds.clone(),
@@ -76,7 +76,7 @@ impl Interpreter {
 
     /// What is selected and what is unknown of each axis.
     pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
-        let compensation = &self.state.compensation;
+        let compensation = &self.state.control.compensation;
         let axes = (0..compensation.len()).map(AxisIndex::new);
         let kinds = axes.map(|axis| AxisKinds {
             selected: compensation.selected(axis),
@@ -87,7 +87,7 @@ impl Interpreter {
 
     /// A jump that may be taken; whether anything differs where it is.
     pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) -> bool {
-        let Some(frame) = self.state.frames.running() else {
+        let Some(frame) = self.state.control.frames.running() else {
             return false;
         };
         let here = frame.next;

@@ -96,7 +96,7 @@ impl Gathering<'_> {
     /// other would be looked through without end.
     fn expand(&mut self, at: &At<'_>) {
         while let Some((name, used)) = self.macros.pop() {
-            let code = match self.run.state.memory.macro_code(&name) {
+            let code = match self.run.state.control.memory.macro_code(&name) {
                 Some(Value::Text(code)) => &**code,
                 Some(Value::Unknown(_)) => {
                     self.effect(Effect::All);
@@ -155,7 +155,8 @@ impl Gathering<'_> {
                 Some(CallName::Variable(_)) => self.effect(Effect::All),
                 Some(CallName::Literal(name) | CallName::Quoted(name)) => {
                     let name = unquoted(name.of(at.text));
-                    let Value::Text(name) = self.run.state.memory.macro_or_text(name) else {
+                    let Value::Text(name) = self.run.state.control.memory.macro_or_text(name)
+                    else {
                         return self.effect(Effect::All);
                     };
                     let span = at.in_block(sequence.span);
@@ -255,7 +256,7 @@ impl Gathering<'_> {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
                 let name = unquoted(span.of(at.text));
-                self.run.state.memory.macro_or_text(name)
+                self.run.state.control.memory.macro_or_text(name)
             }
             CallName::Variable(_) => return self.effect(Effect::All),
         };
@@ -493,7 +494,7 @@ impl Interpreter {
         range: Range<EntryIndex>,
     ) -> Arc<Region> {
         let key = (unit, range.start, range.end);
-        let version = self.state.memory.macro_version();
+        let version = self.state.control.memory.macro_version();
         let known = self.regions.get(&key);
         if let Some(known) = known.filter(|known| known.macro_version == version) {
             return Arc::clone(known);
@@ -514,7 +515,7 @@ impl Interpreter {
         Gathering {
             run: self,
             region: Region {
-                macro_version: self.state.memory.macro_version(),
+                macro_version: self.state.control.memory.macro_version(),
                 ..Region::default()
             },
             effects: HashSet::new(),
@@ -529,7 +530,8 @@ impl Interpreter {
 
     /// What one block could change, which may be of lines that are not kept.
     pub(in crate::interpreter) fn region_of_block(&self, unit: usize, at: &At<'_>) -> Region {
-        let mut gathering = self.gathering((unit, self.state.frames.entry().unwrap_or_default()));
+        let mut gathering =
+            self.gathering((unit, self.state.control.frames.entry().unwrap_or_default()));
         gathering.block(at);
         gathering.expand(at);
         if gathering.whole

@@ -52,7 +52,7 @@ impl Interpreter {
     /// Opens the ways that leave; returns the block after what is passed over.
     pub(in crate::interpreter) fn take_departing(&mut self) -> EntryIndex {
         let departing = std::mem::take(&mut self.departing);
-        let depth = self.state.frames.depth();
+        let depth = self.state.control.frames.depth();
         let mut here = 0;
         let mut known = HashSet::new();
         for Departing {
@@ -67,7 +67,7 @@ impl Interpreter {
                 Aim::Block(target) => vec![(depth, target)],
                 Aim::Return => vec![(depth, RETURN)],
                 Aim::Far => {
-                    let main = self.state.frames.main();
+                    let main = self.state.control.frames.main();
                     let labels = main.map(|main| {
                         let index = self.programs.index(main.unit);
                         index.labels(main.section).map(|label| (1, label))
@@ -84,9 +84,9 @@ impl Interpreter {
                 let way = self.way(depth, target, cause.clone());
                 // M17 ends a main program.
                 if depth == 0 || (depth == 1 && target == RETURN) {
-                    self.state.ways.add_end(way);
+                    self.state.track.ways.add_end(way);
                 } else {
-                    self.state.ways.add(way);
+                    self.state.track.ways.add(way);
                 }
             }
         }
@@ -94,7 +94,7 @@ impl Interpreter {
     }
 
     fn kinds(&self, axis: AxisIndex) -> AxisKinds {
-        let compensation = &self.state.compensation;
+        let compensation = &self.state.control.compensation;
         AxisKinds {
             selected: compensation.selected(axis),
             unknown: compensation.unknown(axis),
@@ -103,7 +103,7 @@ impl Interpreter {
 
     /// A way that leaves now.
     fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> Way {
-        let count = self.state.compensation.len();
+        let count = self.state.control.compensation.len();
         self.state.effort.charge(ITEM + count);
         Way {
             depth,
@@ -113,12 +113,12 @@ impl Interpreter {
             cause,
             standing: Standing {
                 kinds: self.all_kinds(),
-                modal: self.state.modal.clone(),
-                cycles: self.state.cycles.clone(),
-                couplings: self.state.couplings.version(),
-                named: self.state.named.clone(),
-                channel_axes: self.state.channel_axes.clone(),
-                macros: self.state.memory.macro_version(),
+                modal: self.state.control.modal.clone(),
+                cycles: self.state.control.cycles.clone(),
+                couplings: self.state.control.couplings.version(),
+                named: self.state.control.named.clone(),
+                channel_axes: self.state.control.channel_axes.clone(),
+                macros: self.state.control.memory.macro_version(),
             },
             tails: Vec::new(),
         }
@@ -127,17 +127,27 @@ impl Interpreter {
     /// The ways that go on at the block that is executed next, or before it, meet it.
     #[cold]
     pub(in crate::interpreter) fn arrive(&mut self, finder: &mut dyn Finder) {
-        let here = self.state.frames.running().map_or(0, |frame| frame.next);
+        let here = self
+            .state
+            .control
+            .frames
+            .running()
+            .map_or(0, |frame| frame.next);
         self.meet(here.saturating_sub(1), finder);
     }
 
     fn meet(&mut self, here: EntryIndex, finder: &mut dyn Finder) {
-        let depth = self.state.frames.depth();
-        while let Some(way) = self.state.ways.arrived(depth, here) {
+        let depth = self.state.control.frames.depth();
+        while let Some(way) = self.state.track.ways.arrived(depth, here) {
             let (target, cause) = (way.target, way.cause.clone());
             let mut tails = HashSet::new();
             self.join(way, &mut tails);
-            let place = self.state.frames.program().filter(|_| target < here);
+            let place = self
+                .state
+                .control
+                .frames
+                .program()
+                .filter(|_| target < here);
             if let Some(place) = place
                 && self.programs.index(place.unit).entries.len() >= here as usize
             {
@@ -151,13 +161,13 @@ impl Interpreter {
                 break;
             }
         }
-        self.state.ways.tidy();
+        self.state.track.ways.tidy();
     }
 
     /// A program is left: its ways go on in the caller, after what they still execute.
     pub(in crate::interpreter) fn leave_ways(&mut self, frame: &Frame) {
-        let depth = self.state.frames.depth();
-        let caller = self.state.frames.running().map(|caller| {
+        let depth = self.state.control.frames.depth();
+        let caller = self.state.control.frames.running().map(|caller| {
             let waiting = caller.waiting.iter().map(|request| Tail {
                 unit: request.found.unit,
                 section: request.found.section,
@@ -165,7 +175,7 @@ impl Interpreter {
             });
             (caller.next, waiting.collect::<Vec<_>>())
         });
-        for mut way in self.state.ways.left(depth + 1) {
+        for mut way in self.state.track.ways.left(depth + 1) {
             if way.target != RETURN {
                 way.tails.push(Tail {
                     unit: frame.unit,
@@ -177,25 +187,25 @@ impl Interpreter {
                 way.standing.modal.restore(saved);
             }
             let Some((next, waiting)) = &caller else {
-                self.state.ways.add_end(way);
+                self.state.track.ways.add_end(way);
                 continue;
             };
             way.tails.extend(waiting);
             (way.depth, way.target) = (depth, *next);
-            self.state.ways.add(way);
+            self.state.track.ways.add(way);
         }
     }
 
     /// The program ends: every way ends it too.
     pub(in crate::interpreter) fn meet_at_end(&mut self, finder: &mut dyn Finder) {
-        if !self.state.ways.is_open() {
+        if !self.state.track.ways.is_open() {
             return;
         }
         let own = self.all_kinds();
         let mut tails = HashSet::new();
-        let open = std::mem::take(&mut self.state.ways.open);
+        let open = std::mem::take(&mut self.state.track.ways.open);
         for mut way in open {
-            let frames = self.state.frames.iter().take(way.depth);
+            let frames = self.state.control.frames.iter().take(way.depth);
             let rest = frames.enumerate().filter_map(|(level, frame)| {
                 let from = if level + 1 == way.depth {
                     (way.target != RETURN).then_some(way.target)?
@@ -214,13 +224,13 @@ impl Interpreter {
         }
         self.forget_called(finder);
         self.departing.clear();
-        if let Some(end) = self.state.ways.end.take() {
+        if let Some(end) = self.state.track.ways.end.take() {
             self.join(*end, &mut tails);
             self.forget_called(finder);
             self.departing.clear();
         }
-        self.state.ways = Ways {
-            ends: std::mem::take(&mut self.state.ways.ends),
+        self.state.track.ways = Ways {
+            ends: std::mem::take(&mut self.state.track.ways.ends),
             own: Some(own),
             ..Ways::default()
         };
@@ -243,21 +253,24 @@ impl Interpreter {
             let differing = known.differing(*kinds);
             self.doubt(axis, differing.without(known.unknown));
         }
-        self.state.modal.doubt(&standing.modal);
-        if standing.macros != self.state.memory.macro_version() {
+        self.state.control.modal.doubt(&standing.modal);
+        if standing.macros != self.state.control.memory.macro_version() {
             self.doubt_macros(&cause);
         }
-        self.state.cycles.join(&standing.cycles);
-        if standing.couplings != self.state.couplings.version() {
+        self.state.control.cycles.join(&standing.cycles);
+        if standing.couplings != self.state.control.couplings.version() {
             self.doubt_couplings();
         }
-        doubt_names(&mut self.state.named, &standing.named, &cause);
-        self.state.channel_axes.doubt(&standing.channel_axes);
-        let written = &self.state.ways.written.0;
+        doubt_names(&mut self.state.control.named, &standing.named, &cause);
+        self.state
+            .control
+            .channel_axes
+            .doubt(&standing.channel_axes);
+        let written = &self.state.track.ways.written.0;
         self.state.effort.charge(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
         let later: Vec<Target> = later.map(|(target, _)| target.clone()).collect();
-        if self.state.ways.everything > since {
+        if self.state.track.ways.everything > since {
             self.forget_memory(&cause);
         }
         for target in &later {

@@ -32,7 +32,7 @@ impl Interpreter {
         at: &At<'_>,
     ) -> Option<Step> {
         self.open_undecided(cause, span, at);
-        let unit = self.state.frames.running()?.unit;
+        let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
         let region = self.forget_region(unit, passed, cause);
@@ -48,11 +48,11 @@ impl Interpreter {
         range: Range<EntryIndex>,
         cause: &Arc<str>,
     ) -> Arc<Region> {
-        let version = self.state.memory.macro_version();
+        let version = self.state.control.memory.macro_version();
         let region = self.forget_blocks(unit, range.clone(), cause);
         // What it defines it may use as well, before or after: the second look finds such macros
         // unknown, and no third one is needed.
-        if self.state.memory.macro_version() != version {
+        if self.state.control.memory.macro_version() != version {
             return self.forget_blocks(unit, range, cause);
         }
         region
@@ -65,7 +65,7 @@ impl Interpreter {
         cause: &Arc<str>,
     ) -> Arc<Region> {
         let key = (unit, range.start, range.end);
-        let version = self.state.memory.macro_version();
+        let version = self.state.control.memory.macro_version();
         let known = self.regions.get(&key);
         let is_new = known.is_none_or(|known| known.macro_version != version);
         let region = self.region(unit, range);
@@ -106,16 +106,21 @@ impl Interpreter {
 
     /// Makes unknown what one block could change, which may be of lines that are not kept.
     pub(in crate::interpreter) fn forget_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
-        let version = self.state.memory.macro_version();
+        let version = self.state.control.memory.macro_version();
         let region = self.suffer_block(at, cause);
-        if self.state.memory.macro_version() != version {
+        if self.state.control.memory.macro_version() != version {
             return self.suffer_block(at, cause);
         }
         region
     }
 
     fn suffer_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
-        let unit = self.state.frames.running().map_or(0, |frame| frame.unit);
+        let unit = self
+            .state
+            .control
+            .frames
+            .running()
+            .map_or(0, |frame| frame.unit);
         let region = self.region_of_block(unit, at);
         self.state
             .effort
@@ -139,7 +144,7 @@ impl Interpreter {
 
     /// Something of the state may have changed.
     fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
-        let modal = &mut self.state.modal;
+        let modal = &mut self.state.control.modal;
         match effect {
             Effect::Compensation(axis, kinds) => match self.addressed(axis) {
                 Ok(Addressed::Axis(axis)) => {
@@ -170,7 +175,7 @@ impl Interpreter {
                 self.see(*axis);
             }
             Effect::Macro(name) => {
-                self.state.memory.forget_macro(name, cause);
+                self.state.control.memory.forget_macro(name, cause);
                 self.work.wrote = true;
             }
             Effect::Hash(name) => {
@@ -180,17 +185,17 @@ impl Interpreter {
                 }
             }
             Effect::Coupling(axes) => self.doubt_definitions(axes),
-            Effect::Followers(axes) => self.state.couplings.doubt_followers(axes),
+            Effect::Followers(axes) => self.state.control.couplings.doubt_followers(axes),
             Effect::Function(word) => self.forget_function(*word, unit, cause),
             Effect::FileName(word) => {
                 let unknown = Value::Unknown(cause.clone());
-                self.state.named.insert(word.clone(), unknown);
+                self.state.control.named.insert(word.clone(), unknown);
                 self.work.wrote = true;
             }
             Effect::Declaration(name) => {
                 let unknown = Value::Unknown(cause.clone());
-                self.state.memory.declare(name, unknown);
-                self.state.memory.forget_elements(name, cause);
+                self.state.control.memory.declare(name, unknown);
+                self.state.control.memory.forget_elements(name, cause);
                 self.work.wrote = true;
             }
             Effect::All => self.forget_all(cause),
@@ -201,7 +206,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn forget_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = HashSet::new();
-        let version = self.state.memory.macro_version();
+        let version = self.state.control.memory.macro_version();
         let mut callers = BTreeMap::new();
         while let Some(Scan {
             call,
@@ -261,7 +266,7 @@ impl Interpreter {
             pending.append(&mut self.pending);
         }
         // Macros that a called program may define are used where it was called from.
-        if self.state.memory.macro_version() != version {
+        if self.state.control.memory.macro_version() != version {
             for ((unit, from, to), cause) in callers {
                 self.forget_blocks(unit, from..to, &cause);
             }
@@ -272,7 +277,7 @@ impl Interpreter {
     /// A modal cycle of a region may be in force after it.
     fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.cycles.add(Repeated {
+            self.state.control.cycles.add(Repeated {
                 call,
                 own: BTreeMap::new(),
                 after_motion_only,

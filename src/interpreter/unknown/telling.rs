@@ -129,7 +129,7 @@ impl Interpreter {
 
     /// What the blocks of a skip level switch in the file that runs: one message names them all.
     fn switched_by_level(&mut self, level: u8) -> Vec<(AxisIndex, KindSet)> {
-        let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Vec::new();
         };
         let region = self.region_of_level(unit, level);
@@ -139,7 +139,7 @@ impl Interpreter {
                 continue;
             };
             if let Ok(Addressed::Axis(axis)) = self.addressed(name) {
-                let state = |kind: &Kind| self.state.compensation.state(axis, *kind);
+                let state = |kind: &Kind| self.state.control.compensation.state(axis, *kind);
                 let set = kinds
                     .iter()
                     .filter(|kind| state(kind) != State::Unconfigured);
@@ -229,7 +229,7 @@ impl Interpreter {
         let Aim::Block(target) = to else {
             return true;
         };
-        let Some(place) = self.state.frames.program() else {
+        let Some(place) = self.state.control.frames.program() else {
             return true;
         };
         if self.programs.index(place.unit).entries.len() < here.max(target) as usize {
@@ -272,7 +272,7 @@ impl Interpreter {
 }
 
 /// How a message names a kind of several axes.
-fn of_axes(kind: Kind, axes: &[&str]) -> String {
+pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let shown: Vec<String> = axes
         .iter()
         .take(MAX_NAMED)

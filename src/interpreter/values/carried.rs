@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::value::Value;
+use crate::interpreter::run::carried_ways::CarriedWays;
 
 /// A declared array without its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,6 +39,8 @@ pub struct Carried {
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
+    /// The kinds that are unknown because ways differ.
+    pub ways: CarriedWays,
     /// The axes that coupling groups with unknown members may name.
     pub lost_couplings: Vec<String>,
 }

@@ -1,42 +1,39 @@
 //! Parameters, variables and macros of a run.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
-use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
+use super::names::{Array, Names, Variable, Weight, compare, join_value, parts, weight};
+use super::parameter_values::ParameterValues;
+use super::persistent::PersistentMap;
 use super::target::Target;
 use super::value::Value;
 use super::variable::set_name;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 
-/// Parameters up to this number have a place in a vector of their own.
-const DIRECT: u32 = 1024;
-
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Memory {
-    direct: Vec<Option<Value>>,
-    parameters: BTreeMap<u32, Value>,
+    parameters: ParameterValues,
     /// Set when some parameter was written, but it is not known which: the value that made it so.
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: Names,
     /// What the user said that parameters and variables hold which no program wrote.
-    given: BTreeMap<String, Value>,
+    given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
     locals: Vec<Names>,
-    /// The code of each, or why it is not known.
-    #[serde(serialize_with = "sorted")]
-    macros: HashMap<String, Value>,
+    /// The code of each macro, or why it is not known.
+    macros: PersistentMap<String, Value>,
     /// Rises with every change of the macros.
     macro_version: u64,
-    /// The weight of parameters beyond the direct ones, and of macros.
+    /// The weight of macros.
     weight: Weight,
 }
 
@@ -47,33 +44,29 @@ impl Memory {
     pub(in crate::interpreter) fn start_program(&mut self, parameters: Parameters) {
         let kept = |name: &str| is_kept(name, parameters);
         if parameters == Parameters::Cleared {
-            self.direct.clear();
-            self.parameters.clear();
+            self.parameters = ParameterValues::default();
             self.lost = None;
         }
         self.unknown_names = None;
         self.locals.clear();
-        self.variables.names.retain(|name, _| kept(name));
+        let names = self.variables.names.iter();
+        let names = names.filter(|(name, _)| kept(name));
+        let names = names.map(|(name, variable)| (name.clone(), variable.clone()));
+        self.variables.names = names.collect();
         self.variables.weight = Weight(self.variables.weigh());
     }
 
     /// How much is held, in values and shares of texts (R2.60).
     pub(in crate::interpreter) fn weight(&self) -> usize {
-        let own = [self.direct.len(), self.parameters.len()];
         let levels = self.locals.iter().chain([&self.variables]);
-        let weights = levels.map(|names| names.weight.0).chain([self.weight.0]);
-        own.into_iter()
-            .chain(weights)
+        let weights = levels.map(|names| names.weight.0);
+        weights
+            .chain([self.weight.0, self.parameters.weight()])
             .fold(0, usize::saturating_add)
     }
 
     pub(in crate::interpreter) fn parameter(&self, index: u32) -> Option<Value> {
-        let known = if index < DIRECT {
-            self.direct.get(index as usize).and_then(Option::as_ref)
-        } else {
-            self.parameters.get(&index)
-        };
-        match (known, &self.lost) {
+        match (self.parameters.get(index), &self.lost) {
             (Some(value), _) => Some(value.clone()),
             (None, Some(cause)) => Some(Value::Unknown(cause.clone())),
             (None, None) => None,
@@ -81,18 +74,7 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn set_parameter(&mut self, index: u32, value: Value) {
-        if index < DIRECT {
-            let place = index as usize;
-            if self.direct.len() <= place {
-                self.direct.resize(place + 1, None);
-            }
-            self.direct[place] = Some(value);
-        } else {
-            self.weight.add(weight("", &value) - 1);
-            if let Some(before) = self.parameters.insert(index, value) {
-                self.weight.take(weight("", &before) - 1);
-            }
-        }
+        self.parameters.set(index, value);
     }
 
     /// The value of a variable, the declared default of an array element that was never written.
@@ -196,7 +178,7 @@ impl Memory {
     /// Some element of an array was written, but it is not known which: none is known any more.
     pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
-        let holding = levels.filter(|names| names.names.contains_key(name));
+        let holding = levels.filter(|names| names.names.get(name).is_some());
         let known = holding.map(|names| names.forget_elements(name, cause));
         if known.count() == 0 {
             self.declared(name).forget_elements(name, cause);
@@ -205,8 +187,7 @@ impl Memory {
 
     /// Some P parameter was written, but it is not known which: none is known any more.
     pub(in crate::interpreter) fn forget_parameters(&mut self, cause: &Arc<str>) {
-        self.direct.clear();
-        self.parameters.clear();
+        self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
@@ -217,9 +198,9 @@ impl Memory {
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         for names in levels {
-            let written = names.names.iter_mut();
-            for (_, variable) in written.filter(|(name, _)| is_written(name)) {
-                variable.forget(cause);
+            let written = names.names.keys().filter(|name| is_written(name));
+            for name in written.cloned().collect::<Vec<String>>() {
+                names.names.slot(name, Variable::default).forget(cause);
             }
             names.weight = Weight(names.weigh());
         }
@@ -232,12 +213,7 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
-        if let Some(before) = self.parameters.remove(&index) {
-            self.weight.take(weight("", &before) - 1);
-        }
-        if let Some(place) = self.direct.get_mut(index as usize) {
-            *place = None;
-        }
+        self.parameters.remove(index);
     }
 
     /// The names whose numbers differ in another memory; `None` where anything else does, or more
@@ -245,8 +221,6 @@ impl Memory {
     pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
         let same = self.lost == other.lost
             && self.unknown_names == other.unknown_names
-            && self.direct.len() == other.direct.len()
-            && self.parameters.len() == other.parameters.len()
             && self.locals.len() == other.locals.len()
             && self.macro_version == other.macro_version;
         if !same {
@@ -254,26 +228,94 @@ impl Memory {
         }
         let mut differing = Vec::new();
         let parameter = |index| Target::Parameter(Owner::Program, index);
-        for (index, pair) in (0..).zip(self.direct.iter().zip(&other.direct)) {
-            match pair {
-                (Some(mine), Some(theirs)) => {
-                    compare(mine, theirs, || parameter(index), &mut differing)?;
-                }
-                (None, None) => {}
-                _ => return None,
-            }
-        }
-        for ((index, mine), (at, theirs)) in self.parameters.iter().zip(&other.parameters) {
-            if index != at {
-                return None;
-            }
-            compare(mine, theirs, || parameter(*index), &mut differing)?;
+        for index in self.parameters.differing(&other.parameters) {
+            let mine = self.parameters.get(index)?;
+            compare(
+                mine,
+                other.parameters.get(index)?,
+                || parameter(index),
+                &mut differing,
+            )?;
         }
         let levels = self.locals.iter().zip(&other.locals);
         for (mine, theirs) in levels.chain([(&self.variables, &other.variables)]) {
             mine.differing(theirs, &mut differing)?;
         }
         Some(differing)
+    }
+
+    /// What differs in another memory becomes unknown: two ways meet (R14.1). Returns how much does.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
+        let Self {
+            parameters,
+            lost,
+            variables,
+            // What the user gave is the same on all ways.
+            given: _,
+            unknown_names,
+            locals,
+            macros,
+            macro_version,
+            weight: _,
+        } = other;
+        let indices = self.parameters.differing(parameters);
+        let mut differing = indices.len();
+        for index in indices {
+            let mut mine = self.parameter(index);
+            join_value(&mut mine, other.parameter(index).as_ref(), cause);
+            if let Some(value) = mine {
+                self.set_parameter(index, value);
+            }
+        }
+        if self.lost.is_none() {
+            self.lost.clone_from(lost);
+        }
+        if self.unknown_names.is_none() {
+            self.unknown_names.clone_from(unknown_names);
+        }
+        differing += self.variables.join(variables, cause);
+        while self.locals.len() < locals.len() {
+            self.locals.push(Names::default());
+        }
+        let none = Names::default();
+        for (place, mine) in self.locals.iter_mut().enumerate() {
+            differing += mine.join(locals.get(place).unwrap_or(&none), cause);
+        }
+        let names = self.macros.differing(macros);
+        for name in &names {
+            self.forget_macro(name, cause);
+        }
+        if !names.is_empty() {
+            self.macro_version = self.macro_version.max(*macro_version).wrapping_add(1);
+        }
+        differing + names.len()
+    }
+
+    /// The variables that others than the program read and that differ in another memory.
+    pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
+        let names = self.variables.names.differing(&other.variables.names);
+        let is_read = |name: &String| {
+            name.starts_with("V.") && !(name.starts_with("V.P.") || name.starts_with("V.CYC."))
+        };
+        names.into_iter().filter(is_read).collect()
+    }
+
+    /// Values of the program that it is not known any more.
+    pub(in crate::interpreter) fn lose(&mut self, targets: &[Target], cause: &Arc<str>) {
+        let unknown = || Value::Unknown(cause.clone());
+        for target in targets {
+            match target {
+                Target::Parameter(_, index) => self.set_parameter(*index, unknown()),
+                Target::Variable(name) => self.set_variable(name, unknown()),
+                Target::Elements(name) => self.forget_elements(name, cause),
+                Target::Parameters => self.forget_parameters(cause),
+            }
+        }
+    }
+
+    /// Whether the macros of another memory are the same.
+    pub(in crate::interpreter) fn has_macros_of(&self, other: &Self) -> bool {
+        self.macros == other.macros
     }
 
     pub(in crate::interpreter) fn enter_call(&mut self, depth: usize) {
@@ -354,7 +396,7 @@ impl Memory {
     /// What a program start leaves (R9.32).
     pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
         let mut carried = Carried::default();
-        for (name, code) in &self.macros {
+        for (name, code) in self.macros.iter() {
             match code {
                 Value::Text(code) => {
                     carried.macros.insert(name.clone(), code.to_string());
@@ -366,11 +408,8 @@ impl Memory {
             }
         }
         if parameters == Parameters::Kept {
-            let direct = (0..).zip(&self.direct);
-            let direct = direct.filter_map(|(at, value)| Some((at, value.clone()?)));
-            let rest = self.parameters.iter();
-            let rest = rest.map(|(at, value)| (*at, value.clone()));
-            carried.parameters = direct.chain(rest).collect();
+            let parameters = self.parameters.iter();
+            carried.parameters = parameters.map(|(at, value)| (at, value.clone())).collect();
             carried.lost_parameters.clone_from(&self.lost);
         }
         let names = self.variables.names.iter();
@@ -412,10 +451,7 @@ impl Memory {
 
     /// The parameters, and the variables that the program sees which runs.
     pub(in crate::interpreter) fn all(&self) -> Vec<(String, Value)> {
-        let direct = (0..).zip(&self.direct);
-        let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
-        let further = self.parameters.iter().map(|(index, value)| (*index, value));
-        let parameters = direct.chain(further);
+        let parameters = self.parameters.iter();
         let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
         let mut variables = self.variables.held();
         for level in &self.locals {

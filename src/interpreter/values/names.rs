@@ -1,11 +1,12 @@
 //! Variables by name, with their arrays, and what they weigh.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use super::carried::{ArrayShape, Carried};
+use super::persistent::PersistentMap;
 use super::target::Target;
 use super::value::Value;
 
@@ -30,18 +31,8 @@ impl Weight {
 /// Variables by name, those of an array under the array's name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Names {
-    #[serde(serialize_with = "sorted")]
-    pub(in crate::interpreter) names: HashMap<String, Variable>,
+    pub(in crate::interpreter) names: PersistentMap<String, Variable>,
     pub(in crate::interpreter) weight: Weight,
-}
-
-/// Writes a map in the order of its names, so that the same state gives the same bytes.
-pub(in crate::interpreter) fn sorted<V: Serialize, S: Serializer>(
-    names: &HashMap<String, V>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    let sorted: BTreeMap<&String, &V> = names.iter().collect();
-    sorted.serialize(serializer)
 }
 
 /// What a name stands for.
@@ -50,7 +41,7 @@ pub(in crate::interpreter) struct Variable {
     pub(in crate::interpreter) scalar: Option<Value>,
     pub(in crate::interpreter) array: Option<Array>,
     /// The elements that were written, by their subscripts: `[1][2]`.
-    pub(in crate::interpreter) elements: BTreeMap<String, Value>,
+    pub(in crate::interpreter) elements: PersistentMap<String, Value>,
     /// Set when some element was written, but it is not known which.
     pub(in crate::interpreter) lost: Option<Arc<str>>,
 }
@@ -110,7 +101,7 @@ impl Variable {
         if let Some(cause) = &self.lost {
             carried.lost.insert(name.to_owned(), cause.clone());
         }
-        for (subscripts, value) in &self.elements {
+        for (subscripts, value) in self.elements.iter() {
             let element = format!("{name}{subscripts}");
             carried.variables.insert(element, value.clone());
         }
@@ -127,6 +118,39 @@ impl Variable {
             .as_ref()
             .map(|_| cause.clone())
             .or(self.lost.take());
+    }
+
+    /// What differs from another variable of the name becomes unknown.
+    fn join(&mut self, other: &Self, cause: &Arc<str>, weight: &mut Weight) {
+        join_value(&mut self.scalar, other.scalar.as_ref(), cause);
+        if self.array != other.array {
+            // An array that may have another shape holds nothing that is known.
+            self.array = self.array.take().or_else(|| other.array.clone());
+            weight.take(self.elements_weight());
+            self.elements.clear();
+            self.lost.get_or_insert_with(|| cause.clone());
+            return;
+        }
+        for key in self.elements.differing(&other.elements) {
+            let mut mine = self.element(&key);
+            join_value(&mut mine, other.element(&key).as_ref(), cause);
+            if let Some(value) = mine {
+                weight.add(self::weight(&key, &value));
+                if let Some(before) = self.elements.insert(key.clone(), value) {
+                    weight.take(self::weight(&key, &before));
+                }
+            }
+        }
+        if self.lost.is_none() {
+            self.lost.clone_from(&other.lost);
+        }
+    }
+
+    /// What its own value and the declaration of the array weigh.
+    fn own_weight(&self, name: &str) -> usize {
+        let array = self.array.as_ref().map(|array| &array.default);
+        let values = self.scalar.iter().chain(array);
+        values.map(|value| weight(name, value)).sum()
     }
 
     pub(in crate::interpreter) fn elements_weight(&self) -> usize {
@@ -146,11 +170,11 @@ impl Names {
     /// All values by name, those of an array element by element.
     pub(in crate::interpreter) fn held(&self) -> BTreeMap<String, Value> {
         let mut held = BTreeMap::new();
-        for (name, variable) in &self.names {
+        for (name, variable) in self.names.iter() {
             if let Some(value) = &variable.scalar {
                 held.insert(name.clone(), value.clone());
             }
-            for (subscripts, value) in &variable.elements {
+            for (subscripts, value) in variable.elements.iter() {
                 held.insert(format!("{name}{subscripts}"), value.clone());
             }
         }
@@ -168,10 +192,7 @@ impl Names {
 
     pub(in crate::interpreter) fn set(&mut self, name: &str, value: Value) {
         let (base, subscripts) = parts(name);
-        let variable = match self.names.get_mut(base) {
-            Some(variable) => variable,
-            None => self.names.entry(base.to_owned()).or_default(),
-        };
+        let variable = self.names.slot(base.to_owned(), Variable::default);
         let key = if subscripts.is_empty() {
             base
         } else {
@@ -180,8 +201,6 @@ impl Names {
         self.weight.add(weight(key, &value));
         let before = if subscripts.is_empty() {
             variable.scalar.replace(value)
-        } else if let Some(place) = variable.elements.get_mut(subscripts) {
-            Some(std::mem::replace(place, value))
         } else {
             variable.elements.insert(subscripts.to_owned(), value)
         };
@@ -191,7 +210,7 @@ impl Names {
 
     pub(in crate::interpreter) fn declare_array(&mut self, name: &str, array: Array) {
         self.weight.add(weight(name, &array.default));
-        let variable = self.names.entry(name.to_owned()).or_default();
+        let variable = self.names.slot(name.to_owned(), Variable::default);
         let before = variable.array.replace(array);
         self.weight
             .take(before.map_or(0, |before| weight(name, &before.default)));
@@ -212,7 +231,7 @@ impl Names {
 
     pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
         self.drop_elements(name);
-        let variable = self.names.entry(name.to_owned()).or_default();
+        let variable = self.names.slot(name.to_owned(), Variable::default);
         variable.lost = Some(cause.clone());
     }
 
@@ -221,11 +240,7 @@ impl Names {
         if subscripts.is_empty() {
             self.drop_elements(base);
             if let Some(variable) = self.names.remove(base) {
-                let scalar = variable.scalar.as_ref();
-                let array = variable.array.as_ref().map(|array| &array.default);
-                let values = scalar.into_iter().chain(array);
-                self.weight
-                    .take(values.map(|value| weight(base, value)).sum::<usize>());
+                self.weight.take(variable.own_weight(base));
             }
             return;
         }
@@ -235,7 +250,7 @@ impl Names {
         let inner = format!("{subscripts}[");
         let mut gone: Vec<String> = variable
             .elements
-            .range(inner.clone()..)
+            .from(&inner)
             .take_while(|(key, _)| key.starts_with(&inner))
             .map(|(key, _)| key.clone())
             .collect();
@@ -258,8 +273,8 @@ impl Names {
         if self.names.len() != other.names.len() {
             return None;
         }
-        for (name, mine) in &self.names {
-            let theirs = other.names.get(name)?;
+        for name in &self.names.differing(&other.names) {
+            let (mine, theirs) = self.names.get(name).zip(other.names.get(name))?;
             let same = mine.array == theirs.array
                 && mine.lost == theirs.lost
                 && mine.elements.len() == theirs.elements.len();
@@ -274,27 +289,50 @@ impl Names {
                 (None, None) => {}
                 _ => return None,
             }
-            for ((key, mine), (at, theirs)) in mine.elements.iter().zip(&theirs.elements) {
-                if key != at {
-                    return None;
-                }
+            for key in mine.elements.differing(&theirs.elements) {
                 let target = || Target::Variable(format!("{name}{key}"));
-                compare(mine, theirs, target, differing)?;
+                let pair = mine.elements.get(&key).zip(theirs.elements.get(&key))?;
+                compare(pair.0, pair.1, target, differing)?;
             }
         }
         Some(())
     }
 
+    /// What differs in another memory becomes unknown; returns how many names do.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
+        let differing = self.names.differing(&other.names);
+        let nothing = Variable::default();
+        for name in &differing {
+            let theirs = other.names.get(name).unwrap_or(&nothing);
+            let mine = self.names.slot(name.clone(), Variable::default);
+            self.weight.take(mine.own_weight(name));
+            mine.join(theirs, cause, &mut self.weight);
+            self.weight.add(mine.own_weight(name));
+        }
+        differing.len()
+    }
+
     pub(in crate::interpreter) fn weigh(&self) -> usize {
         let weight_of = |(name, variable): (&String, &Variable)| {
-            let scalar = variable.scalar.as_ref();
-            let array = variable.array.as_ref().map(|array| &array.default);
-            let values = scalar.into_iter().chain(array);
-            let own: usize = values.map(|value| weight(name, value)).sum();
-            own + variable.elements_weight()
+            variable.own_weight(name) + variable.elements_weight()
         };
         self.names.iter().map(weight_of).sum()
     }
+}
+
+/// The value on two ways: unknown where they differ.
+pub(in crate::interpreter) fn join_value(
+    mine: &mut Option<Value>,
+    theirs: Option<&Value>,
+    cause: &Arc<str>,
+) {
+    let joined = match (mine.as_ref(), theirs) {
+        (Some(Value::Unknown(_)), _) => return,
+        (mine, theirs) if mine == theirs => return,
+        (_, Some(unknown @ Value::Unknown(_))) => unknown.clone(),
+        _ => Value::Unknown(cause.clone()),
+    };
+    *mine = Some(joined);
 }
 
 /// Different numbers beyond which a comparison is given up.

@@ -112,6 +112,7 @@ impl Sink for Recorder {
                     self.messages(record);
                 }
             }
+            Record::Join(_) => {}
             Record::End(end) => {
                 self.messages(record);
                 self.rows.end();

@@ -77,7 +77,7 @@ fn a_repeat_is_one_of_the_same_program() {
     P-ERR-70495 1:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
       help: to continue as if it were set, run with `--enable Z`
-    FC901 4:1 this control block depends on `V.E.A`, which only the machine knows; whatever it could change is unknown from here on, including `FRICT` of `X`
+    FC901 4:5 this condition depends on `V.E.A`, which only the machine knows; every way is followed, and where they meet what differs is unknown: `FRICT` of `X`
       help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     ");
     // In a loop and from a subprogram.
@@ -111,12 +111,12 @@ fn who_made_it_so_is_named() {
     ");
     // The state that a region may have changed is not known.
     assert_snapshot!(said(&["$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30", "X1\nM30"]), @"
-    FC901 1:1 this control block depends on `V.E.A`, which only the machine knows; whatever it could change is unknown from here on, including `FRICT` of `X`
+    FC901 1:5 this condition depends on `V.E.A`, which only the machine knows; every way is followed, and where they meet what differs is unknown: `FRICT` of `X`
       help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
-    FC401 1:1 `FRICT` of axis `X` may be left inactive after program end, which is not known offline; the control starts with it active
+    FC401 2:1 `FRICT` of axis `X` is left inactive after program end if V.E.A (line 1); the control starts with it active
       help: restore it before M30 in line 5: `X[COMP ON FRICT]`
     b.nc
-    FC403 1:1 axis `X` moves in an unknown state of friction compensation, left so by `$IF V.E.A` at a.nc:1
+    FC403 1:1 axis `X` moves with friction compensation inactive if V.E.A (a.nc:1), else active, left so by `X[COMP OFF FRICT]` at a.nc:2
       help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
     ");
 }

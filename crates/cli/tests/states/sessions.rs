@@ -145,7 +145,7 @@ const OUTLIVING: [&str; 12] = [
 
 #[test]
 fn a_state_file_carries_a_session_on_to_the_byte() {
-    // R9.32 R1.52
+    // R9.32 R1.52 R14.7
     let mut rng = Rng::with_seed(12);
     let (mut depends, mut unknown) = (0, 0);
     for round in 0..400 {

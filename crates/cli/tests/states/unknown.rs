@@ -16,7 +16,9 @@ fn what_a_program_finds_counts_until_its_own_command() {
     let branch = "$IF V.E.A == 1\nX[COMP ON FRICT]\n$ENDIF\nX1\nM30";
     let both = said(&[left, branch]);
     assert!(
-        both.contains("FC403 4:1 axis `X` may move with friction compensation inactive"),
+        both.contains(
+            "FC403 4:1 axis `X` moves with friction compensation inactive if not V.E.A == 1 (line 1)"
+        ),
         "{both}"
     );
     let alone = said(&[branch]);
@@ -30,12 +32,15 @@ fn what_a_program_finds_counts_until_its_own_command() {
 
 #[test]
 fn what_may_be_left_is_said() {
-    // R1.50: at the last control block that may have left it.
+    // R1.50, R14.5: at the last command that leaves it on some ways.
     let program =
         "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.B == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said_of = said(&[program]);
     assert!(
-        said_of.contains("FC401 4:1 `FRICT` of axis `X` may be left inactive after program end"),
+        said_of.contains(
+            "FC401 5:1 `FRICT` of axis `X` is left inactive after program end \
+             if V.E.A == 1 (line 1), or if V.E.B == 1 (line 4)"
+        ),
         "{said_of}"
     );
     let start_up = said(&["$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30"]);

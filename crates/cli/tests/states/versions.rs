@@ -40,7 +40,7 @@ fn what_is_not_known_is_not_comparable() {
     let (status, shown) = diff(unknown, unknown, &[]);
     assert_eq!(status, Some(1), "{shown}");
     assert!(
-        shown.contains("not comparable: from old.nc:1 on, FRICT of X"),
+        shown.contains("not comparable: from old.nc:2 on, FRICT of X"),
         "{shown}"
     );
     let (status, shown) = diff(unknown, unknown, &["--set", "V.E.A=1"]);

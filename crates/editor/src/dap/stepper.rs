@@ -13,7 +13,7 @@ use super::breakpoints::Breakpoints;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{
-    Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
+    Branches, Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
 };
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::syntax::axis_uses;
@@ -204,7 +204,7 @@ impl Stride<'_> {
 impl Observer for Stride<'_> {
     fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
-            Event::Started { .. } => {}
+            Event::Started { .. } | Event::Joined(_) => {}
             Event::Ended(ended) => {
                 self.trail.ended = Some(ended.by);
                 self.said.extend(messages(ended.diagnostics));
@@ -270,7 +270,9 @@ impl Stepper {
         let used = axis_uses(&text).into_keys().collect();
         let source = SourceFile::new(input.name(Naming::AsGiven), text);
         let machine = Arc::new(machine.clone());
-        let options = Options::default().with_notes(Notes::Taken);
+        let options = Options::default()
+            .with_notes(Notes::Taken)
+            .with_branches(Branches::Passed);
         let mut here = Interpreter::new(Arc::clone(&machine), machine.compensation(), options);
         for (name, setting) in loaded.settings.iter().chain(settings) {
             here.set(name, setting);
@@ -456,7 +458,7 @@ impl Stepper {
                     wanted = unknown_names(&block);
                 }
                 Event::Ended(Ended { by, .. }) => ended = Some(by),
-                Event::Started { .. } => return ControlFlow::Continue(()),
+                Event::Started { .. } | Event::Joined(_) => return ControlFlow::Continue(()),
             }
             ControlFlow::Break(())
         });

@@ -257,6 +257,7 @@ impl Sink for Survey {
                     return ControlFlow::Continue(());
                 }
             }
+            Record::Join(_) => {}
             Record::End(end) => {
                 self.states.end(end.state);
                 self.ended_by = Some(end.by);

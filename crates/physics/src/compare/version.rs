@@ -38,7 +38,8 @@ impl Version {
                 continue;
             }
             let switch = Switch::new(row, *change, &self.file);
-            if change.to == State::Unknown {
+            // On some ways only, the other version may differ in which.
+            if change.to == State::Unknown || row.branch.is_some() {
                 self.obstacle.get_or_insert_with(|| Obstacle {
                     file: switch.file.clone(),
                     line: Some(switch.line),

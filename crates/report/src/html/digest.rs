@@ -430,6 +430,7 @@ impl Sink for RunDigest {
                 state,
             } => self.program(program, file, name, state),
             Record::Block(ref row) => self.block(row),
+            Record::Join(_) => {}
             Record::End(ref end) => self.end(end),
             Record::Summary(summary) => self.summary(summary),
         }

@@ -41,6 +41,7 @@ macro_rules! state {
         StateView {
             machine: $player.machine,
             compensation: &$player.comp,
+            possible: &[],
             listed: &$player.listed,
             version: $player.version,
         }
@@ -111,6 +112,7 @@ impl<'a> Player<'a> {
             state: state!(self),
             modal: &Modal::new(self.machine.axes.len()),
             motion: None,
+            branch: None,
             diagnostics: said,
         }))
     }

@@ -160,6 +160,7 @@ fn play(parts: &Parts, mut take: impl FnMut(&Record<'_>)) {
     let state = StateView {
         machine: &machine,
         compensation: &compensation,
+        possible: &[],
         listed: &parts.listed,
         version: 1,
     };
@@ -191,6 +192,7 @@ fn play(parts: &Parts, mut take: impl FnMut(&Record<'_>)) {
         state,
         modal: &modal,
         motion: None,
+        branch: None,
         diagnostics: &parts.diagnostics,
     }));
     let note = |diagnostic: &Diagnostic| EndNote {

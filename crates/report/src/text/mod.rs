@@ -88,6 +88,16 @@ pub struct Text<W> {
     file: String,
     /// How the last program ended.
     ended: Option<EndedBy>,
+    /// The states that are possible, as they were said last.
+    possible: Vec<String>,
+}
+
+/// Which of the states that are possible are said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Saying {
+    /// Those that were not said before.
+    New,
+    All,
 }
 
 impl<W: Write> Text<W> {
@@ -103,6 +113,7 @@ impl<W: Write> Text<W> {
             quiet: Quiet::default(),
             file: String::new(),
             ended: None,
+            possible: Vec::new(),
         }
     }
 
@@ -262,6 +273,36 @@ impl<W: Write> Text<W> {
         }
     }
 
+    /// Says which states are possible where ways differ (R14.2).
+    fn possible(&mut self, state: StateView<'_>, saying: Saying) {
+        if state.possible.is_empty() {
+            return self.possible.clear();
+        }
+        let kinds = self.options.view.kinds;
+        let shown = state.possible.iter().filter(|it| kinds.contains(it.kind));
+        let shown: Vec<String> = shown
+            .map(|it| {
+                let kind = match it.kind {
+                    Kind::Frict => String::new(),
+                    kind => format!(" {kind}"),
+                };
+                let states = it.in_words(&self.file);
+                format!("{MARK} {}{kind}: {states}", state.name(it.axis))
+            })
+            .collect();
+        let said = std::mem::take(&mut self.possible);
+        let look = self.options.look;
+        let indent = if look.width < NARROW { 2 } else { GUTTER };
+        for text in &shown {
+            if saying == Saying::All || !said.contains(text) {
+                self.release();
+                let line = Paragraph::new(BOLD, text).indented(indent);
+                line.write(&mut self.output.bytes, look);
+            }
+        }
+        self.possible = shown;
+    }
+
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {
         let whole = self.options.look.width;
         let indent = if whole < NARROW { 2 } else { GUTTER };
@@ -296,6 +337,7 @@ impl<W: Write> Text<W> {
         }
         self.state_line(label, end.state);
         self.other_kinds(end.changes, end.state);
+        self.possible(end.state, Saying::All);
         for note in end.notes {
             self.diagnostic(&note.diagnostic);
         }
@@ -331,6 +373,7 @@ impl<W: Write> Sink for Text<W> {
                 file, name, state, ..
             } => self.program(file, name, state),
             Record::Block(ref row) => self.block(row),
+            Record::Join(ref join) => self.possible(join.state, Saying::New),
             Record::End(ref end) => {
                 self.end(end);
                 return self.output.flush();

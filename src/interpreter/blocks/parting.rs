@@ -1,0 +1,362 @@
+//! What blocks ask the machine, and where each answer leads (R14.1).
+
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind};
+use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::programs::unit::Parsed;
+use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::condition::ConditionKind;
+use crate::interpreter::run::event::{Note, NoteKind, Notes};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::path::Marked;
+use crate::interpreter::run::region::Exit;
+use crate::interpreter::run::stack::Seeking;
+use crate::interpreter::unknown::branching::{Goal, Question};
+use crate::interpreter::values::cause::{PROBE, skip_level};
+use crate::interpreter::values::plain::{Truth, conclusions, reads, text_of};
+use crate::interpreter::values::target::Target;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Flow, Item, JumpTarget, Operand};
+use crate::text::Span;
+
+impl Interpreter {
+    /// The run parts at a condition: where it holds and where it does not. Whether it can.
+    pub(in crate::interpreter) fn part_at(
+        &mut self,
+        condition: Operand,
+        cause: &Arc<str>,
+        (kind, span): (ConditionKind, Span),
+        goals: [Goal; 2],
+        at: &At<'_>,
+    ) -> bool {
+        let Operand::Expression(expression) = condition else {
+            return false;
+        };
+        let [mut yes, mut no] = goals;
+        if let Some((of, truth)) = self.tested_state(condition, at) {
+            let goals = match truth {
+                Truth::Holds => [yes, no],
+                Truth::Fails => [no, yes],
+            };
+            return self.part_by_state(of, goals, at);
+        }
+        for (goal, truth) in [(&mut yes, Truth::Holds), (&mut no, Truth::Fails)] {
+            let found = conclusions(at.block, at.text, expression, truth);
+            goal.values.extend(
+                found
+                    .into_iter()
+                    .filter(|(target, _)| self.may_conclude(target)),
+            );
+        }
+        let (text, place) = text_of(at.block, at.text, expression);
+        let question = Question {
+            kind,
+            span: if kind == ConditionKind::Loop {
+                span
+            } else {
+                place
+            },
+            texts: vec![text.into()],
+            cause: cause.clone(),
+            reads: reads(at.block, at.text, expression),
+        };
+        self.part(question, vec![yes, no], at)
+    }
+
+    /// The state that a condition asks for, where it is unknown because ways differ.
+    fn tested_state(&self, condition: Operand, at: &At<'_>) -> Option<((AxisIndex, Kind), Truth)> {
+        let Operand::Expression(expression) = condition else {
+            return None;
+        };
+        for truth in [Truth::Holds, Truth::Fails] {
+            if let [(Target::Variable(name), Value::Number(number))] =
+                conclusions(at.block, at.text, expression, truth).as_slice()
+                && let Some(of) = self.active_variable(name)
+                && self.is_effective(of)
+                && (*number == 0.0 || *number == 1.0)
+            {
+                let is_on = *number == 1.0;
+                let holds = truth == Truth::Holds;
+                return Some((
+                    of,
+                    if is_on == holds {
+                        Truth::Holds
+                    } else {
+                        Truth::Fails
+                    },
+                ));
+            }
+        }
+        None
+    }
+
+    fn is_effective(&self, (axis, kind): (AxisIndex, Kind)) -> bool {
+        self.state.control.compensation.is_parameterised(axis, kind)
+    }
+
+    /// Whether a condition may say what a value is: one that the program and the machine hold, and
+    /// that does not follow from something else.
+    fn may_conclude(&self, target: &Target) -> bool {
+        match target {
+            Target::Variable(name) => !name.starts_with("V.L.") && !self.is_own(name),
+            Target::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
+            Target::Elements(_) | Target::Parameters => false,
+        }
+    }
+
+    /// The same where a counter decides.
+    pub(in crate::interpreter) fn part_at_count(
+        &mut self,
+        cause: &Arc<str>,
+        span: Span,
+        goals: [Goal; 2],
+        at: &At<'_>,
+    ) -> bool {
+        let question = Question {
+            kind: ConditionKind::Loop,
+            span,
+            texts: vec![span.of(at.text).trim().into()],
+            cause: cause.clone(),
+            reads: None,
+        };
+        self.part(question, goals.into(), at)
+    }
+
+    /// The run parts at `$IF … $GOTO`.
+    pub(in crate::interpreter) fn part_at_jump(
+        &mut self,
+        condition: Operand,
+        cause: &Arc<str>,
+        at: &At<'_>,
+    ) -> bool {
+        let Some((to, span)) = self.only_jump(at) else {
+            return false;
+        };
+        let next = self.state.control.frames.running().map_or(0, |it| it.next);
+        let goals = [to, next].map(Goal::block);
+        self.part_at(condition, cause, (ConditionKind::Branch, span), goals, at)
+    }
+
+    /// The run parts where a probe answers, or does not (R2.91).
+    pub(in crate::interpreter) fn part_at_probe(&mut self, at: &At<'_>) -> bool {
+        let Some((to, span)) = self.only_jump(at) else {
+            return false;
+        };
+        let next = self.state.control.frames.running().map_or(0, |it| it.next);
+        let question = Question {
+            kind: ConditionKind::Probe,
+            span,
+            texts: vec!["the probe answers".into()],
+            cause: PROBE.into(),
+            reads: None,
+        };
+        self.part(question, [to, next].map(Goal::block).into(), at)
+    }
+
+    /// Where the one jump of a block goes; `None` where that is not known, or where the block does
+    /// more than jump and move.
+    fn only_jump(&mut self, at: &At<'_>) -> Option<(EntryIndex, Span)> {
+        let mut jump = None;
+        for item in &at.block.items {
+            match item {
+                Item::Flow(Flow::Goto(target), span) if jump.is_none() => {
+                    jump = Some((*target, *span));
+                }
+                Item::Flow(Flow::If(_), _) | Item::Word(_) | Item::Label(_) => {}
+                _ => return None,
+            }
+        }
+        let (target, span) = jump?;
+        if let JumpTarget::Variable(_) = target {
+            return None;
+        }
+        let exit = self.exit(&target, at).ok()?;
+        let Exit::Label(name) = exit else {
+            return None;
+        };
+        let frame = self.state.control.frames.running()?;
+        let index = self.programs.index(frame.unit);
+        Some((index.label(frame.section, name)?, span))
+    }
+
+    /// The run parts at a `$SWITCH`: one way for each case, and one for all else.
+    pub(in crate::interpreter) fn part_at_cases(
+        &mut self,
+        operand: Operand,
+        cause: &Arc<str>,
+        span: Span,
+        at: &At<'_>,
+    ) -> bool {
+        let Operand::Expression(expression) = operand else {
+            return false;
+        };
+        let Some((cases, other)) = self.cases(at) else {
+            return false;
+        };
+        let (subject, place) = text_of(at.block, at.text, expression);
+        let subject_of = conclusions(at.block, at.text, expression, Truth::Holds);
+        let mut goals = Vec::with_capacity(cases.len() + 1);
+        let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
+        let variable = match reads(at.block, at.text, expression).as_deref() {
+            Some([target]) if subject_of.is_empty() => Some(target.clone()),
+            _ => crate::interpreter::values::plain::variable(at.block, at.text, expression),
+        };
+        for (entry, value) in cases {
+            texts.push(format!("{subject} == {}", shown(&value)).into());
+            let values = variable.iter().filter(|target| self.may_conclude(target));
+            goals.push(Goal {
+                values: values
+                    .map(|target| (target.clone(), value.clone()))
+                    .collect(),
+                to: entry,
+                seeking: Some(Seeking::Case(value)),
+            });
+        }
+        goals.push(other);
+        let question = Question {
+            kind: ConditionKind::Case,
+            span: if place.end > place.start { place } else { span },
+            texts,
+            cause: cause.clone(),
+            reads: reads(at.block, at.text, expression),
+        };
+        self.part(question, goals, at)
+    }
+
+    /// The cases of the `$SWITCH` that is executed, with their values, and where all else goes.
+    fn cases(&mut self, at: &At<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
+        let unit = self.state.control.frames.running()?.unit;
+        let whole = self.current_block();
+        let mut cases: Vec<(EntryIndex, Value)> = Vec::new();
+        let mut entry = self.programs.index(unit).links(whole.start).next;
+        while entry < whole.end {
+            let parsed = self.programs.parsed(unit, entry);
+            if parsed.block.skip.is_some() {
+                return None;
+            }
+            let shown = Shown::default();
+            let head = at.other(&parsed, &shown);
+            let flow = head.block.items.iter().find_map(|item| match item {
+                Item::Flow(flow, _) => Some(flow),
+                _ => None,
+            });
+            match flow? {
+                Flow::Case(operand) => {
+                    let value = self.value(*operand, &head).ok()?;
+                    if matches!(value, Value::Unknown(_)) {
+                        return None;
+                    }
+                    let is_new = !cases.iter().any(|(_, known)| *known == value);
+                    cases.extend(is_new.then_some((entry, value)));
+                }
+                Flow::Default => return Some((cases, Goal::block(entry))),
+                _ => return None,
+            }
+            let next = self.programs.index(unit).links(entry).next;
+            if next <= entry {
+                return None;
+            }
+            entry = next;
+        }
+        Some((cases, Goal::block(whole.end)))
+    }
+
+    /// The run parts before a block with a skip mark: one way executes the blocks of the level that
+    /// stand together here, the other passes over them (R2.90). Whether it can.
+    #[cold]
+    pub(in crate::interpreter) fn part_by_skip(&mut self, level: u8, parsed: &Parsed) -> bool {
+        let Some(frame) = self.state.control.frames.running() else {
+            return false;
+        };
+        let (unit, entry) = (frame.unit, frame.next.saturating_sub(1));
+        let index = self.programs.index(unit);
+        let section_end = self.programs.section(frame.program()).end;
+        let is_marked = |entry: EntryIndex| index.skips.get(&entry) == Some(&level);
+        let mut after = entry + 1;
+        while after < section_end && is_marked(after) {
+            after += 1;
+        }
+        // A mark on a part of a structure only: R2.51 over all of it (R2.90).
+        let mut links = index.links.range(entry..after);
+        if !links.all(|(_, links)| is_marked(links.opener) && is_marked(links.end)) {
+            return false;
+        }
+        let mut links = index.links.range(entry..after);
+        if links.any(|(_, links)| !is_marked(links.next)) {
+            return false;
+        }
+        let marked = Marked {
+            depth: self.state.control.frames.depth(),
+            unit,
+            first: entry,
+            after,
+        };
+        let shown = Shown::default();
+        let at = At::of_parsed(parsed, self.state.control.frames.level(), &shown);
+        let mark = parsed.text.trim_start();
+        let is_bare = mark.strip_prefix('/').is_some_and(|rest| {
+            !rest
+                .trim_start()
+                .starts_with(|it: char| it.is_ascii_digit())
+        });
+        let cause = skip_level(level);
+        self.note_unknown(&cause, &at);
+        let question = Question {
+            kind: ConditionKind::Skip(level),
+            span: Span::new(0, parsed.text.trim_end().len()),
+            texts: vec![cause.clone()],
+            cause,
+            // The switch of blocks without a number is read when the main program begins.
+            reads: is_bare.then(Vec::new),
+        };
+        let goals = [after, entry].map(Goal::block);
+        if !self.part(question, goals.into(), &at) {
+            return false;
+        }
+        if let [_, executed] = self.sides.as_mut_slice() {
+            executed.marked = Some(marked);
+        }
+        true
+    }
+
+    /// Where a jump goes that is not taken.
+    pub(in crate::interpreter) fn exit(
+        &mut self,
+        target: &JumpTarget,
+        at: &At<'_>,
+    ) -> Result<Exit, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
+            JumpTarget::Number(operand) => self.value(*operand, at)?,
+            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
+        };
+        Ok(match value {
+            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
+            Value::Text(name) => Exit::label(&name),
+            Value::Unknown(_) => Exit::AnyLabel,
+        })
+    }
+
+    /// Takes a note of the level as of a value of the machine.
+    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &str, at: &At<'_>) {
+        if self.options.notes == Notes::Taken {
+            let note = Note {
+                kind: NoteKind::Unknown,
+                name: cause.to_owned(),
+                place: at.place(Span::new(0, at.text.trim_end().len())),
+            };
+            self.work.notes.borrow_mut().push(note);
+        }
+    }
+}
+
+/// A value as a program writes it.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Number(number) => number.to_string(),
+        Value::Text(text) => format!("\"{text}\""),
+        Value::Unknown(name) => name.to_string(),
+    }
+}

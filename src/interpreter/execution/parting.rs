@@ -1,0 +1,84 @@
+//! The run parts at a condition that only the machine knows (R14.1).
+
+use crate::comp::KindSet;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::path::{BranchSide, Path};
+use crate::interpreter::run::step::Step;
+
+impl Interpreter {
+    /// The ways part after the block that asked.
+    #[cold]
+    pub(in crate::interpreter) fn take_sides(
+        &mut self,
+        step: Option<&Step>,
+        finder: &mut dyn Finder,
+    ) {
+        let sides = std::mem::take(&mut self.sides);
+        let here = self.state.control.frames.running().map_or(0, |it| it.next);
+        let base = self.leave_path();
+        let mut open: Vec<Path> = Vec::new();
+        for side in sides {
+            let ways = base.track.reach.and(&side.ways);
+            if ways.is_never() {
+                continue;
+            }
+            self.enter_path(base.clone());
+            self.state.track.reach = ways;
+            let (to, is_back) = (side.to, side.to < here);
+            self.apply_side(side);
+            // What leads back joins the loop's head.
+            let goes_on = if is_back {
+                self.come_back(to, finder)
+            } else {
+                Step::Jump(to)
+            };
+            if let Step::Jump(to) = goes_on {
+                self.set_next(to);
+                // A program that the block calls runs on each way.
+                if let Some(call @ Step::Call(_)) = step {
+                    let _ = self.follow(call.clone());
+                }
+                open.push(self.leave_path());
+            }
+        }
+        self.version += 1;
+        self.state.pending.append(&mut open);
+        if self.state.pending.is_empty() {
+            // No answer is possible: the ways were merged too far to tell. Going on is what is left.
+            self.enter_path(base);
+        } else {
+            self.enter_first();
+        }
+    }
+
+    fn apply_side(&mut self, side: BranchSide) {
+        let control = &mut self.state.control;
+        if let Some(frame) = control.frames.running_mut() {
+            frame.seeking = side.seeking;
+        }
+        if let Some((axis, kind, state)) = side.state {
+            control.possible.replace(axis, KindSet::of(kind));
+            control.compensation.decide(axis, kind, state);
+        }
+        control
+            .possible
+            .narrow(&self.state.track.reach, &mut control.compensation);
+        for (target, value) in &side.values {
+            let track = &mut self.state.track;
+            track
+                .assumed
+                .assume(&mut control.memory, target, value.clone());
+        }
+        if side.marked.is_some() {
+            self.state.track.marked = side.marked;
+        }
+    }
+
+    fn set_next(&mut self, to: EntryIndex) {
+        if let Some(frame) = self.state.control.frames.running_mut() {
+            frame.next = to;
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The ways through the program: which is executed next, and where they meet (R14.1).
+//!
+//! At a condition that only the machine knows the run parts: each way goes on with its own copy of
+//! what the control has. The way that stands before the others in the text is executed first; ways
+//! that come to the same block are joined there. So each block is executed once for all ways that
+//! lead to it, whatever the conditions before it (R14.4).
+
+use std::collections::BTreeMap;
+
+use super::endless::watches;
+use crate::comp::{AxisIndex, Kind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::control::ControlState;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::path::Path;
+use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::unknown::telling::of_axes;
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::effort::ITEM;
+
+impl Interpreter {
+    /// The way that is executed, which is so no more.
+    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
+        let control = self.state.control.clone();
+        Path {
+            control,
+            track: std::mem::take(&mut self.state.track),
+            parted: self.state.seq,
+        }
+    }
+
+    /// Goes on with a way.
+    pub(in crate::interpreter) fn enter_path(&mut self, path: Path) {
+        let Path {
+            control,
+            track,
+            parted: _,
+        } = path;
+        if !control.memory.has_macros_of(&self.state.control.memory) {
+            self.regions.clear();
+        }
+        (self.state.control, self.state.track) = (control, track);
+        self.journal.begin_anew();
+        self.state.watching = watches(&self.state.track);
+        self.version += 1;
+    }
+
+    /// Goes on with the way that stands before all others. Whether there is one.
+    pub(in crate::interpreter) fn enter_first(&mut self) -> bool {
+        let mut first = 0;
+        for place in 1..self.state.pending.len() {
+            let (one, other) = (&self.state.pending[place], &self.state.pending[first]);
+            if one.control.frames.comes_before(&other.control.frames) == Some(true) {
+                first = place;
+            }
+        }
+        if first >= self.state.pending.len() {
+            return false;
+        }
+        let path = self.state.pending.swap_remove(first);
+        self.enter_path(path);
+        true
+    }
+
+    /// Goes on with the way that stands before the others, joined with those that stand where it does.
+    /// Whether any do.
+    #[cold]
+    pub(in crate::interpreter) fn choose_path(&mut self) -> bool {
+        let mut joined = false;
+        let mut place = 0;
+        while let Some(other) = self.state.pending.get(place) {
+            let here = &self.state.control.frames;
+            match other.control.frames.comes_before(here) {
+                Some(true) => {
+                    let other = self.state.pending.swap_remove(place);
+                    let mine = self.leave_path();
+                    self.enter_path(other);
+                    self.forget_last_motion();
+                    self.state.pending.push(mine);
+                    place = 0;
+                }
+                Some(false) => place += 1,
+                None => {
+                    let other = self.state.pending.swap_remove(place);
+                    self.join_path(other);
+                    joined = true;
+                }
+            }
+        }
+        joined
+    }
+
+    /// The block before was executed on another way.
+    pub(in crate::interpreter) fn forget_last_motion(&mut self) {
+        self.work.moved.clear();
+        self.work.aside.last_moved.clear();
+    }
+
+    /// Another way comes to the block that is executed next.
+    pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
+        let mut mine = self.leave_path();
+        let parted = Self::what_parts(&mine, &other);
+        let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
+        let cause = condition.map_or_else(|| "another way".into(), |found| found.cause.clone());
+        mine.undo_differing(&mut other);
+        let before = [mine.control.clone(), other.control.clone()];
+        let differing = mine.join(other, &cause);
+        let cost = ITEM * (8 + differing) + self.machine.axes.len() * 4;
+        self.state.effort.charge(cost);
+        self.enter_path(mine);
+        self.forget_last_motion();
+        self.tell_join(&before, parted);
+    }
+
+    /// The condition that tells two ways apart.
+    fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
+        let (mine, theirs) = (&mine.track.reach, &other.track.reach);
+        let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
+        let deciding = both.iter().copied().filter(|number| {
+            let answers = |ways: &WaySet| {
+                ways.ways().iter().try_fold(0, |sides, way| {
+                    let found = way.iter().find(|answer| answer.condition == *number);
+                    found.map(|answer| sides | answer.sides)
+                })
+            };
+            let pair = answers(mine).zip(answers(theirs));
+            pair.is_some_and(|(mine, theirs)| mine & theirs == 0)
+        });
+        deciding.max().or_else(|| both.iter().copied().max())
+    }
+
+    /// What differs where two ways met becomes a message, once for each condition (FC901).
+    pub(in crate::interpreter) fn tell_join(
+        &mut self,
+        met: &[ControlState; 2],
+        parted: Option<u32>,
+    ) {
+        let Some(condition) = parted.and_then(|number| {
+            let found = self.state.conditions.get(number as usize);
+            found.cloned()
+        }) else {
+            return;
+        };
+        let place = condition.place.clone();
+        let mut kinds = self.differing_kinds(met);
+        for (kind, axes) in &mut kinds {
+            axes.retain(|axis| {
+                let key = (&place.file, place.first_line, kind, axis.get());
+                self.is_new_word(&format!("{key:?}"))
+            });
+        }
+        kinds.retain(|_, axes| !axes.is_empty());
+        let mut keys = Vec::new();
+        let mut shown = Vec::new();
+        for (kind, axes) in &kinds {
+            let names: Vec<&str> = axes
+                .iter()
+                .map(|axis| self.machine.axis(*axis).name.as_str())
+                .collect();
+            keys.extend(names.iter().map(|axis| format!("{kind} {axis}")));
+            shown.push(of_axes(*kind, &names));
+        }
+        let [mine, theirs] = met;
+        let variables = mine.memory.differing_variables(&theirs.memory);
+        let others = [
+            (mine.couplings != theirs.couplings, "axis couplings"),
+            (
+                mine.channel_axes != theirs.channel_axes,
+                "the axes of the channel",
+            ),
+            (mine.cycles != theirs.cycles, "modal cycles"),
+            (differ_in_words(mine, theirs), "modal words"),
+        ];
+        let others = others.into_iter().filter(|(differ, _)| *differ);
+        let named = variables.iter().map(|name| format!("`{name}`"));
+        let named: Vec<String> = named
+            .chain(others.map(|(_, name)| name.to_owned()))
+            .collect();
+        keys.extend(named.iter().cloned());
+        shown.extend(named);
+        let cause = &condition.cause;
+        self.state.told.enter(cause, || place.clone());
+        let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
+        let said = about(&condition, &shown);
+        if is_new {
+            self.met.push(said);
+        } else {
+            self.met_withheld.push(said);
+        }
+    }
+
+    /// The kinds in which two ways differ, with their axes.
+    fn differing_kinds(&self, met: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
+        let mut kinds: BTreeMap<Kind, Vec<AxisIndex>> = BTreeMap::new();
+        let [mine, theirs] = met.each_ref().map(|control| &control.compensation);
+        for axis in (0..mine.len()).map(AxisIndex::new) {
+            for kind in self.state.control.compensation.unknown(axis).iter() {
+                if mine.state(axis, kind) != theirs.state(axis, kind) {
+                    kinds.entry(kind).or_default().push(axis);
+                }
+            }
+        }
+        kinds
+    }
+}
+
+/// Whether two ways differ in G functions other than that of the motion.
+fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
+    let differs = |group: &Group| mine.modal.differs_in(&theirs.modal, *group);
+    let groups = Group::ALL.iter().filter(|group| **group != Group::Motion);
+    groups.into_iter().any(differs)
+}
+
+fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
+    let cause = &condition.cause;
+    let asks = match condition.kind {
+        ConditionKind::Skip(_) => format!(
+            "whether the control executes the blocks of {cause} depends on a switch of the machine"
+        ),
+        ConditionKind::Probe => format!(
+            "whether this jump is taken depends on {}",
+            unknown_value(cause)
+        ),
+        ConditionKind::Branch | ConditionKind::Case | ConditionKind::Loop => {
+            format!("this condition depends on {}", unknown_value(cause))
+        }
+    };
+    let message = format!(
+        "{asks}; every way is followed, and where they meet what differs is unknown: {}",
+        shown.join(", ")
+    );
+    Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(how_to_set(cause))
+}

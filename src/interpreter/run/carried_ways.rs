@@ -1,0 +1,75 @@
+//! States of which several are possible, as one program leaves them to the next (R14.7).
+
+use serde::{Deserialize, Serialize};
+
+use super::condition::Condition;
+use super::possible::{Possible, Split};
+use crate::comp::{Compensation, Kind};
+use crate::machine::Machine;
+
+/// The kinds that are unknown because ways through earlier programs differ, with the ways that lead
+/// to each state.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CarriedWays {
+    conditions: Vec<Condition>,
+    states: Vec<CarriedState>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CarriedState {
+    axis: String,
+    kind: Kind,
+    ways: Split,
+}
+
+impl CarriedWays {
+    pub(in crate::interpreter) fn of(
+        possible: &Possible,
+        conditions: &[Condition],
+        machine: &Machine,
+    ) -> Self {
+        let mut named: Vec<u32> = possible.conditions().collect();
+        named.sort_unstable();
+        named.dedup();
+        let renumbered = |number: u32| named.binary_search(&number).map_or(0, |place| place);
+        let found = named.iter().filter_map(|it| conditions.get(*it as usize));
+        let states = possible.iter().map(|((axis, kind), split)| CarriedState {
+            axis: machine.axis(*axis).name.clone(),
+            kind: *kind,
+            ways: split.renumbered(|number| u32::try_from(renumbered(number)).unwrap_or(0)),
+        });
+        Self {
+            conditions: found.cloned().collect(),
+            states: states.collect(),
+        }
+    }
+
+    /// Whether no state has more than one way to it.
+    pub fn is_empty(&self) -> bool {
+        self.states.is_empty()
+    }
+
+    /// Whether every axis is one of the machine, and every condition is there.
+    pub fn fits(&self, machine: &Machine) -> bool {
+        let conditions = self.conditions.len();
+        self.states
+            .iter()
+            .all(|state| machine.find(&state.axis).is_some() && state.ways.fits(conditions))
+    }
+
+    /// The conditions, and the states of those kinds that are unknown.
+    pub(in crate::interpreter) fn into_parts(
+        self,
+        machine: &Machine,
+        compensation: &Compensation,
+    ) -> (Vec<Condition>, Possible) {
+        let states = self.states.into_iter().filter_map(|state| {
+            let axis = machine.find(&state.axis)?;
+            let is_unknown = compensation.unknown(axis).contains(state.kind);
+            is_unknown.then_some(((axis, state.kind), state.ways))
+        });
+        (self.conditions, states.collect())
+    }
+}

@@ -1,0 +1,46 @@
+//! Conditions that only the machine knows, as ways name them (R14.2).
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::text::Place;
+
+/// What asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum ConditionKind {
+    /// `$IF`, `$ELSEIF`, `#IF`.
+    Branch,
+    /// `$SWITCH`.
+    Case,
+    /// Whether a loop is repeated.
+    Loop,
+    /// A skip level.
+    Skip(u8),
+    /// The signal of a probe.
+    Probe,
+}
+
+/// A condition that only the machine knows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Condition {
+    pub(in crate::interpreter) kind: ConditionKind,
+    pub(in crate::interpreter) place: Place,
+    /// What is asked: its text for each answer but the last, which is that none of them holds.
+    pub(in crate::interpreter) texts: Vec<Arc<str>>,
+    /// The value that decides.
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// A place that is reached again asks again: which of its questions it is.
+    pub(in crate::interpreter) round: u8,
+}
+
+impl Condition {
+    /// Whether it asks the same at the same place, whichever time.
+    pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
+        self.kind == other.kind
+            && self.place.first_line == other.place.first_line
+            && self.place.file == other.place.file
+            && self.place.span == other.place.span
+            && self.texts == other.texts
+    }
+}

@@ -1,0 +1,176 @@
+//! What the control has at a moment, as far as the blocks of programs can see or change it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::channel_axes::ChannelAxes;
+use super::coupling::Couplings;
+use super::cycles::ModalCycles;
+use super::description::Description;
+use super::event::EndedBy;
+use super::possible::{self, Possible};
+use super::stack::CallStack;
+use super::untouched::Untouched;
+use super::way_set::WaySet;
+use super::ways::doubt_names;
+use crate::comp::Compensation;
+use crate::interpreter::coordinates::modal::Modal;
+use crate::interpreter::coordinates::simplified::{Holds, Simplification};
+use crate::interpreter::values::memory::Memory;
+use crate::interpreter::values::target::Target;
+use crate::interpreter::values::value::Value;
+
+/// The state of the control. A copy is cheap: it shares what does not change.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ControlState {
+    pub(in crate::interpreter) compensation: Compensation,
+    /// What of it is unknown because ways differ.
+    pub(in crate::interpreter) possible: Possible,
+    /// What of it is as the program found it.
+    pub(in crate::interpreter) untouched: Untouched,
+    pub(in crate::interpreter) memory: Memory,
+    pub(in crate::interpreter) modal: Modal,
+    pub(in crate::interpreter) frames: CallStack,
+    pub(in crate::interpreter) couplings: Couplings,
+    /// What the names of axes mean, until the program ends.
+    pub(in crate::interpreter) channel_axes: ChannelAxes,
+    /// The cycle that is repeated after blocks.
+    pub(in crate::interpreter) cycles: ModalCycles,
+    /// The called files of which it was said what is wrong with them.
+    pub(in crate::interpreter) refused: BTreeSet<usize>,
+    /// Set while the configured end program runs.
+    pub(in crate::interpreter) ending: Option<EndedBy>,
+    /// What `#FILE NAME` says that a word calls, until the program ends.
+    pub(in crate::interpreter) named: BTreeMap<String, Value>,
+    /// G functions and positions before a contour description, inside it.
+    pub(in crate::interpreter) described: Option<Box<Description>>,
+}
+
+impl ControlState {
+    /// The state before the first program.
+    pub(in crate::interpreter) fn new(compensation: Compensation, modal: Modal) -> Self {
+        Self {
+            compensation,
+            possible: Possible::default(),
+            untouched: Untouched::default(),
+            memory: Memory::default(),
+            modal,
+            frames: CallStack::default(),
+            couplings: Couplings::default(),
+            channel_axes: ChannelAxes::default(),
+            cycles: ModalCycles::default(),
+            refused: BTreeSet::new(),
+            ending: None,
+            named: BTreeMap::new(),
+            described: None,
+        }
+    }
+
+    /// The state where two ways meet at a block: what differs becomes unknown (R14.1). `reach` is what
+    /// leads to this one and to the other. Returns how many values differ.
+    pub(in crate::interpreter) fn join(
+        &mut self,
+        other: &Self,
+        reach: [&WaySet; 2],
+        cause: &Arc<str>,
+    ) -> usize {
+        let Self {
+            compensation,
+            possible,
+            untouched,
+            memory,
+            modal,
+            frames,
+            couplings,
+            channel_axes,
+            cycles,
+            refused,
+            // Where a program end is executed stands on the call stack.
+            ending: _,
+            named,
+            described,
+        } = other;
+        let mine = possible::Side {
+            compensation: &self.compensation,
+            possible: &self.possible,
+            reach: reach[0],
+        };
+        let theirs = possible::Side {
+            compensation,
+            possible,
+            reach: reach[1],
+        };
+        (self.compensation, self.possible) = possible::join(&mine, &theirs);
+        self.untouched.join(untouched, reach);
+        let differing = self.memory.join(memory, cause);
+        self.modal.doubt(modal);
+        self.frames.join(frames, cause);
+        let coupled = self.couplings.join(couplings);
+        if !coupled.is_empty() {
+            self.modal.simplify(Simplification::Coupling, Holds::On);
+        }
+        for axis in coupled {
+            self.modal.forget_position(axis);
+            self.compensation.set_coupled(axis, self.couplings.of(axis));
+        }
+        self.channel_axes.doubt(channel_axes);
+        self.cycles.join(cycles);
+        self.refused.extend(refused);
+        doubt_names(&mut self.named, named, cause);
+        self.join_description(described.as_deref());
+        differing
+    }
+
+    /// A description of geometry that is open on one way only may be open or not (R2.70).
+    fn join_description(&mut self, other: Option<&Description>) {
+        match (self.described.take(), other) {
+            (Some(mut mine), Some(theirs)) if mine.opener == theirs.opener => {
+                mine.before.doubt(&theirs.before);
+                self.described = Some(mine);
+            }
+            (None, None) => {}
+            (mine, theirs) => {
+                let openers = mine.as_deref().into_iter().chain(theirs);
+                for description in openers {
+                    self.modal.forget_words();
+                    self.modal.note_transformed(&description.opener);
+                    self.modal.doubt(&description.before);
+                }
+            }
+        }
+    }
+
+    /// The values whose numbers differ in another state; `None` where anything else does.
+    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
+        let Self {
+            compensation,
+            possible,
+            untouched,
+            memory,
+            modal,
+            frames,
+            couplings,
+            channel_axes,
+            cycles,
+            refused,
+            ending,
+            named,
+            described,
+        } = self;
+        let same = *frames == other.frames
+            && *modal == other.modal
+            && *compensation == other.compensation
+            && *possible == other.possible
+            && *untouched == other.untouched
+            && *couplings == other.couplings
+            && *cycles == other.cycles
+            && *refused == other.refused
+            && *ending == other.ending
+            && *named == other.named
+            && *channel_axes == other.channel_axes
+            && *described == other.described;
+        same.then(|| memory.differing_numbers(&other.memory))?
+    }
+}

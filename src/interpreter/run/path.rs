@@ -1,0 +1,450 @@
+//! The ways through a program that are executed one after the other (R14.1).
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::control::ControlState;
+use super::event::EndedBy;
+use super::stack::{CallStack, Frame, Seeking};
+use super::way_set::WaySet;
+use super::ways::Ways;
+use crate::comp::{AxisIndex, Kind, Membership};
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::memory::Memory;
+use crate::interpreter::values::target::{Place as Written, Target};
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::Owner;
+use crate::text::{Place, Span};
+
+/// How the run came to where it stands.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Track {
+    /// The loops that were repeated, the outermost first.
+    pub(in crate::interpreter) loops: Vec<Loop>,
+    /// The loops that were left where a value of the machine may end them.
+    pub(in crate::interpreter) left_loops: Vec<LeftLoop>,
+    /// Where the control may have gone instead (R2.52).
+    pub(in crate::interpreter) ways: Ways,
+    /// The answers of the machine that lead here.
+    pub(in crate::interpreter) reach: WaySet,
+    /// Conditions whose values nothing has written since they were asked.
+    pub(in crate::interpreter) asked: Vec<Asked>,
+    /// Values that follow from a condition on the way, with what they were before it.
+    pub(in crate::interpreter) assumed: Assumed,
+    /// The blocks with a skip mark that the way executes.
+    pub(in crate::interpreter) marked: Option<Marked>,
+    /// The loops whose condition was not known, by depth, file and opener.
+    pub(in crate::interpreter) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
+}
+
+/// A condition whose values only the program writes: asked again, it has the same answer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Asked {
+    pub(in crate::interpreter) condition: u32,
+    pub(in crate::interpreter) key: Arc<str>,
+    pub(in crate::interpreter) reads: Vec<Target>,
+}
+
+/// Adjacent blocks of one skip level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Marked {
+    pub(in crate::interpreter) depth: usize,
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) first: EntryIndex,
+    pub(in crate::interpreter) after: EntryIndex,
+}
+
+/// Values that follow from conditions, with what was known before.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
+pub(in crate::interpreter) struct Assumed(BTreeMap<Target, Option<Value>>);
+
+type AssumedRow = (Target, Option<Value>);
+
+impl From<Vec<AssumedRow>> for Assumed {
+    fn from(rows: Vec<AssumedRow>) -> Self {
+        Self(rows.into_iter().collect())
+    }
+}
+
+impl From<Assumed> for Vec<AssumedRow> {
+    fn from(assumed: Assumed) -> Self {
+        assumed.0.into_iter().collect()
+    }
+}
+
+impl Assumed {
+    /// A value that holds on this way from here on.
+    pub(in crate::interpreter) fn assume(
+        &mut self,
+        memory: &mut Memory,
+        target: &Target,
+        value: Value,
+    ) {
+        let before = match target {
+            Target::Parameter(Owner::Program, index) => {
+                let before = memory.parameter(*index);
+                memory.set_parameter(*index, value);
+                before
+            }
+            Target::Variable(name) => {
+                let before = memory.variable(name);
+                memory.set_variable(name, value);
+                before
+            }
+            Target::Parameter(Owner::Call, _) | Target::Elements(_) | Target::Parameters => return,
+        };
+        self.0.entry(target.clone()).or_insert(before);
+    }
+
+    /// What was known without the conditions.
+    pub(in crate::interpreter) fn undo(&mut self, memory: &mut Memory) {
+        self.undo_but(&BTreeSet::new(), memory);
+    }
+
+    fn undo_but(&mut self, kept: &BTreeSet<Target>, memory: &mut Memory) {
+        let (stay, go) = std::mem::take(&mut self.0)
+            .into_iter()
+            .partition(|(target, _)| kept.contains(target));
+        self.0 = stay;
+        let go: BTreeMap<Target, Option<Value>> = go;
+        for (target, before) in go {
+            match (target, before) {
+                (Target::Parameter(_, index), Some(value)) => memory.set_parameter(index, value),
+                (Target::Parameter(_, index), None) => memory.delete_parameter(index),
+                (Target::Variable(name), Some(value)) => memory.set_variable(&name, value),
+                (Target::Variable(name), None) => memory.delete(&name),
+                (Target::Elements(_) | Target::Parameters, _) => {}
+            }
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+fn value_of(memory: &Memory, target: &Target) -> Option<Value> {
+    match target {
+        Target::Parameter(_, index) => memory.parameter(*index),
+        Target::Variable(name) => memory.variable(name),
+        Target::Elements(_) | Target::Parameters => None,
+    }
+}
+
+impl Track {
+    /// A value is written: what was known of it from conditions is over.
+    #[inline]
+    pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
+        if !self.asked.is_empty() || !self.assumed.is_empty() {
+            self.forget_written(place, memory);
+        }
+    }
+
+    #[cold]
+    fn forget_written(&mut self, place: &Written, memory: &mut Memory) {
+        let target = match place {
+            Written::Parameter(owner, index) => Target::Parameter(*owner, *index),
+            Written::Variable(name) => Target::Variable(name.clone()),
+            Written::Elements(..) | Written::Parameters(_) => return self.write_anything(memory),
+            Written::Nowhere => return,
+        };
+        self.assumed.0.remove(&target);
+        self.asked.retain(|asked| !asked.reads.contains(&target));
+    }
+
+    /// Anything may be written.
+    pub(in crate::interpreter) fn write_anything(&mut self, memory: &mut Memory) {
+        self.assumed.undo(memory);
+        self.asked.clear();
+    }
+
+    /// Another program runs, with own parameters and variables of its own.
+    pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
+        if !self.asked.is_empty() {
+            let is_own = |target: &Target| match target {
+                Target::Parameter(owner, _) => *owner == Owner::Call,
+                Target::Variable(name) => name.starts_with("V.L."),
+                Target::Elements(_) | Target::Parameters => true,
+            };
+            self.asked.retain(|asked| !asked.reads.iter().any(is_own));
+        }
+        self.open_loops.retain(|(of, ..)| *of <= depth);
+    }
+
+    /// Another way comes to the same block.
+    fn join(&mut self, other: &Self) {
+        let Self {
+            loops,
+            left_loops,
+            ways,
+            reach,
+            asked,
+            // Undone before.
+            assumed: _,
+            marked,
+            open_loops,
+        } = other;
+        if self.loops.len() < loops.len() {
+            self.loops.clone_from(loops);
+        }
+        for left in left_loops {
+            if !self.left_loops.iter().any(|it| it.is_of(left)) {
+                self.left_loops.push(left.clone());
+            }
+        }
+        self.ways.join(ways);
+        self.reach.or(reach);
+        // What reads nothing is not written on any way.
+        let is_kept = |asked: &Asked| asked.reads.is_empty();
+        self.asked
+            .retain(|mine| asked.contains(mine) || is_kept(mine));
+        for theirs in asked.iter().filter(|asked| is_kept(asked)) {
+            if !self.asked.contains(theirs) {
+                self.asked.push(theirs.clone());
+            }
+        }
+        if self.marked != *marked {
+            self.marked = None;
+        }
+        self.open_loops.extend(open_loops);
+    }
+}
+
+/// A way through the program: what the control has on it, and how it came there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Path {
+    pub(in crate::interpreter) control: ControlState,
+    pub(in crate::interpreter) track: Track,
+    /// The executed block at which it parted last.
+    pub(in crate::interpreter) parted: u64,
+}
+
+impl Path {
+    /// Another way comes to the same block: what differs becomes unknown. Returns how many values do.
+    pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
+        self.undo_differing(&mut other);
+        let differing = self.control.join(
+            &other.control,
+            [&self.track.reach, &other.track.reach],
+            cause,
+        );
+        self.track.join(&other.track);
+        self.parted = self.parted.max(other.parted);
+        differing
+    }
+
+    /// What only a condition says is not known where it does not say it on both ways.
+    pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
+        let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
+        if mine != theirs {
+            let common = |(target, before): (&Target, &Option<Value>)| {
+                let same = theirs.0.get(target) == Some(before);
+                let now = [&self.control.memory, &other.control.memory];
+                let now = now.map(|memory| value_of(memory, target));
+                (same && now[0] == now[1]).then(|| target.clone())
+            };
+            let common: BTreeSet<Target> = mine.0.iter().filter_map(common).collect();
+            mine.undo_but(&common, &mut self.control.memory);
+            theirs.undo_but(&common, &mut other.control.memory);
+        }
+    }
+
+    /// Whether everything that another way may do from the same block is done on this one, too.
+    pub(in crate::interpreter) fn covers(&self, other: &Self, cause: &Arc<str>) -> bool {
+        let mut both = self.clone();
+        both.join(other.clone(), cause);
+        both.control == self.control && both.track.reach == self.track.reach
+    }
+}
+
+/// A way that has ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct EndedPath {
+    pub(in crate::interpreter) path: Path,
+    pub(in crate::interpreter) by: EndedBy,
+    /// The block that says that the program ends, and whether no jump goes to it.
+    pub(in crate::interpreter) at: Option<(Place, Passed)>,
+    pub(in crate::interpreter) last: Option<Last>,
+}
+
+/// Whether the block before a program end leads to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Passed {
+    /// No jump goes to it.
+    Into,
+    /// A jump may.
+    Perhaps,
+}
+
+/// Where one answer of the machine leads.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct BranchSide {
+    /// The ways on which it is given.
+    pub(in crate::interpreter) ways: WaySet,
+    pub(in crate::interpreter) to: EntryIndex,
+    pub(in crate::interpreter) seeking: Option<Seeking>,
+    /// Values that follow from it.
+    pub(in crate::interpreter) values: Vec<(Target, Value)>,
+    /// The state of a kind that follows from it.
+    pub(in crate::interpreter) state: Option<(AxisIndex, Kind, Membership)>,
+    pub(in crate::interpreter) marked: Option<Marked>,
+}
+
+impl BranchSide {
+    /// A side that leads to a block and says nothing else.
+    pub(in crate::interpreter) fn to(ways: WaySet, to: EntryIndex) -> Self {
+        Self {
+            ways,
+            to,
+            seeking: None,
+            values: Vec::new(),
+            state: None,
+            marked: None,
+        }
+    }
+}
+
+impl CallStack {
+    /// Which of two ways is executed first: the one that stands before the other in the text, a
+    /// called program before its caller goes on. `None` where they stand at the same block.
+    pub(in crate::interpreter) fn comes_before(&self, other: &Self) -> Option<bool> {
+        for (mine, theirs) in self.iter().zip(other.iter()) {
+            match order(mine).cmp(&order(theirs)) {
+                Ordering::Equal => {}
+                order => return Some(order == Ordering::Less),
+            }
+            if mine.waiting != theirs.waiting {
+                return Some(false);
+            }
+        }
+        match self.depth().cmp(&other.depth()) {
+            Ordering::Equal => {}
+            order => return Some(order == Ordering::Greater),
+        }
+        let (mine, theirs) = (self.running()?, other.running()?);
+        match (&mine.seeking, &theirs.seeking) {
+            (mine, theirs) if mine == theirs => None,
+            (mine, _) => Some(mine.is_none()),
+        }
+    }
+}
+
+/// What orders two levels of call stacks.
+fn order(frame: &Frame) -> impl Ord + use<> {
+    let left = frame.passage.map_or(0, |passage| passage.left);
+    let waiting = frame.waiting.len();
+    (
+        frame.unit,
+        frame.section,
+        Reverse(left),
+        frame.next,
+        Reverse(waiting),
+        frame.level,
+    )
+}
+
+/// A loop that was repeated.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Loop {
+    /// How many programs call each other down to the one that holds it.
+    pub(in crate::interpreter) depth: usize,
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) section: usize,
+    /// The block that opens it, or to which it goes back, and the last one from which it does.
+    pub(in crate::interpreter) head: EntryIndex,
+    pub(in crate::interpreter) from: EntryIndex,
+    pub(in crate::interpreter) passes: u64,
+    /// The executed block at which it came round first.
+    pub(in crate::interpreter) since: u64,
+    /// The state at the start of an earlier pass.
+    pub(in crate::interpreter) mark: Option<Box<Mark>>,
+    /// What only counts, once it is known that nothing else changes any more.
+    pub(in crate::interpreter) endless: Option<Vec<Target>>,
+    /// What all passes began with so far, where the loop is left on some ways (R14.3).
+    pub(in crate::interpreter) covered: Option<Box<Path>>,
+}
+
+impl Loop {
+    /// The section that contains it.
+    pub(in crate::interpreter) fn program(&self) -> ProgramId {
+        ProgramId {
+            unit: self.unit,
+            section: self.section,
+        }
+    }
+
+    /// Whether its counters are below a bound.
+    pub(in crate::interpreter) fn fits(&self, bound: u64) -> bool {
+        let marked = self.mark.as_ref().map_or(0, |mark| mark.pass);
+        self.passes.max(marked) < bound
+    }
+}
+
+impl Loop {
+    /// Whether the loop lies around a jump back, or is the one that jumps.
+    pub(in crate::interpreter) fn is_around(
+        &self,
+        place: ProgramId,
+        head: EntryIndex,
+        from: EntryIndex,
+    ) -> bool {
+        let around = self.head < head && from <= self.from;
+        self.program() == place && (self.head == head || around)
+    }
+
+    /// Whether the state is compared at this pass, or kept to be compared with.
+    pub(in crate::interpreter) fn is_due(&self) -> bool {
+        self.mark.is_some() || (self.passes >= FIRST_LOOK && self.passes.is_power_of_two())
+    }
+}
+
+/// A loop that was left where a value of the machine may end it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct LeftLoop {
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) head: EntryIndex,
+    pub(in crate::interpreter) times: u32,
+    pub(in crate::interpreter) cause: Arc<str>,
+}
+
+impl LeftLoop {
+    /// Whether it is the same loop.
+    pub(in crate::interpreter) fn is_of(&self, other: &Self) -> bool {
+        (self.unit, self.head) == (other.unit, other.head)
+    }
+}
+
+/// The state at the start of a pass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Mark {
+    pub(in crate::interpreter) pass: u64,
+    pub(in crate::interpreter) control: ControlState,
+    pub(in crate::interpreter) occurred: Vec<bool>,
+}
+
+/// The pass after which a loop is looked at for the first time, then at each doubling.
+const FIRST_LOOK: u64 = 32;
+
+/// The last executed block, in case that the program ends without M30.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Last {
+    pub(in crate::interpreter) file: Arc<str>,
+    pub(in crate::interpreter) line: u32,
+    pub(in crate::interpreter) text: String,
+}
+
+impl Last {
+    /// The whole block.
+    pub(in crate::interpreter) fn place(&self) -> Place {
+        Place {
+            file: self.file.clone(),
+            text: self.text.as_str().into(),
+            first_line: self.line,
+            span: Span::new(0, self.text.len()),
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! The states that are possible where more than one is, each with the ways that lead to it (R14.2).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::way_set::WaySet;
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, Membership};
+
+/// The ways on which a kind of an axis is selected, and those on which it is not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Split {
+    pub(in crate::interpreter) on: WaySet,
+    pub(in crate::interpreter) off: WaySet,
+}
+
+impl Split {
+    /// The same on some ways only.
+    pub(in crate::interpreter) fn and(&self, ways: &WaySet) -> Self {
+        Self {
+            on: self.on.and(ways),
+            off: self.off.and(ways),
+        }
+    }
+
+    /// The same with other numbers of the conditions.
+    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+        Self {
+            on: self.on.renumbered(&number),
+            off: self.off.renumbered(&number),
+        }
+    }
+
+    /// Whether it names none but the first conditions, so many.
+    pub(in crate::interpreter) fn fits(&self, conditions: usize) -> bool {
+        self.conditions().all(|it| (it as usize) < conditions)
+    }
+
+    fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.on.conditions().chain(self.off.conditions())
+    }
+
+    fn forget(&mut self, condition: u32) {
+        self.on.forget(condition);
+        self.off.forget(condition);
+    }
+}
+
+/// The states of kinds that are unknown because ways differ. A kind that is unknown and not among
+/// them may be in any state on any way.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Row>", from = "Vec<Row>")]
+pub(in crate::interpreter) struct Possible(BTreeMap<(AxisIndex, Kind), Split>);
+
+type Row = (AxisIndex, Kind, Split);
+
+impl From<Vec<Row>> for Possible {
+    fn from(rows: Vec<Row>) -> Self {
+        let rows = rows.into_iter();
+        Self(
+            rows.map(|(axis, kind, split)| ((axis, kind), split))
+                .collect(),
+        )
+    }
+}
+
+impl From<Possible> for Vec<Row> {
+    fn from(possible: Possible) -> Self {
+        let rows = possible.0.into_iter();
+        rows.map(|((axis, kind), split)| (axis, kind, split))
+            .collect()
+    }
+}
+
+impl FromIterator<((AxisIndex, Kind), Split)> for Possible {
+    fn from_iter<I: IntoIterator<Item = ((AxisIndex, Kind), Split)>>(splits: I) -> Self {
+        Self(splits.into_iter().collect())
+    }
+}
+
+impl Possible {
+    #[inline]
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(in crate::interpreter) fn of(&self, axis: AxisIndex, kind: Kind) -> Option<&Split> {
+        self.0.get(&(axis, kind))
+    }
+
+    /// What is known of kinds of an axis was replaced.
+    pub(in crate::interpreter) fn replace(&mut self, axis: AxisIndex, kinds: KindSet) {
+        if !self.is_empty() {
+            self.0
+                .retain(|(of, kind), _| *of != axis || !kinds.contains(*kind));
+        }
+    }
+
+    /// The kinds that they are about.
+    pub(in crate::interpreter) fn iter(
+        &self,
+    ) -> impl Iterator<Item = (&(AxisIndex, Kind), &Split)> {
+        self.0.iter()
+    }
+
+    pub(in crate::interpreter) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Whether it names no other axes than so many, and no other conditions.
+    pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
+        let mut splits = self.0.iter();
+        splits.all(|((axis, _), split)| axis.get() < axes && split.fits(conditions))
+    }
+
+    /// The conditions that ways name.
+    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.0.values().flat_map(Split::conditions)
+    }
+
+    /// A condition is asked anew.
+    pub(in crate::interpreter) fn forget(&mut self, condition: u32) {
+        for split in self.0.values_mut() {
+            split.forget(condition);
+        }
+    }
+
+    /// The run goes on on some ways only: what they all agree on is known.
+    pub(in crate::interpreter) fn narrow(
+        &mut self,
+        ways: &WaySet,
+        compensation: &mut Compensation,
+    ) {
+        self.0.retain(|(axis, kind), split| {
+            let left = split.and(ways);
+            let only = match (left.on.is_never(), left.off.is_never()) {
+                (false, true) => Membership::In,
+                (true, false) => Membership::Out,
+                _ => return true,
+            };
+            compensation.decide(*axis, *kind, only);
+            false
+        });
+    }
+}
+
+/// A state of the compensation with the ways on which the control has it.
+pub(in crate::interpreter) struct Side<'a> {
+    pub(in crate::interpreter) compensation: &'a Compensation,
+    pub(in crate::interpreter) possible: &'a Possible,
+    pub(in crate::interpreter) reach: &'a WaySet,
+}
+
+impl Side<'_> {
+    /// On which ways a kind is selected; `None` where that is not known.
+    fn split(&self, axis: AxisIndex, kind: Kind) -> Option<Split> {
+        if self.compensation.unknown(axis).contains(kind) {
+            let split = self.possible.of(axis, kind)?;
+            return Some(split.and(self.reach));
+        }
+        let (reach, never) = (self.reach.clone(), WaySet::never());
+        Some(if self.compensation.selected(axis).contains(kind) {
+            Split {
+                on: reach,
+                off: never,
+            }
+        } else {
+            Split {
+                on: never,
+                off: reach,
+            }
+        })
+    }
+}
+
+/// The state where two ways meet.
+pub(in crate::interpreter) fn join(mine: &Side<'_>, theirs: &Side<'_>) -> (Compensation, Possible) {
+    let mut compensation = mine.compensation.clone();
+    let mut possible = Possible::default();
+    for axis in (0..compensation.len()).map(AxisIndex::new) {
+        for kind in mine
+            .compensation
+            .differing(theirs.compensation, axis)
+            .iter()
+        {
+            let is_same = mine.compensation.is_parameterised(axis, kind)
+                == theirs.compensation.is_parameterised(axis, kind);
+            let splits = mine.split(axis, kind).zip(theirs.split(axis, kind));
+            let Some((mut split, other)) = splits.filter(|_| is_same) else {
+                compensation.forget(axis, KindSet::of(kind), &mut Vec::new());
+                continue;
+            };
+            split.on.or(&other.on);
+            split.off.or(&other.off);
+            match (split.on.is_never(), split.off.is_never()) {
+                (false, true) => compensation.decide(axis, kind, Membership::In),
+                (true, false) => compensation.decide(axis, kind, Membership::Out),
+                _ => {
+                    compensation.forget(axis, KindSet::of(kind), &mut Vec::new());
+                    possible.0.insert((axis, kind), split);
+                }
+            }
+        }
+    }
+    (compensation, possible)
+}

@@ -1,0 +1,308 @@
+//! The states that are possible, as users see them (R14.2).
+
+use std::sync::Arc;
+
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
+
+use super::condition::{Condition, ConditionKind};
+use super::possible::{Possible, Split};
+use super::way_set::{Answer, WaySet};
+use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
+
+/// Ways that are named for a state.
+const MAX_NAMED: usize = 4;
+
+/// The states of a kind on an axis that is unknown, each with the ways that lead to it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PossibleStates {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The kind.
+    pub kind: Kind,
+    /// Each state that is possible. At most one has no ways: it is the state otherwise.
+    pub states: Vec<PossibleState>,
+}
+
+/// A state that is possible.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PossibleState {
+    /// The state.
+    pub state: State,
+    /// The ways that lead to it, at most four, each a list of conditions that hold together; `None`
+    /// for the state on all other ways.
+    pub ways: Option<Vec<Vec<WayCondition>>>,
+    /// How many ways more lead to it.
+    pub more: usize,
+}
+
+/// A condition of a way.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum WayCondition {
+    /// A condition of a control block.
+    Condition(Asked),
+    /// A case of a `$SWITCH`.
+    Case(Asked),
+    /// Whether a loop is repeated.
+    Loop(Asked),
+    /// Whether a probe answers.
+    Probe(Asked),
+    /// The switch of a skip level.
+    Skip {
+        /// The level.
+        level: u8,
+        /// Whether its blocks are executed.
+        executed: bool,
+        /// The file of its first block.
+        file: Arc<str>,
+        /// The line of its first block.
+        line: u32,
+    },
+}
+
+/// What is asked in a block.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Asked {
+    /// The file.
+    pub file: Arc<str>,
+    /// The line, from 1.
+    pub line: u32,
+    /// The text of the condition.
+    #[serde(serialize_with = "as_text")]
+    pub text: Arc<str>,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+impl Serialize for PossibleState {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("state", &self.state)?;
+        map.serialize_entry("ways", &self.ways)?;
+        if self.ways.is_some() {
+            map.serialize_entry("more", &self.more)?;
+        }
+        map.end()
+    }
+}
+
+fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(text)
+}
+
+impl PossibleStates {
+    /// The words of the ways to a state, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1
+    /// is on`; `None` where it is the state otherwise, or not possible.
+    pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
+        let found = self.states.iter().find(|it| it.state == state)?;
+        found.words(file)
+    }
+
+    /// The states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
+    pub fn in_words(&self, file: &str) -> String {
+        let named = self.states.iter().map(|state| match state.words(file) {
+            Some(words) => format!("{} if {words}", state.state),
+            None => format!("else {}", state.state),
+        });
+        if self.states.iter().any(PossibleState::is_always) {
+            let states: Vec<&str> = self.states.iter().map(|it| it.state.as_str()).collect();
+            return format!("{}, on more ways than can be named", states.join(" or "));
+        }
+        named.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Whether a state is possible.
+    pub fn has(&self, state: State) -> bool {
+        self.states.iter().any(|it| it.state == state)
+    }
+}
+
+impl PossibleState {
+    fn words(&self, file: &str) -> Option<String> {
+        let ways = self.ways.as_ref().filter(|_| !self.is_always())?;
+        Some(in_words(ways, self.more, file))
+    }
+
+    /// Whether there are so many ways that none is named.
+    fn is_always(&self) -> bool {
+        let mut ways = self.ways.iter().flatten();
+        ways.any(Vec::is_empty)
+    }
+}
+
+/// The ways on which a block is executed, as words after `if`, as seen from a file.
+pub(crate) fn branch_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
+    let named = ways.len().min(MAX_NAMED);
+    in_words(&ways[..named], ways.len() - named, file)
+}
+
+fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
+    let named = ways.iter().map(|way| {
+        let conditions: Vec<String> = way.iter().map(|it| it.in_words(file)).collect();
+        conditions.join(" and ")
+    });
+    let mut words = named.collect::<Vec<_>>().join(", or if ");
+    match more {
+        0 => {}
+        1 => words.push_str(", and on 1 more way"),
+        more => words.push_str(&format!(", and on {more} more ways")),
+    }
+    words
+}
+
+impl WayCondition {
+    /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
+    pub fn in_words(&self, file: &str) -> String {
+        match self {
+            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) => {
+                let not = if asked.holds { "" } else { "not " };
+                let place = asked.seen_from(file);
+                if asked.text.contains("||") || asked.text.contains("&&") {
+                    format!("{not}[{}] ({place})", asked.text)
+                } else {
+                    format!("{not}{} ({place})", asked.text)
+                }
+            }
+            Self::Probe(asked) => {
+                let word = if asked.holds {
+                    "answers"
+                } else {
+                    "does not answer"
+                };
+                format!("the probe {word} ({})", asked.seen_from(file))
+            }
+            Self::Skip {
+                level, executed, ..
+            } => {
+                let word = if *executed { "off" } else { "on" };
+                format!("skip level {level} is {word}")
+            }
+        }
+    }
+}
+
+impl Asked {
+    fn seen_from(&self, file: &str) -> String {
+        if *self.file == *file {
+            format!("line {}", self.line)
+        } else {
+            format!("{}:{}", self.file, self.line)
+        }
+    }
+}
+
+/// The states that are possible where ways lead on some ways only.
+pub(in crate::interpreter) fn shown(
+    (compensation, possible): (&Compensation, &Possible),
+    reach: &WaySet,
+    conditions: &[Condition],
+) -> Vec<PossibleStates> {
+    let splits = possible
+        .iter()
+        .filter(|((axis, kind), _)| compensation.state(*axis, *kind) == State::Unknown);
+    let rows = splits.map(|((axis, kind), split)| {
+        let state = |membership| {
+            let mut decided = compensation.clone();
+            decided.decide(*axis, *kind, membership);
+            decided.state(*axis, *kind)
+        };
+        let Split { on, off } = split;
+        let [on, off] = [on, off].map(|ways| ways.within(reach).beyond(reach));
+        let size = |ways: &WaySet| ways.conditions().count();
+        let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
+        let states = if size(&off) <= size(&on) {
+            vec![named(if_off, &off, conditions), otherwise(if_on)]
+        } else {
+            vec![named(if_on, &on, conditions), otherwise(if_off)]
+        };
+        PossibleStates {
+            axis: *axis,
+            kind: *kind,
+            states,
+        }
+    });
+    rows.collect()
+}
+
+fn otherwise(state: State) -> PossibleState {
+    PossibleState {
+        state,
+        ways: None,
+        more: 0,
+    }
+}
+
+fn named(state: State, ways: &WaySet, conditions: &[Condition]) -> PossibleState {
+    let all = ways_of(ways, conditions);
+    PossibleState {
+        state,
+        more: all.len().saturating_sub(MAX_NAMED),
+        ways: Some(all.into_iter().take(MAX_NAMED).collect()),
+    }
+}
+
+/// The ways with the texts of their conditions.
+pub(in crate::interpreter) fn ways_of(
+    ways: &WaySet,
+    conditions: &[Condition],
+) -> Vec<Vec<WayCondition>> {
+    let mut all: Vec<Vec<WayCondition>> = Vec::new();
+    let mut in_order: Vec<_> = ways.ways().iter().collect();
+    in_order.sort_by_key(|way| way.iter().map(|it| it.condition).collect::<Vec<_>>());
+    for way in in_order {
+        let asked = way.iter().filter_map(|answer| {
+            let condition = conditions.get(answer.condition as usize)?;
+            Some(condition_of(condition, *answer))
+        });
+        let mut named: Vec<WayCondition> = Vec::new();
+        for condition in asked {
+            // Ways name lines, not passes.
+            if !named.contains(&condition) {
+                named.push(condition);
+            }
+        }
+        if !all.contains(&named) {
+            all.push(named);
+        }
+    }
+    all
+}
+
+fn condition_of(condition: &Condition, answer: Answer) -> WayCondition {
+    let (file, line) = (condition.place.file.clone(), condition.place.start().line);
+    let of = |sides: u64| {
+        let texts = condition.texts.iter().enumerate();
+        let texts = texts.filter(|(place, _)| sides & (1 << place) != 0);
+        let texts: Vec<&str> = texts.map(|(_, text)| &**text).collect();
+        Arc::from(texts.join(" || "))
+    };
+    // The last answer is that none of the texts holds.
+    let is_else = answer.sides & (1 << condition.texts.len()) != 0;
+    let asked = Asked {
+        file: file.clone(),
+        line,
+        text: if is_else {
+            of(!answer.sides)
+        } else {
+            of(answer.sides)
+        },
+        holds: !is_else,
+    };
+    match condition.kind {
+        ConditionKind::Branch => WayCondition::Condition(asked),
+        ConditionKind::Case => WayCondition::Case(asked),
+        ConditionKind::Loop => WayCondition::Loop(asked),
+        ConditionKind::Probe => WayCondition::Probe(asked),
+        ConditionKind::Skip(level) => WayCondition::Skip {
+            level,
+            executed: is_else,
+            file,
+            line,
+        },
+    }
+}

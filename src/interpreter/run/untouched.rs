@@ -1,0 +1,117 @@
+//! The ways on which a program has not yet switched what it found (R1.52, R14.5).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::condition::Condition;
+use super::possible_state::{branch_in_words, ways_of};
+use super::way_set::WaySet;
+use crate::comp::{AxisIndex, Kind, KindSet};
+
+/// Axis and kind → the ways on which no command of the program has switched it. What is not among
+/// them was switched on no way.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Row>", from = "Vec<Row>")]
+pub(in crate::interpreter) struct Untouched(BTreeMap<(AxisIndex, Kind), WaySet>);
+
+type Row = ((AxisIndex, Kind), WaySet);
+
+impl From<Vec<Row>> for Untouched {
+    fn from(rows: Vec<Row>) -> Self {
+        Self(rows.into_iter().collect())
+    }
+}
+
+impl From<Untouched> for Vec<Row> {
+    fn from(untouched: Untouched) -> Self {
+        untouched.0.into_iter().collect()
+    }
+}
+
+impl Untouched {
+    /// A program begins.
+    pub(in crate::interpreter) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// A command switches kinds of an axis.
+    pub(in crate::interpreter) fn switch(&mut self, axis: AxisIndex, kinds: KindSet) {
+        for kind in kinds.iter() {
+            self.0.insert((axis, kind), WaySet::never());
+        }
+    }
+
+    /// Two ways meet. `reach` is what leads to this one and to the other.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
+        if self == other {
+            return;
+        }
+        let keys: Vec<_> = self.0.keys().chain(other.0.keys()).copied().collect();
+        for key in keys {
+            let mut left = self.of(key, reach[0]);
+            left.or(&other.of(key, reach[1]));
+            self.0.insert(key, left);
+        }
+    }
+
+    /// A condition is asked anew.
+    pub(in crate::interpreter) fn forget(&mut self, condition: u32) {
+        self.0.values_mut().for_each(|ways| ways.forget(condition));
+    }
+
+    /// The conditions that ways name.
+    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.0.values().flat_map(WaySet::conditions)
+    }
+
+    /// Whether it names no other axes than so many, and no other conditions.
+    pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
+        self.0.keys().all(|(axis, _)| axis.get() < axes)
+            && self.conditions().all(|it| (it as usize) < conditions)
+    }
+
+    fn of(&self, key: (AxisIndex, Kind), reach: &WaySet) -> WaySet {
+        self.0
+            .get(&key)
+            .map_or_else(|| reach.clone(), |ways| ways.and(reach))
+    }
+}
+
+/// On which of the ways that lead to a block the state is the one that the program found.
+#[derive(Debug, Clone)]
+pub(crate) enum Found {
+    /// On all of them.
+    Always,
+    /// On none.
+    Never,
+    /// On some, in words after `if`.
+    If(String),
+}
+
+/// What a program has not yet switched at a block.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FoundStates<'a> {
+    pub(in crate::interpreter) untouched: &'a Untouched,
+    pub(in crate::interpreter) reach: &'a WaySet,
+    pub(in crate::interpreter) conditions: &'a [Condition],
+}
+
+impl FoundStates<'_> {
+    /// Whether a kind of an axis may still be in the state that the program found.
+    pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
+        !self.untouched.of((axis, kind), self.reach).is_never()
+    }
+
+    /// The ways on which a kind of an axis still is in that state, as seen from a file.
+    pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> Found {
+        let ways = self.untouched.of((axis, kind), self.reach);
+        if ways.is_never() {
+            Found::Never
+        } else if ways.is_always() {
+            Found::Always
+        } else {
+            Found::If(branch_in_words(&ways_of(&ways, self.conditions), file))
+        }
+    }
+}

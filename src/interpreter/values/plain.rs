@@ -1,0 +1,243 @@
+//! What conditions say about the values that they read, where they are plain (R14.1).
+
+use super::target::Target;
+use super::value::Value;
+use super::variable::canonical;
+use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
+use crate::text::Span;
+
+/// Whether a condition holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Truth {
+    Holds,
+    Fails,
+}
+
+impl Truth {
+    fn turned(self) -> Self {
+        match self {
+            Self::Holds => Self::Fails,
+            Self::Fails => Self::Holds,
+        }
+    }
+}
+
+/// The values that follow from a condition that holds or does not: `V.E.A == 2`, `NOT`, `&&`.
+pub(in crate::interpreter) fn conclusions(
+    block: &Block,
+    text: &str,
+    condition: Expression,
+    truth: Truth,
+) -> Vec<(Target, Value)> {
+    let mut found = Vec::new();
+    let mut left = vec![(condition, truth)];
+    while let Some((part, truth)) = left.pop() {
+        let Some((node, operands)) = root(block, part) else {
+            continue;
+        };
+        match (node, operands.as_slice()) {
+            (
+                Node::Call {
+                    function: Function::Not,
+                    ..
+                },
+                [inner],
+            ) => left.push((*inner, truth.turned())),
+            (Node::Binary(BinaryOperator::And), [one, other]) if truth == Truth::Holds => {
+                left.extend([(*one, truth), (*other, truth)]);
+            }
+            (Node::Binary(BinaryOperator::Or), [one, other]) if truth == Truth::Fails => {
+                left.extend([(*one, truth), (*other, truth)]);
+            }
+            (Node::Binary(BinaryOperator::Equal), [one, other]) if truth == Truth::Holds => {
+                found.extend(equal(block, text, [*one, *other]));
+            }
+            (Node::Binary(BinaryOperator::NotEqual), [one, other]) if truth == Truth::Fails => {
+                found.extend(equal(block, text, [*one, *other]));
+            }
+            _ if truth == Truth::Fails => {
+                // |value| < 0.5 is all that is known; a switch is 0 then.
+                let switch = variable(block, text, part).filter(is_switch);
+                found.extend(switch.map(|target| (target, Value::Number(0.0))));
+            }
+            _ => {
+                let switch = variable(block, text, part).filter(is_switch);
+                found.extend(switch.map(|target| (target, Value::Number(1.0))));
+            }
+        }
+    }
+    found
+}
+
+/// Whether a variable is 0 or 1 and nothing else.
+fn is_switch(target: &Target) -> bool {
+    matches!(target, Target::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
+}
+
+/// A variable and the number that it equals.
+fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Target, Value)> {
+    let [one, other] = pair;
+    let known = |part| {
+        let (node, _) = root(block, part)?;
+        match node {
+            Node::Number(number) => Some(Value::Number(number)),
+            Node::Negate => match root(block, operands_of(block, part)?.first().copied()?)?.0 {
+                Node::Number(number) => Some(Value::Number(-number)),
+                _ => None,
+            },
+            _ => None,
+        }
+    };
+    let target = variable(block, text, one).zip(known(other));
+    target.or_else(|| variable(block, text, other).zip(known(one)))
+}
+
+/// The parameter or variable that an expression is, and nothing else.
+pub(in crate::interpreter) fn variable(
+    block: &Block,
+    text: &str,
+    part: Expression,
+) -> Option<Target> {
+    let (start, end) = (part.start as usize, part.end as usize);
+    let [node] = block.nodes.get(start..end)? else {
+        return None;
+    };
+    target(*node, block.spans.get(start)?.of(text))
+}
+
+fn target(node: Node, written: &str) -> Option<Target> {
+    match node {
+        Node::Parameter { owner, index } => Some(Target::Parameter(owner, index)),
+        Node::Variable { subscripts: 0 } => {
+            let name = canonical(written).into_owned();
+            name.starts_with("V.").then_some(Target::Variable(name))
+        }
+        _ => None,
+    }
+}
+
+/// The last node of an expression and what it works on.
+fn root(block: &Block, part: Expression) -> Option<(Node, Vec<Expression>)> {
+    let node = *block.nodes.get(part.end.checked_sub(1)? as usize)?;
+    Some((node, operands_of(block, part)?))
+}
+
+fn operands_of(block: &Block, part: Expression) -> Option<Vec<Expression>> {
+    let last = part.end.checked_sub(1)?;
+    let count = popped(*block.nodes.get(last as usize)?);
+    let mut operands = Vec::with_capacity(count);
+    let mut end = last;
+    for _ in 0..count {
+        let start = start_of(block, part.start, end)?;
+        operands.push(Expression { start, end });
+        end = start;
+    }
+    operands.reverse();
+    Some(operands)
+}
+
+/// Where the expression begins that ends before a node.
+fn start_of(block: &Block, first: u32, end: u32) -> Option<u32> {
+    let mut wanted = 1;
+    let mut at = end;
+    while wanted > 0 {
+        at = at.checked_sub(1).filter(|at| *at >= first)?;
+        wanted += popped(*block.nodes.get(at as usize)?);
+        wanted -= 1;
+    }
+    Some(at)
+}
+
+/// How many values a node takes from the stack.
+fn popped(node: Node) -> usize {
+    match node {
+        Node::Number(_) | Node::Text | Node::Parameter { .. } | Node::Unread => 0,
+        Node::IndexedParameter { subscripts, .. } => usize::from(subscripts) + 1,
+        Node::Variable { subscripts } => usize::from(subscripts),
+        Node::Negate => 1,
+        Node::Binary(_) => 2,
+        Node::Call { arguments, .. } => usize::from(arguments),
+    }
+}
+
+/// What an expression reads, where nothing but the program writes all of it.
+pub(in crate::interpreter) fn reads(
+    block: &Block,
+    text: &str,
+    expression: Expression,
+) -> Option<Vec<Target>> {
+    let mut found = Vec::new();
+    for at in expression.start..expression.end {
+        let at = at as usize;
+        let node = *block.nodes.get(at)?;
+        let read = match node {
+            Node::Number(_) | Node::Negate | Node::Binary(_) => continue,
+            Node::Call { function, .. } if is_pure(function) => continue,
+            node => target(node, block.spans.get(at)?.of(text))?,
+        };
+        let is_of_program = match &read {
+            Target::Parameter(Owner::Program | Owner::Call, _) => true,
+            Target::Variable(name) => ["V.P.", "V.L.", "V.S."]
+                .iter()
+                .any(|family| name.starts_with(family)),
+            Target::Elements(_) | Target::Parameters => false,
+        };
+        if !is_of_program {
+            return None;
+        }
+        found.push(read);
+    }
+    Some(found)
+}
+
+/// Whether a function of numbers gives the same for the same numbers.
+fn is_pure(function: Function) -> bool {
+    !matches!(
+        function,
+        Function::Exist | Function::Sizeof | Function::IsString | Function::IsNumber
+    )
+}
+
+/// The text of an expression, with the brackets that belong to it, and where it stands.
+pub(in crate::interpreter) fn text_of(
+    block: &Block,
+    text: &str,
+    expression: Expression,
+) -> (String, Span) {
+    let range = expression.start as usize..expression.end as usize;
+    let spans = block.spans.get(range).unwrap_or_default();
+    let start = spans.iter().map(|span| span.start as usize).min();
+    let end = spans.iter().map(|span| span.end as usize).max();
+    let (Some(mut start), Some(mut end)) = (start, end) else {
+        return (String::new(), Span::default());
+    };
+    let depth = |part: &str| {
+        let mut depth = 0_i32;
+        let mut lowest = 0_i32;
+        for it in part.chars() {
+            depth += i32::from(it == '[') - i32::from(it == ']');
+            lowest = lowest.min(depth);
+        }
+        (depth, lowest)
+    };
+    loop {
+        let part = text.get(start..end).unwrap_or_default();
+        let (left_open, lowest) = depth(part);
+        if lowest < 0 {
+            match text.get(..start).and_then(|before| before.rfind('[')) {
+                Some(before) => start = before,
+                None => break,
+            }
+        } else if left_open > 0 {
+            match text.get(end..).and_then(|after| after.find(']')) {
+                Some(after) => end += after + 1,
+                None => break,
+            }
+        } else {
+            break;
+        }
+    }
+    let shown = text.get(start..end).unwrap_or_default();
+    let words: Vec<&str> = shown.split_whitespace().collect();
+    (words.join(" "), Span::new(start, end))
+}

@@ -49,7 +49,7 @@ fn ran(text: &str, options: Options) -> Ran {
                     ended = Some(end.by);
                     end.diagnostics
                 }
-                Event::Started { .. } => &[],
+                Event::Started { .. } | Event::Joined(_) => &[],
             };
             let new = diagnostics
                 .iter()

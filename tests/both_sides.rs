@@ -468,7 +468,11 @@ fn the_states_that_are_possible_name_their_ways() {
     run.program(source, &mut NoFiles, &mut |_: Event<'_>| {
         ControlFlow::Continue(())
     });
-    let said: Vec<String> = run.possible().iter().map(|it| it.in_words("a.nc")).collect();
+    let said: Vec<String> = run
+        .possible()
+        .iter()
+        .map(|it| it.in_words("a.nc"))
+        .collect();
     assert_eq!(
         said,
         [

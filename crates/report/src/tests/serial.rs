@@ -11,7 +11,7 @@ use frictcomp::comp::{AxisIndex, Change, Kind, KindSet, State};
 use frictcomp::diagnostic::{Diagnostic, Fix, Severity};
 use frictcomp::text::is_hidden;
 use frictcomp::text::{Place, Span};
-use frictcomp::timeline::{End, EndNote, EndedBy, Record, Repeat, Row, StateView, Summary};
+use frictcomp::timeline::{End, EndNote, EndedBy, Join, Record, Repeat, Row, StateView, Summary};
 
 /// Texts with what JSON escapes, what is never shown as such, and what is neither.
 fn text() -> impl Strategy<Value = String> {
@@ -195,6 +195,13 @@ fn play(parts: &Parts, mut take: impl FnMut(&Record<'_>)) {
         branch: None,
         diagnostics: &parts.diagnostics,
     }));
+    take(&Record::Join(Join {
+        program,
+        seq,
+        file,
+        line,
+        state,
+    }));
     let note = |diagnostic: &Diagnostic| EndNote {
         seq,
         diagnostic: diagnostic.clone(),
@@ -317,6 +324,7 @@ fn show_kinds(value: &mut Value, record: &Record<'_>, kinds: KindSet) {
     let (changes, state) = match record {
         Record::Session { state, .. } | Record::Program { state, .. } => (None, *state),
         Record::Block(row) => (Some(row.changes), row.state),
+        Record::Join(join) => (None, join.state),
         Record::End(end) => (Some(end.changes), end.state),
         Record::Summary(summary) => (None, summary.state),
         Record::Machine(_) => return,

@@ -52,7 +52,9 @@ impl Failure {
     pub(crate) fn of_axes(error: FollowError) -> Self {
         let help = match &error {
             FollowError::NoAxis(unknown) => unknown.help("its axes are"),
-            FollowError::Assumed(_) => Some("name its compensation value list with `value_list=`".to_owned()),
+            FollowError::Assumed(_) => {
+                Some("name its compensation value list with `value_list=`".to_owned())
+            }
         };
         let failure = Self::new(error.to_string());
         Self { help, ..failure }

@@ -18,16 +18,46 @@ const MAX_BLOCKS: &str = "5000";
 /// Codes that neither a program nor a list can raise, with the reason.
 const ELSEWHERE: [(&str, &str); 26] = [
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
-    ("FC506", "said by `tune`; crates/cli/tests/circle_cli.rs has it"),
-    ("FC511", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC512", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC513", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC514", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC515", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC516", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC517", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC518", "said by `identify`; crates/recordings/tests/identify.rs has it"),
-    ("FC519", "said by `identify`; crates/host/tests/recordings.rs has it"),
+    (
+        "FC506",
+        "said by `tune`; crates/cli/tests/circle_cli.rs has it",
+    ),
+    (
+        "FC511",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC512",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC513",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC514",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC515",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC516",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC517",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC518",
+        "said by `identify`; crates/recordings/tests/identify.rs has it",
+    ),
+    (
+        "FC519",
+        "said by `identify`; crates/host/tests/recordings.rs has it",
+    ),
     (
         "FC520",
         "said by `identify`; crates/cli/tests/identify_faults.rs has it",
@@ -56,19 +86,34 @@ const ELSEWHERE: [(&str, &str); 26] = [
         "FC526",
         "said by `identify`; crates/cli/tests/identify_faults.rs has it",
     ),
-    ("FC903", "said by `current`; crates/physics/tests/spec_motion.rs has it"),
-    ("FC904", "said by `current`; crates/physics/tests/spec_motion.rs has it"),
+    (
+        "FC903",
+        "said by `current`; crates/physics/tests/spec_motion.rs has it",
+    ),
+    (
+        "FC904",
+        "said by `current`; crates/physics/tests/spec_motion.rs has it",
+    ),
     (
         "FC905",
         "needs 10 000 messages; tests/language/budgets.rs has them",
     ),
-    ("FC906", "said by `current`; crates/physics/tests/motion/start.rs has it"),
-    ("FC907", "said by `current`; crates/physics/tests/motion/feeds.rs has it"),
+    (
+        "FC906",
+        "said by `current`; crates/physics/tests/motion/start.rs has it",
+    ),
+    (
+        "FC907",
+        "said by `current`; crates/physics/tests/motion/feeds.rs has it",
+    ),
     (
         "FC918",
         "needs a million values; tests/language/budgets.rs has it",
     ),
-    ("FC915", "said by `current`; crates/physics/tests/spec_motion.rs has it"),
+    (
+        "FC915",
+        "said by `current`; crates/physics/tests/spec_motion.rs has it",
+    ),
     (
         "P-ERR-110641",
         "needs two loads of a list; crates/cli/tests/spec_output.rs has them",

@@ -150,7 +150,7 @@ impl Machine {
     ///
     /// let machine = Machine::from_toml("[[axis]]\nname = \"X\"\nfrict_comp = true\n")?;
     /// assert!(machine.axes[0].configured.contains(Kind::Frict));
-    /// # Ok::<(), frictcomp::machine::ConfigError>(())
+    /// # Ok::<(), frictcomp::config::ConfigError>(())
     /// ```
     ///
     /// # Errors

@@ -347,7 +347,8 @@ fn no_text_calls_the_start_up_state_home() {
         });
         named.map(|(at, _)| at + 1).collect::<Vec<_>>()
     };
-    for file in documents().into_iter().chain(sources()) {
+    let sources = sources().into_iter().filter(|it| !it.ends_with("docs.rs"));
+    for file in documents().into_iter().chain(sources) {
         let lines = names_home(&read(&file));
         assert!(lines.is_empty(), "{}: {lines:?}", file.display());
     }

@@ -89,6 +89,9 @@ pub(super) struct AuditArgs {
 /// How often each program runs.
 const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
 
+/// Programs that are named of those that one block mends.
+const MOST_NAMES: usize = 20;
+
 /// Which programs are changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Fix {
@@ -152,6 +155,7 @@ impl AuditArgs {
         if let Some(fix) = self.fix {
             let changes = failures.keep(auditor.mend(&archives, fix.end()));
             say_missed(&archives, &changes);
+            say_roots(&changes);
             if !self.write {
                 let files = changes.iter().filter_map(|change| change.file.as_ref());
                 target.painted(&differences(files), difference)?;
@@ -305,20 +309,58 @@ fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
 /// Says which programs are left to the user, and why (R10.8).
 fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
     for change in changes {
-        let program = &archives[change.machine].programs()[change.program];
+        let programs = archives[change.machine].programs();
+        let Some(program) = change.program.map(|at| &programs[at]) else {
+            continue;
+        };
         for missed in &change.missed {
             let way_home = program.axes[missed.mending.at].way_home();
-            let why = match missed.why {
-                WhyMissed::ChangesMotion => {
-                    "a block that mends this would change the state in which axes move"
+            let why = match &missed.why {
+                WhyMissed::ChangesMotion(of) if **of == *program.file => {
+                    "a block that mends this would change the state in which axes move".to_owned()
                 }
-                _ => "no single block mends this",
+                WhyMissed::ChangesMotion(of) => format!(
+                    "a block that mends this would change the state in which axes move in `{}`, which calls it",
+                    of
+                ),
+                _ => "no single block mends this".to_owned(),
             };
             Console::talk(&format!(
                 "{}: {why}; write `{way_home}` wherever it is needed by hand",
                 program.file,
             ));
         }
+    }
+}
+
+/// Says which blocks mend the programs that call their file, too (R10.8).
+fn say_roots(changes: &[MendedProgram]) {
+    for change in changes {
+        let Some(file) = change.file.as_ref().filter(|_| !change.also.is_empty()) else {
+            continue;
+        };
+        let count = change.also.len();
+        let programs = counted(count, "program");
+        let names: Vec<&str> = change
+            .also
+            .iter()
+            .take(MOST_NAMES)
+            .map(String::as_str)
+            .collect();
+        let more = match count.saturating_sub(MOST_NAMES) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let verb = if count == 1 { "calls" } else { "call" };
+        let unnamed = match change.program {
+            Some(_) => "",
+            None => "; programs that were not audited may call it, too",
+        };
+        Console::talk(&format!(
+            "{}: this mends {programs} that {verb} it: {}{more}{unnamed}",
+            shown(&file.path),
+            names.join(", "),
+        ));
     }
 }
 

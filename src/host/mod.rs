@@ -16,6 +16,7 @@ mod audits;
 mod axes_ahead;
 mod both_versions;
 mod contours;
+mod cures;
 mod discovery;
 mod disk;
 mod dry_run;
@@ -55,9 +56,10 @@ mod watch;
 mod workers;
 
 pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
-pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
+pub use audits::{ArchiveAuditor, AuditOptions};
 pub use both_versions::{MachineOfVersions, MachineOwner};
 pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
+pub use cures::MendedProgram;
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;
 pub use dry_run::{

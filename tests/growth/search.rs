@@ -56,16 +56,6 @@ impl Repeated {
         }
     }
 
-    /// A size at which brackets that are never closed are too many: each may look as far as the last of 64.
-    fn beyond_nesting(self, size: usize, sequence: &str) -> Option<usize> {
-        const REPEATS: usize = 140;
-        if !sequence.contains('[') || !matches!(self, InLine | InBlock) {
-            return Some(size);
-        }
-        let size = size.max(REPEATS * sequence.len());
-        (self == InBlock || size <= HALF_A_LINE).then_some(size)
-    }
-
     /// Sizes of which one is eight times the other. A line is not longer than 4000 characters.
     fn further(self, size: usize) -> [usize; 2] {
         match self {
@@ -205,7 +195,7 @@ impl Search {
             let sequence = format!("{}{between}", tokens.join(between));
             let bounds = self.look.bounds().iter();
             self.found.extend(bounds.clone().find_map(|(share, bound)| {
-                let size = how.beyond_nesting(how.size() / share, &sequence)?;
+                let size = how.size() / share;
                 let run = |size| how.run(&sequence, size);
                 let growth = excess([size, 2 * size], *bound, run)?;
                 // Memory that is farther away, and bounds that end something at once, make one step; what
@@ -277,6 +267,25 @@ fn some_combinations_repeated() {
         .some((100, 3), &tokens::of_programs())
         .some((50, 4), &tokens::of_programs())
         .finds_nothing();
+}
+
+#[test]
+fn brackets_that_stay_open() {
+    // R9.90: as many as may nest, with so much in each that a look to the end of the block shows.
+    const NESTED: [usize; 2] = [31, 62];
+    let mut found = Vec::new();
+    for opener in tokens::OPENERS {
+        for filler in tokens::FILLERS {
+            let sequence = format!("{opener}{} \\\n", filler.repeat(60 / filler.len()));
+            let run = |count| {
+                let text = format!("X1 \\\n{}X1\nM30\n", sequence.repeat(count));
+                run(&text, "", text.len());
+            };
+            let growth = excess(NESTED, 1.3 * TWICE, run);
+            found.extend(growth.map(|growth| format!("{sequence:?}: {growth:.2}")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]

@@ -59,10 +59,7 @@ pub struct Affected<'a> {
 }
 
 /// Runs a program of the [`Affected`] ones, by its position, with a text in place of the file.
-pub trait RunWith<E>:
-    FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>
-{
-}
+trait RunWith<E>: FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E> {}
 
 impl<E, F> RunWith<E> for F where
     F: FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>
@@ -72,14 +69,14 @@ impl<E, F> RunWith<E> for F where
 /// Finds the blocks that mend a file of this text. Each place is tried out on every program that runs
 /// the file: those to mend must have lost their part in the hazard, no program may come into one, and no
 /// motion of any of them may have another state when it starts in its start-up state; from another one,
-/// only the start-up state (R10.8).
+/// only the start-up state (R10.8). `run` runs a program, by its position, with a text in place of the file.
 ///
 /// # Errors
 /// Those of `run`.
 pub fn mend<E>(
     text: &str,
     programs: &[Affected<'_>],
-    mut run: impl RunWith<E>,
+    mut run: impl FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
 ) -> Result<Mended, E> {
     let before = (0..programs.len()).map(|at| observe(&programs[at], (at, text), &mut run));
     let before = before.collect::<Result<Vec<Runs>, E>>()?;

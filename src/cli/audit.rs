@@ -118,14 +118,14 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
-    match &args.sequence {
-        Some(order) => args.follow(order, console),
-        None => args.audit(console),
-    }
+    Failures::of(console, |failures| match &args.sequence {
+        Some(order) => args.follow(order, console, failures),
+        None => args.audit(console, failures),
+    })
 }
 
 impl AuditArgs {
-    fn audit(&self, console: Console) -> Result<u8, Failure> {
+    fn audit(&self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         if self.fix.is_some() && !self.write && self.format != Format::Text {
             return Err(Failure::new(
                 "`--fix` without `--write` shows a diff, which has no other format",
@@ -144,10 +144,10 @@ impl AuditArgs {
             )
             .with_help("name a file"));
         }
-        let mut failures = Failures::from(found.failures);
-        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), &mut failures);
+        failures.extend(Failures::from(found.failures));
+        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), failures);
         if auditor.programs().is_empty() {
-            return failures.status(console, exit::CLEAN);
+            return Ok(exit::CLEAN);
         }
         outputs.check()?;
         say_undescribed(&auditor, console);
@@ -162,7 +162,7 @@ impl AuditArgs {
                 Console::talk(&to_write(&changes));
                 outputs.finish()?;
                 let report = report(&auditor, archives);
-                return failures.status(console, self.status(report.has_warnings(), false));
+                return Ok(self.status(report.has_warnings(), false));
             }
             write(&changes, console)?;
             archives = failures.keep(auditor.audit());
@@ -185,7 +185,7 @@ impl AuditArgs {
         let errors = say_lists(&auditor, console);
         let unknown = self.unknown_status(report.unknown(), console);
         let status = self.status(report.has_warnings(), errors);
-        failures.status(console, status.max(unknown))
+        Ok(status.max(unknown))
     }
 
     /// The programs that can run on their machines.
@@ -228,7 +228,12 @@ impl AuditArgs {
     }
 
     /// What happens in a given order.
-    fn follow(&self, order: &Path, console: Console) -> Result<u8, Failure> {
+    fn follow(
+        &self,
+        order: &Path,
+        console: Console,
+        failures: &mut Failures,
+    ) -> Result<u8, Failure> {
         if self.format == Format::Csv {
             return Err(Failure::new("`--sequence` has no `--format csv`")
                 .with_help("write `--format text`, `json` or `ndjson`"));
@@ -239,8 +244,7 @@ impl AuditArgs {
         ledger.reads("sequence", order);
         let inputs = programs_of(order)?;
         let mut machines = self.machine.weighed(&self.severities, &ledger)?;
-        let mut failures = Failures::default();
-        let auditor = self.auditor(inputs, (&mut machines, &ledger), &mut failures);
+        let auditor = self.auditor(inputs, (&mut machines, &ledger), failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
         let steps = failures.keep(auditor.follow());
@@ -261,7 +265,7 @@ impl AuditArgs {
         let unknown = axes.filter(|axis| axis.end == Selected::Unknown);
         let unknown = unknown.map(|axis| (axis.axis.as_str(), axis.kind));
         let unknown = self.unknown_status(unknown, console);
-        failures.status(console, self.status(inherits, errors).max(unknown))
+        Ok(self.status(inherits, errors).max(unknown))
     }
 }
 

@@ -218,6 +218,12 @@ pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
                     if !lower.contains(fault.cause) || fault.number == 0 {
                         complain("the cause is not said");
                     }
+                    for (name, bytes) in &left {
+                        let is_new = trial.before.get(name) != Some(bytes);
+                        if is_new && !said.contains(name.as_str()) {
+                            complain(&format!("`{name}` is written, and is not named"));
+                        }
+                    }
                     if !said.contains("help: ") {
                         complain("nothing is advised");
                     }

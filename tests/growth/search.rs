@@ -10,7 +10,7 @@ use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, Stop
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-use crate::measure::{TWICE, excess};
+use crate::measure::{TWICE, excess, of_thread};
 use crate::tokens;
 
 /// How a sequence of tokens is repeated.
@@ -186,6 +186,7 @@ impl Search {
         }
     }
 
+    #[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
     fn at(&mut self, how: Repeated, tokens: &[&str]) {
         self.looked += 1;
         for between in how.between() {
@@ -193,17 +194,20 @@ impl Search {
                 return;
             }
             let sequence = format!("{}{between}", tokens.join(between));
-            let bounds = self.look.bounds().iter();
-            self.found.extend(bounds.clone().find_map(|(share, bound)| {
+            let found = self.look.bounds().iter().find_map(|&(share, bound)| {
                 let size = how.size() / share;
                 let run = |size| how.run(&sequence, size);
-                let growth = excess([size, 2 * size], *bound, run)?;
+                let growth = excess([size, 2 * size], bound, run)?;
                 // Memory that is farther away, and bounds that end something at once, make one step; what
                 // grows goes on.
                 let further = how.further(size);
                 excess(further, TWICE.powi(3), run)?;
                 Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
-            }));
+            });
+            if let Some(found) = found {
+                println!("{:.1?}: {found}", of_thread());
+                self.found.push(found);
+            }
         }
     }
 

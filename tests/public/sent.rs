@@ -44,6 +44,7 @@ macro_rules! sent {
 }
 
 sent! {
+    audit::Affected<'static>,
     audit::Archive,
     audit::AuditedKind,
     audit::Auditor,

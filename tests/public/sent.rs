@@ -44,7 +44,7 @@ macro_rules! sent {
 }
 
 sent! {
-    audit::Affected<'static>,
+    audit::Affected<'_>,
     audit::Archive,
     audit::AuditedKind,
     audit::Auditor,

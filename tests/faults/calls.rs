@@ -210,7 +210,14 @@ pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
                 Some(2) => {
                     let lower = said.split_whitespace().collect::<Vec<_>>().join(" ");
                     let lower = lower.to_lowercase();
-                    let is_named = left.keys().chain(after.keys()).any(|it| said.contains(it));
+                    // A folder that cannot be made is named in place of the files in it.
+                    let named = |it: &String| {
+                        let folder = Path::new(it).parent().and_then(Path::to_str);
+                        let folder = folder.filter(|folder| !folder.is_empty());
+                        said.contains(it)
+                            || folder.is_some_and(|folder| said.contains(&format!("`{folder}`")))
+                    };
+                    let is_named = left.keys().chain(after.keys()).any(named);
                     let is_named = is_named || said.contains("the output");
                     if !(said.contains("error: ") && is_named) {
                         complain("no file is named");

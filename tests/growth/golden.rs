@@ -79,7 +79,7 @@ fn what_is_agreed_on_grows_with_the_folders() {
 
 #[test]
 #[ignore = "minutes: `scripts/full`"]
-fn what_is_agreed_on_grows_with_thousands_of_folders() {
+fn what_is_agreed_on_grows_with_a_thousand_folders() {
     // R9.90
-    is_linear(2_500, TWICE);
+    is_linear(1_000, TWICE);
 }

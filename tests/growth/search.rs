@@ -274,21 +274,24 @@ fn some_combinations_repeated() {
 }
 
 #[test]
+#[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
 fn brackets_that_stay_open() {
     // R9.90: as many as may nest, with so much in each that a look to the end of the block shows.
     const NESTED: [usize; 2] = [31, 62];
-    let mut found = Vec::new();
-    for opener in tokens::OPENERS {
-        for filler in tokens::FILLERS {
-            let sequence = format!("{opener}{} \\\n", filler.repeat(60 / filler.len()));
-            let run = |count| {
-                let text = format!("X1 \\\n{}X1\nM30\n", sequence.repeat(count));
-                run(&text, "", text.len());
-            };
-            let growth = excess(NESTED, 1.3 * TWICE, run);
-            found.extend(growth.map(|growth| format!("{sequence:?}: {growth:.2}")));
-        }
-    }
+    let pairs = tokens::OPENERS
+        .iter()
+        .flat_map(|opener| tokens::FILLERS.iter().map(move |filler| (opener, filler)));
+    let found = pairs.filter_map(|(opener, filler)| {
+        let sequence = format!("{opener}{} \\\n", filler.repeat(60 / filler.len()));
+        let run = |count| {
+            let text = format!("X1 \\\n{}X1\nM30\n", sequence.repeat(count));
+            run(&text, "", text.len());
+        };
+        let growth = excess(NESTED, 1.3 * TWICE, run)?;
+        println!("{:.1?}: {sequence:?}: {growth:.2}", of_thread());
+        Some(format!("{sequence:?}: {growth:.2}"))
+    });
+    let found: Vec<String> = found.take(ENOUGH).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 

@@ -17,12 +17,10 @@ pub(super) fn places<'a>(
     mending: Mending,
     runs: impl Iterator<Item = &'a Runs> + Clone,
 ) -> Vec<Vec<u32>> {
-    let observations = runs
-        .clone()
-        .flat_map(|Runs { start_up, away, .. }| [start_up, away]);
+    let observations = runs.flat_map(|Runs { start_up, away, .. }| [start_up, away]);
     let mut places = match mending.cure {
         Cure::Inheritors => before_motions(mending.at, observations),
-        Cure::Leavers | Cure::None => before_ends(text, observations),
+        Cure::Leavers | Cure::None => before_ends(text, &observations),
     };
     let mut seen = BTreeSet::new();
     places.retain(|place| !place.is_empty() && seen.insert(place.clone()));
@@ -47,7 +45,7 @@ fn before_motions<'a>(
 
 fn before_ends<'a>(
     text: &str,
-    runs: impl Iterator<Item = &'a Observation> + Clone,
+    runs: &(impl Iterator<Item = &'a Observation> + Clone),
 ) -> Vec<Vec<u32>> {
     let numbering = Numbering::of(text);
     let ends = |end: &dyn Fn(&Observation) -> BTreeSet<u32>| {

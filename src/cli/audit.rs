@@ -324,8 +324,7 @@ fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
                     "a block that mends this would change the state in which axes move".to_owned()
                 }
                 WhyMissed::ChangesMotion(of) => format!(
-                    "a block that mends this would change the state in which axes move in `{}`, which calls it",
-                    of
+                    "a block that mends this would change the state in which axes move in `{of}`, which calls it"
                 ),
                 _ => "no single block mends this".to_owned(),
             };

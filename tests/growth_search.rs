@@ -7,6 +7,8 @@
 
 #![cfg(unix)]
 
+#[path = "growth/golden.rs"]
+mod golden;
 #[path = "growth/measure.rs"]
 mod measure;
 #[path = "growth/search.rs"]

@@ -1,26 +1,32 @@
 //! The block that ends a hazard: where it has to stand, tried out before anybody sees it (R10.3).
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::cure::{Cure, Mending};
 use super::effect::{Inherits, ProgramEffect};
 use super::insertion::{Insertion, with_blocks};
 use super::numbering::Numbering;
 use super::observation::Observation;
+use super::places::places;
 use super::program::{Auditor, AxisAudit};
 use super::runs::Runs;
 
-use crate::interpreter::{EndedBy, Interpreter, Observer};
+use crate::interpreter::{Interpreter, Observer};
 
-/// How a program is mended.
+/// How a file is mended.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mended {
     /// The blocks, in no order.
     pub insertions: Vec<Insertion>,
-    /// What is left to the user.
+    /// The programs that they take out of hazards, by their positions among the [`Affected`] ones.
+    pub cured: Vec<usize>,
+    /// What is left to the user of the file as a program of its own.
     pub missed: Vec<Missed>,
 }
 
 /// What no block mends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Missed {
     /// What was to be mended.
@@ -30,78 +36,206 @@ pub struct Missed {
 }
 
 /// Why something is left to the user.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WhyMissed {
     /// No single block takes the program out of the hazards.
     NotCured,
-    /// Blocks that do so change the state in which axes move (R10.8).
-    ChangesMotion,
+    /// Blocks that do so change the state in which axes move in this program (R10.8).
+    ChangesMotion(Arc<str>),
 }
 
-impl Auditor {
-    /// Finds the blocks that mend a program. Each place is tried out: the program with the block must
-    /// have lost its part in the hazard, and no motion of the program or of what it calls may have
-    /// another state when the program starts in its start-up state; from another one, only the
-    /// start-up state (R10.8).
-    ///
-    /// # Errors
-    /// Those of `run`.
-    pub fn mend<E>(
-        &self,
-        text: &str,
-        wanted: &[Mending],
-        mut run: impl FnMut(&str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
-    ) -> Result<Mended, E> {
-        let mut trial = Trial {
-            auditor: self,
-            text,
-            before: self.observe(&mut |interpreter, listen| run(text, interpreter, listen))?,
-            accepted: Mended::default(),
-            run,
-        };
-        for mending in wanted {
-            trial.mend(*mending)?;
+/// A program that runs the blocks of a file: it is the file, or calls it.
+#[derive(Debug, Clone)]
+pub struct Affected<'a> {
+    /// The auditor of its machine.
+    pub auditor: &'a Auditor,
+    /// Name of the program.
+    pub name: Arc<str>,
+    /// The name under which it calls the file; `None` for the file itself.
+    pub calls: Option<Arc<str>>,
+    /// What a block in the file should mend of it.
+    pub wanted: Vec<Mending>,
+}
+
+/// Runs a program of the [`Affected`] ones, by its position, with a text in place of the file.
+trait RunWith<E>: FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E> {}
+
+impl<E, F> RunWith<E> for F where
+    F: FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>
+{
+}
+
+/// Finds the blocks that mend a file of this text. Each place is tried out on every program that runs
+/// the file: those to mend must have lost their part in the hazard, no program may come into one, and no
+/// motion of any of them may have another state when it starts in its start-up state; from another one,
+/// only the start-up state (R10.8). `run` runs a program, by its position, with a text in place of the file.
+///
+/// # Errors
+/// Those of `run`.
+pub fn mend<E>(
+    text: &str,
+    programs: &[Affected<'_>],
+    mut run: impl FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+) -> Result<Mended, E> {
+    let before = (0..programs.len()).map(|at| observe(&programs[at], (at, text), &mut run));
+    let before = before.collect::<Result<Vec<Runs>, E>>()?;
+    let mut trial = Trial {
+        text,
+        programs,
+        before,
+        now: None,
+        accepted: Mended::default(),
+        run,
+    };
+    let mut wanted: Vec<Mending> = Vec::new();
+    for mending in programs.iter().flat_map(|program| &program.wanted) {
+        if !wanted.contains(mending) {
+            wanted.push(*mending);
         }
-        Ok(trial.accepted)
     }
+    for mending in wanted {
+        trial.mend(mending)?;
+    }
+    Ok(trial.accepted)
 }
 
-/// A program on its way to be mended.
+/// The runs of a program, of which one file has a text.
+fn observe<E>(
+    program: &Affected<'_>,
+    (at, text): (usize, &str),
+    run: &mut impl RunWith<E>,
+) -> Result<Runs, E> {
+    let run = &mut |interpreter: &mut Interpreter, listen: &mut dyn Observer| {
+        run(at, text, interpreter, listen)
+    };
+    program.auditor.observe(program.calls.as_ref(), run)
+}
+
+/// A file on its way to be mended.
 struct Trial<'a, R> {
-    auditor: &'a Auditor,
     text: &'a str,
-    before: Runs,
+    programs: &'a [Affected<'a>],
+    /// The runs of the programs without any block.
+    before: Vec<Runs>,
+    /// Those with the blocks that are accepted, where there are any.
+    now: Option<Vec<Runs>>,
     accepted: Mended,
     run: R,
+}
+
+/// Blocks at one place, as far as they harm nothing.
+struct Attempt {
+    insertions: Vec<Insertion>,
+    runs: Vec<Runs>,
+    cured: Vec<usize>,
 }
 
 impl<R> Trial<'_, R> {
     fn mend<E>(&mut self, mending: Mending) -> Result<(), E>
     where
-        R: FnMut(&str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+        R: RunWith<E>,
     {
-        let audits = self.auditor.axes(&self.before);
+        let goals: Vec<usize> = (0..self.programs.len())
+            .filter(|&at| self.programs[at].wanted.contains(&mending))
+            .filter(|&at| !self.is_cured(at, &self.now()[at], mending))
+            .collect();
+        let Some(&first) = goals.first() else {
+            return Ok(());
+        };
+        let audits = self.programs[first].auditor.axes(&self.before[first]);
         let command = audits[mending.at].way_home();
         let mut why = WhyMissed::NotCured;
-        for lines in self.candidates(mending) {
-            let attempt = self.with_blocks(&lines, &command);
-            let edited = with_blocks(self.text, &attempt);
-            let run = &mut self.run;
-            let after = self
-                .auditor
-                .observe(&mut |interpreter, listen| run(&edited, interpreter, listen))?;
-            if !is_cured(&self.auditor.axes(&after)[mending.at], mending.cure) {
-                continue;
+        let mut best: Option<Attempt> = None;
+        let runs = goals.iter().map(|&at| &self.before[at]);
+        for lines in places(self.text, mending, runs) {
+            let insertions = self.with_blocks(&lines, &command);
+            match self.attempt(insertions, mending, &goals)? {
+                Ok(attempt) => {
+                    let known = best.as_ref().map_or(0, |best| best.cured.len());
+                    if attempt.cured.len() > known {
+                        best = Some(attempt);
+                    }
+                }
+                Err(reason) if why == WhyMissed::NotCured => why = reason,
+                Err(_) => {}
             }
-            if self.is_harmless(&after) {
-                self.accepted.insertions = attempt;
-                return Ok(());
+            if best
+                .as_ref()
+                .is_some_and(|it| it.cured.len() == goals.len())
+            {
+                break;
             }
-            why = WhyMissed::ChangesMotion;
         }
-        self.accepted.missed.push(Missed { mending, why });
+        let own = |&at: &usize| self.programs[at].calls.is_none();
+        // One program that calls the file is mended in its own text.
+        let is_root = |it: &Attempt| it.cured.len() > 1 || it.cured.iter().any(own);
+        let best = best.filter(is_root);
+        let cured = best.as_ref().map_or(&[][..], |it| &it.cured);
+        let is_missed = goals.iter().any(|at| own(at) && !cured.contains(at));
+        if is_missed {
+            self.accepted.missed.push(Missed { mending, why });
+        }
+        if let Some(best) = best {
+            self.accepted.insertions = best.insertions;
+            self.accepted.cured.extend(best.cured);
+            self.accepted.cured.sort_unstable();
+            self.accepted.cured.dedup();
+            self.now = Some(best.runs);
+        }
         Ok(())
+    }
+
+    /// Tries blocks on every program: first on those that they should mend.
+    fn attempt<E>(
+        &mut self,
+        insertions: Vec<Insertion>,
+        mending: Mending,
+        goals: &[usize],
+    ) -> Result<Result<Attempt, WhyMissed>, E>
+    where
+        R: RunWith<E>,
+    {
+        let edited = with_blocks(self.text, &insertions);
+        let mut runs = BTreeMap::new();
+        for &at in goals {
+            let observed = observe(&self.programs[at], (at, &edited), &mut self.run)?;
+            runs.insert(at, observed);
+        }
+        let is_cured = |at: &usize| self.is_cured(*at, &runs[at], mending);
+        let cured: Vec<usize> = goals.iter().copied().filter(is_cured).collect();
+        if cured.is_empty() {
+            return Ok(Err(WhyMissed::NotCured));
+        }
+        for (at, program) in self.programs.iter().enumerate() {
+            let observed = match runs.remove(&at) {
+                Some(observed) => observed,
+                None => observe(program, (at, &edited), &mut self.run)?,
+            };
+            if let Some(why) = self.harm(at, &observed) {
+                return Ok(Err(why));
+            }
+            runs.insert(at, observed);
+        }
+        Ok(Ok(Attempt {
+            insertions,
+            runs: runs.into_values().collect(),
+            cured,
+        }))
+    }
+
+    /// What speaks against blocks, seen from one program.
+    fn harm(&self, at: usize, after: &Runs) -> Option<WhyMissed> {
+        if !self.keeps_motions(at, after) {
+            let name = Arc::clone(&self.programs[at].name);
+            return Some(WhyMissed::ChangesMotion(name));
+        }
+        self.brings_a_hazard(at, after)
+            .then_some(WhyMissed::NotCured)
+    }
+
+    fn now(&self) -> &[Runs] {
+        self.now.as_ref().unwrap_or(&self.before)
     }
 
     /// The blocks so far and one more before each of some lines.
@@ -121,77 +255,44 @@ impl<R> Trial<'_, R> {
         blocks
     }
 
-    /// Where the block could stand, the best place first.
-    fn candidates(&self, mending: Mending) -> Vec<Vec<u32>> {
-        let Runs { start_up, away, .. } = &self.before;
-        let mut places = match mending.cure {
-            Cure::Inheritors => {
-                let moved = [start_up, away].map(|run| {
-                    let observed = &run.observed[mending.at];
-                    let moved = observed.inherited.as_ref().or(observed.doubtful.as_ref());
-                    moved.and_then(|moved| moved.main)
-                });
-                let firsts = [start_up.first_line, away.first_line];
-                let places = moved.into_iter().chain(firsts).flatten();
-                places.map(|line| vec![line]).collect()
-            }
-            Cure::Leavers | Cure::None => {
-                let mut ends = [start_up, away].map(|run| self.end(run)).to_vec();
-                ends.dedup();
-                let back = start_up.last_lines.iter().map(|line| vec![*line]);
-                std::iter::once(ends).chain(back).collect::<Vec<_>>()
-            }
-        };
-        let mut seen = std::collections::BTreeSet::new();
-        places.retain(|place: &Vec<u32>| seen.insert(place.clone()));
-        places
-    }
-
-    /// The line before which a command would be the last of a run.
-    fn end(&self, run: &Observation) -> u32 {
-        if let Some(line) = run.end
-            && run.by != Some(EndedBy::EndOfFile)
-        {
-            return line;
-        }
-        let numbering = Numbering::of(self.text);
-        let lines = numbering.lines();
-        let last = run.last_lines.first().copied().unwrap_or_default();
-        let last = usize::try_from(last).unwrap_or_default();
-        // Another program may follow in the same file.
-        let after = lines.iter().enumerate().skip(last);
-        let section = after
-            .clone()
-            .find(|(_, line)| line.trim_start().starts_with('%'));
-        let end = section.map_or(lines.len(), |(at, _)| at);
-        let written = lines[..end]
-            .iter()
-            .rposition(|line| !line.trim().is_empty());
-        let end = written.map_or(0, |written| written + 1);
-        u32::try_from(end + 1).unwrap_or(u32::MAX)
-    }
-
     /// Whether every motion keeps its state from the start-up state, and from another state becomes at
     /// most that of the start-up.
-    fn is_harmless(&self, after: &Runs) -> bool {
-        let scope = self.auditor.scope();
-        let is_kept = |at: usize| {
-            let motions = |run: &Observation| run.observed[at].motions.clone();
+    fn keeps_motions(&self, program: usize, after: &Runs) -> bool {
+        let before = &self.before[program];
+        let scope = self.programs[program].auditor.scope();
+        (0..scope.subjects().len()).all(|at| {
             let start_up = scope.selected_at_start(scope.subjects()[at], false);
-            let (from_start_up, from_away) = (&self.before.start_up, &self.before.away);
-            motions(from_start_up) == motions(&after.start_up)
-                && motions(from_away).only_become(&motions(&after.away), start_up)
-        };
-        (0..scope.subjects().len()).all(is_kept)
+            let motions = |run: &Observation| run.observed[at].motions.clone();
+            let only_become = |before: &Observation, after: &Observation| {
+                motions(before).only_become(&motions(after), start_up)
+            };
+            let mut between = before.between.iter();
+            motions(&before.start_up) == motions(&after.start_up)
+                && only_become(&before.away, &after.away)
+                && between.all(|(start, before)| {
+                    let after = after.between.get(start);
+                    after.is_none_or(|after| only_become(before, after))
+                })
+        })
     }
-}
 
-/// Whether a program has lost its part in the hazards.
-fn is_cured(audit: &AxisAudit, cure: Cure) -> bool {
-    match cure {
-        Cure::Inheritors => audit.inherits == Inherits::No,
-        Cure::Leavers | Cure::None => {
-            !audit.leaves_away() && audit.effect != ProgramEffect::Unknown
+    /// Whether a program comes to leave an axis away from its start-up state, or may.
+    fn brings_a_hazard(&self, program: usize, after: &Runs) -> bool {
+        let auditor = self.programs[program].auditor;
+        let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();
+        let pairs = auditor.axes(&self.before[program]);
+        let mut pairs = pairs.iter().zip(auditor.axes(after));
+        pairs.any(|(before, after)| worse(&after) && !worse(before))
+    }
+
+    /// Whether a program has lost its part in the hazards.
+    fn is_cured(&self, program: usize, runs: &Runs, mending: Mending) -> bool {
+        let audit = &self.programs[program].auditor.axes(runs)[mending.at];
+        match mending.cure {
+            Cure::Inheritors => audit.inherits == Inherits::No,
+            Cure::Leavers | Cure::None => {
+                !audit.leaves_away() && audit.effect != ProgramEffect::Unknown
+            }
         }
     }
 }

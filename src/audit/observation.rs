@@ -1,18 +1,16 @@
 //! What one run of a program did to each axis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
 use super::motions::Motions;
 use super::scope::{AuditedKind, Scope, Selected};
+use super::within::Within;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome};
 use crate::text::Place;
-
-/// Blocks of the main program that are remembered before its end.
-pub(super) const LAST_BLOCKS: usize = 8;
 
 /// What made a selection what it is.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,8 +26,8 @@ pub(super) enum Deed {
 pub(super) struct Moved {
     pub(super) seq: u64,
     pub(super) motion: FirstMotion,
-    /// The line of the main program that was executed or called from.
-    pub(super) main: Option<u32>,
+    /// The line that was executed or called from in the file that is looked at.
+    pub(super) within: Option<u32>,
 }
 
 /// What a run did to one subject.
@@ -63,16 +61,16 @@ pub(super) struct Observation {
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
     pub(super) left: Vec<Selected>,
-    /// The lines of the blocks of the main program that were executed last, the last one first.
-    pub(super) last_lines: Vec<u32>,
     /// The subjects whose states it asked for before it set them, each with the first place.
     pub(super) asked: BTreeMap<usize, Site>,
-    /// The line of its first block.
-    pub(super) first_line: Option<u32>,
+    /// Its blocks in the main program, or in the called file that is looked at.
+    pub(super) within: Within,
+    /// The called files whose blocks it executed.
+    pub(super) called: BTreeSet<Arc<str>>,
     /// The main file.
     main: Option<Arc<str>>,
-    ring: [u32; LAST_BLOCKS],
-    main_blocks: usize,
+    /// The called file of the last block.
+    last_called: Option<Arc<str>>,
     doubt: Option<WhyUnknown>,
 }
 
@@ -86,14 +84,19 @@ impl Observation {
             end: None,
             stopped: None,
             left: vec![Selected::Unknown; count],
-            last_lines: Vec::new(),
             asked: BTreeMap::new(),
-            first_line: None,
+            within: Within::default(),
+            called: BTreeSet::new(),
             main: None,
-            ring: [0; LAST_BLOCKS],
-            main_blocks: 0,
+            last_called: None,
             doubt: None,
         }
+    }
+
+    /// The same with an eye on a file that the program calls.
+    pub(super) fn within(mut self, called: Option<&Arc<str>>) -> Self {
+        self.within = called.map(Within::called).unwrap_or_default();
+        self
     }
 
     /// Takes an event of the run.
@@ -108,13 +111,11 @@ impl Observation {
 
     #[inline]
     fn executed(&mut self, scope: &Scope, executed: &Executed<'_>) {
-        if executed.level.is_none() {
-            if self.first_line.is_none() {
-                self.first_line = Some(executed.line);
-                self.main = Some(Arc::clone(executed.file));
-            }
-            self.ring[self.main_blocks % LAST_BLOCKS] = executed.line;
-            self.main_blocks += 1;
+        self.within.executed(executed);
+        if executed.level.is_some() {
+            self.calls(executed.file);
+        } else if self.main.is_none() {
+            self.main = Some(Arc::clone(executed.file));
         }
         for &(axis, kind) in &executed.aside.asked {
             self.ask(scope, executed, AuditedKind { axis, kind });
@@ -132,6 +133,18 @@ impl Observation {
         }
         if !quiet {
             self.stand(scope, executed.compensation);
+        }
+    }
+
+    /// Notes a file that is called.
+    fn calls(&mut self, file: &Arc<str>) {
+        let is_last = |last: &Arc<str>| Arc::ptr_eq(last, file);
+        if self.last_called.as_ref().is_some_and(is_last) {
+            return;
+        }
+        self.last_called = Some(Arc::clone(file));
+        if self.main.as_ref() != Some(file) && !self.called.contains(file) {
+            self.called.insert(Arc::clone(file));
         }
     }
 
@@ -253,7 +266,7 @@ impl Observation {
             {
                 continue;
             }
-            let moved = moved_at(executed, self.last_main(), motion);
+            let moved = moved_at(executed, self.within.line(), motion);
             let observed = &mut self.observed[at];
             if !is_known {
                 observed.inherited = Some(moved.clone());
@@ -267,14 +280,9 @@ impl Observation {
         }
     }
 
-    /// The line of the main program that is executed or called from.
-    fn last_main(&self) -> Option<u32> {
-        let last = self.main_blocks.checked_sub(1)?;
-        Some(self.ring[last % LAST_BLOCKS])
-    }
-
     fn ended(&mut self, scope: &Scope, ended: &Ended<'_>) {
         self.by = Some(ended.by);
+        self.within.ended();
         let of_main = |place: &&Place| self.main.as_ref() == Some(&place.file);
         self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
@@ -297,13 +305,10 @@ impl Observation {
                 observed.last = self.doubt.clone().map(Deed::Doubt);
             }
         }
-        let count = self.main_blocks.min(LAST_BLOCKS);
-        let back = (1..=count).map(|back| self.ring[(self.main_blocks - back) % LAST_BLOCKS]);
-        self.last_lines = back.collect();
     }
 }
 
-fn moved_at(executed: &Executed<'_>, main: Option<u32>, motion: &MovedAxis) -> Moved {
+fn moved_at(executed: &Executed<'_>, within: Option<u32>, motion: &MovedAxis) -> Moved {
     Moved {
         seq: executed.seq,
         motion: FirstMotion {
@@ -314,11 +319,7 @@ fn moved_at(executed: &Executed<'_>, main: Option<u32>, motion: &MovedAxis) -> M
             motion: motion.kind,
             perhaps: motion.certainty == Certainty::Possible,
         },
-        main: if executed.level.is_none() {
-            Some(executed.line)
-        } else {
-            main
-        },
+        within,
     }
 }
 

@@ -1,11 +1,12 @@
 //! A program as a function from the states that it finds to the states that it leaves (R10.1).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::cure::Cure;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::Observation;
 use super::runs::{Runs, Start};
@@ -72,6 +73,16 @@ impl AxisAudit {
         motion.is_some_and(|motion| motion.perhaps)
     }
 
+    /// Where what has to be mended comes from: the command that leaves it away from its start-up state,
+    /// what makes that unknown, or the motion in the state that it finds.
+    pub fn cause(&self, cure: Cure) -> Option<&Site> {
+        let doubt = || self.reason.as_ref().and_then(|reason| reason.site.as_ref());
+        match cure {
+            Cure::Inheritors => self.inherits.motion().map(|motion| &motion.site),
+            Cure::Leavers | Cure::None => self.by.as_ref().or_else(doubt),
+        }
+    }
+
     /// Whether anything about it is not known offline.
     pub fn is_unknown(&self) -> bool {
         self.effect == ProgramEffect::Unknown || self.inherits == Inherits::Unknown
@@ -102,6 +113,8 @@ pub struct ProgramAudit {
     pub axes: Vec<AxisAudit>,
     /// Where it ends, when it starts with every axis in its start-up state.
     pub ending: Ending,
+    /// The files of other programs whose blocks it executes, by their names.
+    pub called: BTreeSet<Arc<str>>,
 }
 
 /// Audits the programs of one machine.
@@ -159,21 +172,24 @@ impl Auditor {
         file: &str,
         mut run: impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<ProgramAudit, E> {
-        let runs = self.observe(&mut run)?;
+        let runs = self.observe(None, &mut run)?;
         Ok(ProgramAudit {
             file: file.to_owned(),
             axes: self.axes(&runs),
             ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
+            called: runs.called(),
         })
     }
 
+    /// The runs of a program, with an eye on a file that it calls.
     pub(super) fn observe<E>(
         &self,
+        called: Option<&Arc<str>>,
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<Runs, E> {
         let mut runs = Runs {
-            start_up: self.observe_from(&Start::new(false), run)?,
-            away: self.observe_from(&Start::new(true), run)?,
+            start_up: self.observe_from((&Start::new(false), called), run)?,
+            away: self.observe_from((&Start::new(true), called), run)?,
             between: BTreeMap::new(),
         };
         loop {
@@ -182,7 +198,7 @@ impl Auditor {
                 return Ok(runs);
             }
             for start in missing {
-                let observation = self.observe_from(&start, run)?;
+                let observation = self.observe_from((&start, called), run)?;
                 runs.between.insert(start, observation);
             }
         }
@@ -190,12 +206,12 @@ impl Auditor {
 
     fn observe_from<E>(
         &self,
-        start: &Start,
+        (start, called): (&Start, Option<&Arc<str>>),
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<Observation, E> {
         let from = self.scope.found(|at| start.is_away(at));
         let mut interpreter = self.interpreter(from);
-        let mut observation = Observation::new(&self.scope);
+        let mut observation = Observation::new(&self.scope).within(called);
         run(&mut interpreter, &mut |event: Event<'_>| {
             observation.event(&self.scope, &event);
             ControlFlow::Continue(())

@@ -1,6 +1,7 @@
 //! What the runs of one program say together (R10.1).
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::{Deed, Observation, Observed};
@@ -57,6 +58,12 @@ impl Runs {
             asked.entry(*at).or_insert_with(|| site.clone());
         }
         asked
+    }
+
+    /// The called files whose blocks are executed.
+    pub(super) fn called(&self) -> BTreeSet<Arc<str>> {
+        let called = self.all().flat_map(|run| &run.called);
+        called.cloned().collect()
     }
 
     /// The starts that are still to be tried: whatever the program asks for may be either, whatever the

@@ -1,5 +1,7 @@
 //! Which brackets of a block stay open, and how deep they nest.
 
+use std::borrow::Cow;
+
 use super::fault::Fault;
 use super::texts::Texts;
 use crate::diagnostic::Code;
@@ -11,15 +13,65 @@ pub const MAX_BRACKETS: usize = 64;
 /// Texts of one block that may end in a `\`: looking for the end of each goes to the end of the block.
 const MAX_OPEN_TEXTS: usize = 64;
 
-/// Finds the first `[` that is never closed; refuses what nests too deeply for recursion.
-pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
+/// Stands for a `[` that is never closed, `never_closed` in the grammar; one that a program holds itself
+/// is read as [`OTHER`].
+const NEVER_CLOSED: char = '\u{1}';
+
+/// A control character that no rule of the grammar knows.
+const OTHER: char = '\u{2}';
+
+/// A block as the parser reads it.
+#[derive(Debug)]
+pub(super) struct Brackets<'a> {
+    /// The code, in which each `[` that is surely never closed is marked: no rule looks for its end (R9.90).
+    pub(super) read: Cow<'a, str>,
+    /// The first `[` that is never closed.
+    pub(super) unclosed: Option<usize>,
+}
+
+/// Finds the `[` that are never closed; refuses what nests too deeply for recursion.
+pub(super) fn brackets(code: &str) -> Result<Brackets<'_>, Fault> {
+    let mut read = Cow::Borrowed(code);
+    if code.contains(NEVER_CLOSED) {
+        read = Cow::Owned(code.replace(NEVER_CLOSED, OTHER.encode_utf8(&mut [0; 4])));
+    }
+    let mut unclosed = unclosed(code)?;
+    let first = unclosed.first().copied();
+    if first.is_some() {
+        // What an expression holds in `'…'` opens and closes nothing; in other brackets it does.
+        if code.contains('\'') {
+            let in_expressions = unclosed_outside_quotes(code);
+            unclosed.retain(|at| in_expressions.binary_search(at).is_ok());
+        }
+        read = Cow::Owned(marked(&read, &unclosed));
+    }
+    Ok(Brackets {
+        read,
+        unclosed: first,
+    })
+}
+
+/// The code with marks in place of some of its brackets.
+fn marked(code: &str, brackets: &[usize]) -> String {
+    let mut marked = String::with_capacity(code.len());
+    let mut from = 0;
+    for &at in brackets {
+        marked.push_str(&code[from..at]);
+        marked.push(NEVER_CLOSED);
+        from = at + 1;
+    }
+    marked.push_str(&code[from..]);
+    marked
+}
+
+fn unclosed(code: &str) -> Result<Vec<usize>, Fault> {
     let bytes = code.as_bytes();
+    let mut open = Vec::new();
     // A short block nests only by brackets and powers.
     if bytes.len() <= MAX_BRACKETS && memchr::memchr2(b'[', b'*', bytes).is_none() {
-        return Ok(None);
+        return Ok(open);
     }
     let texts = Texts::new(code.as_bytes());
-    let mut open = Vec::new();
     let [mut powers, mut addresses, mut open_texts] = [0_usize; 3];
     let mut inside_text = 0;
     for (at, byte) in bytes.iter().enumerate() {
@@ -51,7 +103,34 @@ pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
             return Err(too_many_open_texts(Span::new(at, at + 1)));
         }
     }
-    Ok(open.first().copied())
+    Ok(open)
+}
+
+/// The `[` that are never closed where `'…'` holds none, as in expressions.
+fn unclosed_outside_quotes(code: &str) -> Vec<usize> {
+    let bytes = code.as_bytes();
+    let texts = Texts::new(bytes);
+    let mut open = Vec::new();
+    let mut inside = 0;
+    let last_quote = memchr::memrchr(b'\'', bytes).unwrap_or_default();
+    for (at, byte) in bytes.iter().enumerate() {
+        if at < inside {
+            continue;
+        }
+        match byte {
+            b'"' => inside = texts.end(at).unwrap_or_default(),
+            b'\'' if at < last_quote => {
+                let rest = &bytes[at + 1..];
+                inside = memchr::memchr(b'\'', rest).map_or(0, |length| at + length + 2);
+            }
+            b'[' => open.push(at),
+            b']' => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    open
 }
 
 fn too_deep(span: Span) -> Fault {

@@ -84,8 +84,7 @@ pub fn is_lone_m(text: &str) -> bool {
 /// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
 /// deeply.
 pub fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
-    brackets(text).ok()?;
-    lower_text(text, block)
+    lower_text(&brackets(text).ok()?.read, block)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 use fastrand::Rng;
 
 use super::ast::Block;
+use super::brackets::brackets;
 use super::grammar::Rule;
 use super::lines::{BlockReader, FastPath};
 use super::lower;
@@ -76,6 +77,58 @@ const PIECES: [&str; 60] = [
     "ÜX1",
     "X１",
     "\u{feff}",
+];
+
+/// What opens and closes brackets, and what hides them.
+const BRACKETS: [&str; 48] = [
+    "X[",
+    "X[COMP ON FRICT",
+    "AB[",
+    "ABS[",
+    "[",
+    "[",
+    "]",
+    "]",
+    "]",
+    "P1[",
+    "V.P.A[",
+    "G1[",
+    "N[",
+    "F[",
+    "M17 [",
+    "S.POS[",
+    "S1000.X[",
+    "LC[",
+    "L CYCLE[",
+    "L SEQUENCE[",
+    "L a[b",
+    "L a[b]c",
+    "NAME=a[b",
+    "@P1=",
+    "[A",
+    "'",
+    "'",
+    "'16#A'",
+    "\"",
+    "\"",
+    "\\\"",
+    "$IF ",
+    "$SWITCH ",
+    "$GOTO ",
+    "#IF ",
+    "#VAR\nV.P.A[",
+    "#TIME ",
+    "#SET P1[",
+    "#DELETE V.P.A[",
+    "1",
+    "-",
+    "=",
+    ",",
+    " ",
+    "\n",
+    "P1=",
+    "X10Y",
+    "\u{1}",
 ];
 
 /// Bytes that change the meaning of their neighbours.
@@ -201,6 +254,39 @@ fn compare_blocks(count: u64, seed: u64) {
         }
         blocks += compare(&program);
     }
+}
+
+/// Blocks of which brackets stay open are read as if their ends had been looked for.
+fn compare_brackets(count: u64, seed: u64) {
+    let mut rng = Rng::with_seed(seed);
+    let mut code = String::new();
+    for _ in 0..count {
+        code.clear();
+        for _ in 0..rng.usize(1..12) {
+            code.push_str(BRACKETS[rng.usize(..BRACKETS.len())]);
+        }
+        let Ok(found) = brackets(&code) else {
+            continue;
+        };
+        let (mut marked, mut plain) = (Block::default(), Block::default());
+        lower::block(&code, &mut marked);
+        let unmarked = code.replace('\u{1}', "\u{2}");
+        lower::read_as(Rule::block, &code, (&unmarked, found.unclosed), &mut plain);
+        assert_same(&code, &marked, &plain);
+    }
+}
+
+#[test]
+fn a_bracket_that_is_never_closed_is_read_as_before() {
+    // R9.90
+    compare_brackets(20_000, 3);
+}
+
+#[test]
+#[ignore = "ten million blocks take minutes"]
+fn a_bracket_that_is_never_closed_is_read_as_before_at_length() {
+    // R9.90
+    compare_brackets(10_000_000, 4);
 }
 
 #[test]

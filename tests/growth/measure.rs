@@ -21,7 +21,7 @@ const ENOUGH: usize = 3;
 const CLEARLY: f64 = 1.15;
 
 /// The processor time of this thread.
-fn of_thread() -> Duration {
+pub(crate) fn of_thread() -> Duration {
     let now = clock_gettime(ClockId::ThreadCPUTime);
     let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
     let nanoseconds = u32::try_from(now.tv_nsec).expect("part of a second");

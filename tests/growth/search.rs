@@ -10,7 +10,7 @@ use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, Stop
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-use crate::measure::{TWICE, excess};
+use crate::measure::{TWICE, excess, of_thread};
 use crate::tokens;
 
 /// How a sequence of tokens is repeated.
@@ -54,16 +54,6 @@ impl Repeated {
             InLine | InBlock => &["", " "],
             OverLines | OverFiles | OverListLines => &[" "],
         }
-    }
-
-    /// A size at which brackets that are never closed are too many: each may look as far as the last of 64.
-    fn beyond_nesting(self, size: usize, sequence: &str) -> Option<usize> {
-        const REPEATS: usize = 140;
-        if !sequence.contains('[') || !matches!(self, InLine | InBlock) {
-            return Some(size);
-        }
-        let size = size.max(REPEATS * sequence.len());
-        (self == InBlock || size <= HALF_A_LINE).then_some(size)
     }
 
     /// Sizes of which one is eight times the other. A line is not longer than 4000 characters.
@@ -196,6 +186,7 @@ impl Search {
         }
     }
 
+    #[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
     fn at(&mut self, how: Repeated, tokens: &[&str]) {
         self.looked += 1;
         for between in how.between() {
@@ -203,17 +194,20 @@ impl Search {
                 return;
             }
             let sequence = format!("{}{between}", tokens.join(between));
-            let bounds = self.look.bounds().iter();
-            self.found.extend(bounds.clone().find_map(|(share, bound)| {
-                let size = how.beyond_nesting(how.size() / share, &sequence)?;
+            let found = self.look.bounds().iter().find_map(|&(share, bound)| {
+                let size = how.size() / share;
                 let run = |size| how.run(&sequence, size);
-                let growth = excess([size, 2 * size], *bound, run)?;
+                let growth = excess([size, 2 * size], bound, run)?;
                 // Memory that is farther away, and bounds that end something at once, make one step; what
                 // grows goes on.
                 let further = how.further(size);
                 excess(further, TWICE.powi(3), run)?;
                 Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
-            }));
+            });
+            if let Some(found) = found {
+                println!("{:.1?}: {found}", of_thread());
+                self.found.push(found);
+            }
         }
     }
 
@@ -277,6 +271,28 @@ fn some_combinations_repeated() {
         .some((100, 3), &tokens::of_programs())
         .some((50, 4), &tokens::of_programs())
         .finds_nothing();
+}
+
+#[test]
+#[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
+fn brackets_that_stay_open() {
+    // R9.90: as many as may nest, with so much in each that a look to the end of the block shows.
+    const NESTED: [usize; 2] = [31, 62];
+    let pairs = tokens::OPENERS
+        .iter()
+        .flat_map(|opener| tokens::FILLERS.iter().map(move |filler| (opener, filler)));
+    let found = pairs.filter_map(|(opener, filler)| {
+        let sequence = format!("{opener}{} \\\n", filler.repeat(60 / filler.len()));
+        let run = |count| {
+            let text = format!("X1 \\\n{}X1\nM30\n", sequence.repeat(count));
+            run(&text, "", text.len());
+        };
+        let growth = excess(NESTED, 1.3 * TWICE, run)?;
+        println!("{:.1?}: {sequence:?}: {growth:.2}", of_thread());
+        Some(format!("{sequence:?}: {growth:.2}"))
+    });
+    let found: Vec<String> = found.take(ENOUGH).collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]

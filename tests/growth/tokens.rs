@@ -67,6 +67,31 @@ const KINDS: &[&str] = &[
     "=", ",", "[", "]", "X[", "ABS[", "\"", "\"M\"", "(", ";", "L", "N", ":", "/", "\\", "?",
 ];
 
+/// What begins with a bracket, in commands and in expressions.
+pub(crate) const OPENERS: &[&str] = &[
+    "[",
+    "X[",
+    "X[COMP ON ",
+    "AB[",
+    "P1=AB[",
+    "P1=ABS[",
+    "P1=[",
+    "P1=P[",
+    "P1[",
+    "V.P.A[",
+    "G1[",
+    "F[",
+    "N[",
+    "S.POS[",
+    "M17 [",
+    "L a[",
+    "$IF [",
+    "$SWITCH ABS[",
+];
+
+/// What stands in brackets.
+pub(crate) const FILLERS: &[&str] = &["1+1", "X1 ", "AB", "[]", "[1]+", "\"a\"", "'1'", "1,", "-"];
+
 /// What lists are made of.
 const OF_LISTS: &[&str] = &[
     "kopf.achs_nr",

@@ -89,6 +89,9 @@ pub(super) struct AuditArgs {
 /// How often each program runs.
 const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
 
+/// Programs that are named of those that one block mends.
+const MOST_NAMES: usize = 20;
+
 /// Which programs are changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Fix {
@@ -115,14 +118,14 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
-    match &args.sequence {
-        Some(order) => args.follow(order, console),
-        None => args.audit(console),
-    }
+    Failures::of(console, |failures| match &args.sequence {
+        Some(order) => args.follow(order, console, failures),
+        None => args.audit(console, failures),
+    })
 }
 
 impl AuditArgs {
-    fn audit(&self, console: Console) -> Result<u8, Failure> {
+    fn audit(&self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         if self.fix.is_some() && !self.write && self.format != Format::Text {
             return Err(Failure::new(
                 "`--fix` without `--write` shows a diff, which has no other format",
@@ -141,10 +144,10 @@ impl AuditArgs {
             )
             .with_help("name a file"));
         }
-        let mut failures = Failures::from(found.failures);
-        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), &mut failures);
+        failures.extend(Failures::from(found.failures));
+        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), failures);
         if auditor.programs().is_empty() {
-            return failures.status(console, exit::CLEAN);
+            return Ok(exit::CLEAN);
         }
         outputs.check()?;
         say_undescribed(&auditor, console);
@@ -152,13 +155,14 @@ impl AuditArgs {
         if let Some(fix) = self.fix {
             let changes = failures.keep(auditor.mend(&archives, fix.end()));
             say_missed(&archives, &changes);
+            say_roots(&changes);
             if !self.write {
                 let files = changes.iter().filter_map(|change| change.file.as_ref());
                 target.painted(&differences(files), difference)?;
                 Console::talk(&to_write(&changes));
                 outputs.finish()?;
                 let report = report(&auditor, archives);
-                return failures.status(console, self.status(report.has_warnings(), false));
+                return Ok(self.status(report.has_warnings(), false));
             }
             write(&changes, console)?;
             archives = failures.keep(auditor.audit());
@@ -181,7 +185,7 @@ impl AuditArgs {
         let errors = say_lists(&auditor, console);
         let unknown = self.unknown_status(report.unknown(), console);
         let status = self.status(report.has_warnings(), errors);
-        failures.status(console, status.max(unknown))
+        Ok(status.max(unknown))
     }
 
     /// The programs that can run on their machines.
@@ -224,7 +228,12 @@ impl AuditArgs {
     }
 
     /// What happens in a given order.
-    fn follow(&self, order: &Path, console: Console) -> Result<u8, Failure> {
+    fn follow(
+        &self,
+        order: &Path,
+        console: Console,
+        failures: &mut Failures,
+    ) -> Result<u8, Failure> {
         if self.format == Format::Csv {
             return Err(Failure::new("`--sequence` has no `--format csv`")
                 .with_help("write `--format text`, `json` or `ndjson`"));
@@ -235,8 +244,7 @@ impl AuditArgs {
         ledger.reads("sequence", order);
         let inputs = programs_of(order)?;
         let mut machines = self.machine.weighed(&self.severities, &ledger)?;
-        let mut failures = Failures::default();
-        let auditor = self.auditor(inputs, (&mut machines, &ledger), &mut failures);
+        let auditor = self.auditor(inputs, (&mut machines, &ledger), failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
         let steps = failures.keep(auditor.follow());
@@ -257,7 +265,7 @@ impl AuditArgs {
         let unknown = axes.filter(|axis| axis.end == Selected::Unknown);
         let unknown = unknown.map(|axis| (axis.axis.as_str(), axis.kind));
         let unknown = self.unknown_status(unknown, console);
-        failures.status(console, self.status(inherits, errors).max(unknown))
+        Ok(self.status(inherits, errors).max(unknown))
     }
 }
 
@@ -305,20 +313,57 @@ fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
 /// Says which programs are left to the user, and why (R10.8).
 fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
     for change in changes {
-        let program = &archives[change.machine].programs()[change.program];
+        let programs = archives[change.machine].programs();
+        let Some(program) = change.program.map(|at| &programs[at]) else {
+            continue;
+        };
         for missed in &change.missed {
             let way_home = program.axes[missed.mending.at].way_home();
-            let why = match missed.why {
-                WhyMissed::ChangesMotion => {
-                    "a block that mends this would change the state in which axes move"
+            let why = match &missed.why {
+                WhyMissed::ChangesMotion(of) if **of == *program.file => {
+                    "a block that mends this would change the state in which axes move".to_owned()
                 }
-                _ => "no single block mends this",
+                WhyMissed::ChangesMotion(of) => format!(
+                    "a block that mends this would change the state in which axes move in `{of}`, which calls it"
+                ),
+                _ => "no single block mends this".to_owned(),
             };
             Console::talk(&format!(
                 "{}: {why}; write `{way_home}` wherever it is needed by hand",
                 program.file,
             ));
         }
+    }
+}
+
+/// Says which blocks mend the programs that call their file, too (R10.8).
+fn say_roots(changes: &[MendedProgram]) {
+    for change in changes {
+        let Some(file) = change.file.as_ref().filter(|_| !change.also.is_empty()) else {
+            continue;
+        };
+        let count = change.also.len();
+        let programs = counted(count, "program");
+        let names: Vec<&str> = change
+            .also
+            .iter()
+            .take(MOST_NAMES)
+            .map(String::as_str)
+            .collect();
+        let more = match count.saturating_sub(MOST_NAMES) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let verb = if count == 1 { "calls" } else { "call" };
+        let unnamed = match change.program {
+            Some(_) => "",
+            None => "; programs that were not audited may call it, too",
+        };
+        Console::talk(&format!(
+            "{}: this mends {programs} that {verb} it: {}{more}{unnamed}",
+            shown(&file.path),
+            names.join(", "),
+        ));
     }
 }
 

@@ -55,11 +55,15 @@ pub(super) struct CheckArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
     let console = args.listing.console(console);
+    Failures::of(console, |failures| check(args, console, failures))
+}
+
+fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
     let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
     let found = find_programs(&args.paths, |folder| machines.extensions(folder));
-    let mut failures = Failures::from(found.failures);
+    failures.extend(Failures::from(found.failures));
     let inputs = found.inputs;
     for input in &inputs {
         input.note(&ledger);
@@ -75,13 +79,13 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     };
     if args.fixes.diff {
         outputs.check()?;
-        let status = bench.diff(&mut target, console)?;
+        let status = bench.diff(&mut target, (console, failures))?;
         outputs.finish()?;
-        return failures.status(console, status);
+        return Ok(status);
     }
     if args.fixes.fix {
         outputs.check()?;
-        failures.extend(bench.fix(console)?);
+        bench.fix(console, failures)?;
     }
     // Every list is known before anything runs.
     let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
@@ -97,11 +101,11 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
             }
         })?;
         outputs.finish()?;
-        return failures.status(console, super::exit::CLEAN);
+        return Ok(super::exit::CLEAN);
     }
     say_undescribed(args, &jobs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
-    args.check_all(jobs, &mut listing, &mut failures);
+    args.check_all(jobs, &mut listing, failures);
     let printed = listing.finish()?;
     if printed == Printed::Unread && failures.is_empty() {
         return Ok(super::exit::CLEAN);
@@ -119,7 +123,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     if let Some(remark) = listing.unknown_remark() {
         console.remark(&remark);
     }
-    failures.status(console, listing.status())
+    Ok(listing.status())
 }
 
 /// Says above everything else that no machine is described (R1.37).

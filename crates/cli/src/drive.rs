@@ -146,8 +146,12 @@ fn check_axes(args: &DriveArgs, reports: &[DriveReport]) -> Result<(), Failure> 
 
 /// Runs the command.
 pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
     let console = args.listing.console(console);
+    Failures::of(console, |failures| judge(args, console, failures))
+}
+
+fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
     let codes = args.listing.severities.filter()?;
     let files = args.lists.files()?;
     let grounds = args.lists.grounds(&files);
@@ -155,7 +159,6 @@ pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let (mut reports, mut said) = (Vec::new(), Vec::new());
-    let mut failures = Failures::default();
     for path in &files {
         ledger.reads("list", path);
         match args.lists.check(path) {
@@ -203,5 +206,5 @@ pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
         console.remark(&total(listing.tally()));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
-    failures.status(console, listing.status())
+    Ok(listing.status())
 }

@@ -1,6 +1,7 @@
 //! What could not be done of several things; the rest is done all the same (R9.77).
 
 use super::console::Console;
+use super::exit;
 use super::failure::Failure;
 use frictcomp_host::HostError;
 
@@ -40,8 +41,22 @@ impl Failures {
         self.0.is_empty()
     }
 
+    /// Does work that keeps what it could not do, and says all of it at the end, also where the work broke
+    /// off (R9.95).
+    pub(super) fn of(
+        console: Console,
+        work: impl FnOnce(&mut Self) -> Result<u8, Failure>,
+    ) -> Result<u8, Failure> {
+        let mut failures = Self::default();
+        let done = work(&mut failures).unwrap_or_else(|failure| {
+            failures.push(failure);
+            exit::CLEAN
+        });
+        failures.status(console, done)
+    }
+
     /// Says what could not be done: the status of a command that could do the rest.
-    pub(super) fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
+    fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
         let Some(last) = self.0.pop() else {
             return Ok(done);
         };

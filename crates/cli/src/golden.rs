@@ -76,15 +76,19 @@ struct Bench<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
+    let console = if args.quiet { console.quiet() } else { console };
+    Failures::of(console, |failures| golden(args, console, failures))
+}
+
+fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
     if !args.contour {
         Tolerance::refuse_without_contour(args.tolerance)?;
         args.simulation.refuse_without_contour()?;
     }
     let ledger = Ledger::default();
-    let console = if args.quiet { console.quiet() } else { console };
     let mut machines = args.machine.weighed(&args.severities, &ledger)?;
     let found = find_programs(&args.paths, |folder| machines.extensions(folder));
-    let mut failures = Failures::from(found.failures);
+    failures.extend(Failures::from(found.failures));
     let agreed = AgreedResults::of(args.kind(), &args.paths);
     let mut files = Vec::new();
     for input in &found.inputs {
@@ -104,12 +108,11 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
         files,
         passed_over: passed_over(found.passed_over),
     };
-    let status = if args.update {
-        bench.update(console, &mut failures)?
+    if args.update {
+        bench.update(console, failures)
     } else {
-        bench.compare(console, &mut failures)?
-    };
-    failures.status(console, status)
+        bench.compare(console, failures)
+    }
 }
 
 impl Bench<'_> {

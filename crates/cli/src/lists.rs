@@ -81,8 +81,12 @@ fn lacking(missing: usize) -> String {
 
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
     let console = args.listing.console(console);
+    Failures::of(console, |failures| check(args, console, failures))
+}
+
+fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
     args.check_options()?;
     let codes = args.listing.severities.filter()?;
     let files = args.lists.files()?;
@@ -90,7 +94,6 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
-    let mut failures = Failures::default();
     for path in &files {
         ledger.reads("list", path);
         let mut report = match args.lists.check(path) {
@@ -150,5 +153,5 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         console.remark(&(total(listing.tally()) + &lacking(missing)));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
-    failures.status(console, listing.status())
+    Ok(listing.status())
 }

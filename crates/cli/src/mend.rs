@@ -46,38 +46,41 @@ pub(super) struct Bench<'a> {
 
 impl Bench<'_> {
     /// Makes the safe changes of the programs, each file as a whole.
-    pub(super) fn fix(&mut self, console: Console) -> Result<Failures, Failure> {
+    pub(super) fn fix(&mut self, console: Console, failures: &mut Failures) -> Result<(), Failure> {
         self.only_files("--fix")?;
         for _ in 0..MOST_PASSES {
-            let mut failures = Failures::default();
-            let mended = self.mended(&mut failures);
-            if mended.is_empty() {
-                return Ok(failures);
-            }
+            let mut failed = Failures::default();
+            let mended = self.mended(&mut failed);
+            let is_done = mended.is_empty();
             for file in mended {
                 let (path, count) = (shown(&file.path), changes(file.changes));
                 match write_mended([&file]) {
                     Ok(()) => console.remark(&format!("fixed `{path}`: {count}")),
-                    Err(error) => failures.push(error.into()),
+                    Err(error) => failed.push(error.into()),
                 }
             }
-            if !failures.is_empty() {
-                return Ok(failures);
+            let is_done = is_done || !failed.is_empty();
+            failures.extend(failed);
+            if is_done {
+                return Ok(());
             }
         }
-        Ok(Failures::default())
+        Ok(())
     }
 
     /// Shows the safe changes of the programs.
-    pub(super) fn diff(&mut self, target: &mut Target, console: Console) -> Result<u8, Failure> {
+    pub(super) fn diff(
+        &mut self,
+        target: &mut Target,
+        (console, failures): (Console, &mut Failures),
+    ) -> Result<u8, Failure> {
         self.only_files("--diff")?;
-        let mut failures = Failures::default();
-        let mended = self.mended(&mut failures);
+        let mended = self.mended(failures);
         if target.painted(&differences(&mended), difference)? == Printed::Unread {
             return Ok(exit::CLEAN);
         }
         if mended.is_empty() {
-            return failures.status(console, exit::CLEAN);
+            return Ok(exit::CLEAN);
         }
         let count = mended.iter().map(|file| file.changes).sum();
         let files = match mended.len() {
@@ -88,7 +91,7 @@ impl Bench<'_> {
             "{} in {files} (`--fix` applies them)",
             changes(count)
         ));
-        failures.status(console, exit::FOUND)
+        Ok(exit::FOUND)
     }
 
     /// Refuses what can be read only once and not be replaced: standard input, pipes, devices.

@@ -3,6 +3,8 @@
 #[path = "order/archives.rs"]
 mod archives;
 mod folder;
+#[path = "order/roots.rs"]
+mod roots;
 
 use std::fs;
 

@@ -6,15 +6,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::discovery::{LoadedMachine, Machines};
+use super::disk::Disk;
 use super::error::HostError;
 use super::finder::ProgramFinder;
 use super::input::{Input, Naming, Opened};
-use super::mend::{MendedFile, read_encoded};
 use super::watch::{Done, LineTracker, Reached};
 use super::workers::{in_order, processors};
-use frictcomp::audit::{
-    Archive, Auditor, MendedEnd, Mending, Missed, ProgramAudit, Sequence, Step, insertions,
-};
+use frictcomp::audit::{Archive, Auditor, ProgramAudit, Sequence, Step};
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::interpreter::{Branches, Event, Interpreter, Observer, Options};
 use frictcomp::text::SourceFile;
@@ -66,23 +64,9 @@ pub struct ArchiveAuditor {
 }
 
 /// Audits the programs of one machine.
-struct ProgramAuditor<'a> {
-    loaded: &'a LoadedMachine,
-    auditor: Auditor,
-}
-
-/// How a program of an archive is mended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct MendedProgram {
-    /// The position of the machine in [`ArchiveAuditor::machines`].
-    pub machine: usize,
-    /// The position of the program in the archive of its machine.
-    pub program: usize,
-    /// The file with the blocks, where there are any.
-    pub file: Option<MendedFile>,
-    /// What is left to the user.
-    pub missed: Vec<Missed>,
+pub(super) struct ProgramAuditor<'a> {
+    pub(super) loaded: &'a LoadedMachine,
+    pub(super) auditor: Auditor,
 }
 
 impl ArchiveAuditor {
@@ -130,20 +114,20 @@ impl ArchiveAuditor {
         &self.programs
     }
 
-    fn auditors(&self) -> Vec<ProgramAuditor<'_>> {
+    pub(super) fn auditors(&self) -> Vec<ProgramAuditor<'_>> {
         let machines = self.machines.iter();
         machines
             .map(|loaded| ProgramAuditor::new(loaded, self.options))
             .collect()
     }
 
-    fn workers(&self, most: usize) -> NonZeroUsize {
+    pub(super) fn workers(&self, most: usize) -> NonZeroUsize {
         let most = NonZeroUsize::new(most).unwrap_or(NonZeroUsize::MIN);
         self.options.workers.min(most)
     }
 
     /// `Break` where the watcher wants the work to stop.
-    fn flow(&self) -> ControlFlow<()> {
+    pub(super) fn flow(&self) -> ControlFlow<()> {
         if self.machines.iter().any(|it| it.watch.is_stopped()) {
             return ControlFlow::Break(());
         }
@@ -167,42 +151,6 @@ impl ArchiveAuditor {
             self.flow()
         });
         (archives, errors)
-    }
-
-    /// Finds the blocks that mend the archives of [`audit`](Self::audit); nothing is written.
-    pub fn mend(
-        &self,
-        archives: &[Archive],
-        end: MendedEnd,
-    ) -> (Vec<MendedProgram>, Vec<HostError>) {
-        let auditors = self.auditors();
-        let wanted: Vec<_> = archives
-            .iter()
-            .enumerate()
-            .flat_map(|(machine, archive)| {
-                let wanted = archive.to_mend(end).into_iter();
-                wanted.map(move |(program, mendings)| (machine, program, mendings))
-            })
-            .collect();
-        let (mut changes, mut errors) = (Vec::with_capacity(wanted.len()), Vec::new());
-        let work = |(machine, program, mendings): &(usize, usize, Vec<Mending>)| {
-            let file = &archives[*machine].programs()[*program].file;
-            let (file, missed) = auditors[*machine].mend(Path::new(file), mendings)?;
-            Ok::<_, HostError>(MendedProgram {
-                machine: *machine,
-                program: *program,
-                file,
-                missed,
-            })
-        };
-        in_order(wanted.iter(), self.workers(wanted.len()), work, |change| {
-            match change {
-                Ok(change) => changes.push(change),
-                Err(error) => errors.push(error),
-            }
-            self.flow()
-        });
-        (changes, errors)
     }
 
     /// Runs the programs one after another in their order, each machine from the start of its control.
@@ -238,7 +186,8 @@ impl<'a> ProgramAuditor<'a> {
     fn audit(&self, input: &Input) -> Result<ProgramAudit, HostError> {
         let name = input.name(Naming::AsGiven);
         let audit = self.auditor.audit(&name, |interpreter, observer| {
-            self.run(input, interpreter, observer)
+            let finder = self.finder(input, &self.loaded.disk);
+            self.run(input, finder, (interpreter, observer))
         })?;
         self.loaded.watch.program_done();
         Ok(audit)
@@ -247,45 +196,44 @@ impl<'a> ProgramAuditor<'a> {
     fn step(&self, sequence: &mut Sequence<'_>, input: &Input) -> Result<Step, HostError> {
         let name = input.name(Naming::AsGiven);
         let step = sequence.step(&name, |interpreter, observer| {
-            self.run(input, interpreter, observer)
+            let finder = self.finder(input, &self.loaded.disk);
+            self.run(input, finder, (interpreter, observer))
         })?;
         self.loaded.watch.program_done();
         Ok(step)
     }
 
-    fn mend(
+    /// Runs a program with texts in place of some files.
+    pub(super) fn run_with(
         &self,
+        texts: &Disk,
         path: &Path,
-        wanted: &[Mending],
-    ) -> Result<(Option<MendedFile>, Vec<Missed>), HostError> {
-        let encoded = read_encoded(path)?;
+        (interpreter, observer): (&mut Interpreter, &mut dyn Observer),
+    ) -> Result<(), HostError> {
         let input = Input::File(path.to_owned());
-        let name = input.name(Naming::AsGiven);
-        let mended = self
-            .auditor
-            .mend(encoded.text(), wanted, |text, interpreter, observer| {
-                let source = SourceFile::new(name.as_str(), text);
-                interpreter.program(source, &mut self.finder(&input), observer);
-                Ok::<(), HostError>(())
-            })?;
-        let changes = insertions(encoded.text(), &mended.insertions);
-        Ok((MendedFile::new(path, &encoded, &changes)?, mended.missed))
+        let finder = self.finder(&input, texts);
+        match texts.text(path) {
+            Some(text) => {
+                let source = SourceFile::new(input.name(Naming::AsGiven), text.as_str());
+                interpreter.program(source, &mut { finder }, observer);
+                Ok(())
+            }
+            None => self.run(&input, finder, (interpreter, observer)),
+        }
     }
 
-    fn finder(&self, input: &Input) -> ProgramFinder {
+    fn finder(&self, input: &Input, disk: &Disk) -> ProgramFinder {
         let loaded = self.loaded;
-        ProgramFinder::new(input, &loaded.reach, Naming::AsGiven, &loaded.disk)
-            .noting(&loaded.ledger)
+        ProgramFinder::new(input, &loaded.reach, Naming::AsGiven, disk).noting(&loaded.ledger)
     }
 
     fn run(
         &self,
         input: &Input,
-        interpreter: &mut Interpreter,
-        observer: &mut dyn Observer,
+        mut finder: ProgramFinder,
+        (interpreter, observer): (&mut Interpreter, &mut dyn Observer),
     ) -> Result<(), HostError> {
         let name = input.name(Naming::AsGiven);
-        let mut finder = self.finder(input);
         let mut heard = Heard::default();
         let mut listener = |event: Event<'_>| {
             if self.loaded.watch.is_on() {

@@ -42,6 +42,14 @@ pub enum HostError {
     /// A file that somebody else changed while it was worked on.
     #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
     ChangedMeanwhile(PathBuf),
+    /// A file that cannot take its place after others have taken theirs.
+    #[error("{failed}; {} in place already", are(.written))]
+    PartlyWritten {
+        /// The file, and what the system says.
+        failed: Box<HostError>,
+        /// The others.
+        written: Vec<PathBuf>,
+    },
     /// Files that took their place on a disk that may lose them again.
     #[error("{} in place, but the disk did not confirm it: {reason}", are(.files))]
     Unsettled {
@@ -239,6 +247,7 @@ impl HostError {
                 kind => return to_write(kind).map(str::to_owned),
             },
             Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
+            Self::PartlyWritten { failed, .. } => return failed.help(),
             Self::Unsettled { .. } => "check the disk before you rely on them",
             Self::FolderAsList(_) => "name the file in it",
             Self::NoFolder(_) => "name the folder of the programs",
@@ -291,10 +300,15 @@ fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
 
 /// Files, and the verb after them.
 fn are(files: &[PathBuf]) -> String {
+    const MOST_NAMES: usize = 20;
     match files {
-        [file] => format!("`{}` is", shown_path(file)),
-        [first, rest @ ..] => format!("`{}` and {} more are", shown_path(first), rest.len()),
         [] => "all files are".to_owned(),
+        [file] => format!("`{}` is", shown_path(file)),
+        _ if files.len() > MOST_NAMES => {
+            let more = files.len() - MOST_NAMES;
+            format!("{} and {more} more are", listed(&files[..MOST_NAMES]))
+        }
+        [others @ .., last] => format!("{} and `{}` are", listed(others), shown_path(last)),
     }
 }
 

@@ -93,7 +93,8 @@ pub(super) fn read_encoded(path: &Path) -> Result<EncodedText, HostError> {
 /// not overwritten.
 ///
 /// # Errors
-/// A file cannot be read or written, or has changed.
+/// A file cannot be read or written, or has changed. Where only the last step of one fails, the error
+/// names those that are in their places already.
 pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Result<(), HostError> {
     let mut unfinished = Vec::new();
     for mended in files {
@@ -110,9 +111,7 @@ pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Resu
     }
     let mut placed = Placed::default();
     for (path, mut file) in unfinished {
-        file.take_place()
-            .map_err(|error| HostError::write(path, error))?;
-        placed.add(&file, path);
+        placed.take_place(&mut file, path)?;
     }
     placed.settle()
 }

@@ -135,10 +135,7 @@ impl OutputFiles {
         let mut in_place = Placed::default();
         for file in &self.open {
             if let Place::Beside(beside) = &mut *file.place() {
-                beside
-                    .take_place()
-                    .map_err(|error| HostError::write(&file.path, error))?;
-                in_place.add(beside, &file.path);
+                in_place.take_place(beside, &file.path)?;
                 placed(&file.path);
             }
         }

@@ -155,6 +155,29 @@ impl UnfinishedFile {
 pub(super) struct Placed(BTreeMap<PathBuf, Vec<PathBuf>>);
 
 impl Placed {
+    /// A file takes its place, under the name that the user gave it.
+    ///
+    /// # Errors
+    /// It cannot be written; the error names the files that took theirs before (R9.95).
+    pub(super) fn take_place(
+        &mut self,
+        file: &mut UnfinishedFile,
+        path: &Path,
+    ) -> Result<(), HostError> {
+        if let Err(reason) = file.take_place() {
+            let failed = HostError::write(path, reason);
+            let written: Vec<PathBuf> = self.0.values().flatten().cloned().collect();
+            return Err(if written.is_empty() {
+                failed
+            } else {
+                let failed = Box::new(failed);
+                HostError::PartlyWritten { failed, written }
+            });
+        }
+        self.add(file, path);
+        Ok(())
+    }
+
     /// Notes a file, under the name that the user gave it.
     pub(super) fn add(&mut self, file: &UnfinishedFile, path: &Path) {
         let folder = folder(&file.target).to_owned();

@@ -6,7 +6,7 @@ use pest::iterators::Pair;
 use super::lowering::{Lowering, not_understood, span_of, trimmed};
 use crate::diagnostic::Code;
 use crate::syntax::ast::{Block, CallScope, Effect, Item};
-use crate::syntax::brackets::brackets;
+use crate::syntax::brackets::{Brackets, brackets};
 use crate::syntax::expression;
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule, gave_up};
@@ -19,11 +19,21 @@ pub(in crate::syntax) fn block(code: &str, block: &mut Block) {
 
 /// The same from another rule than the one that all blocks are parsed with.
 pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
-    let unclosed = match brackets(code) {
-        Ok(unclosed) => unclosed,
+    let Brackets { read, unclosed } = match brackets(code) {
+        Ok(brackets) => brackets,
         Err(fault) => return give_up(fault, block),
     };
-    let mut pairs = match NcParser::parse(rule, code) {
+    read_as(rule, code, (&read, unclosed), block);
+}
+
+/// The same of a block whose brackets are known.
+pub(in crate::syntax) fn read_as(
+    rule: Rule,
+    code: &str,
+    (read, unclosed): (&str, Option<usize>),
+    block: &mut Block,
+) {
+    let mut pairs = match NcParser::parse(rule, read) {
         Ok(pairs) => pairs,
         Err(error) => {
             let span = Span::new(0, code.len());
@@ -40,6 +50,7 @@ pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     };
     let mut lowering = Lowering {
         code,
+        read,
         block,
         unclosed,
         unknown: None,

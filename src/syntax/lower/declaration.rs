@@ -14,6 +14,7 @@ impl Lowering<'_> {
         let mut declarations = Vec::new();
         let mut start = rest.start as usize;
         let mut left = rest.of(self.code);
+        let read = self.read;
         let last_bracket = start + left.rfind(']').unwrap_or_default();
         while !left.is_empty() {
             let line = &left[..declaration_end(left, last_bracket.saturating_sub(start))];
@@ -24,7 +25,7 @@ impl Lowering<'_> {
             if code.is_empty() || hash_word(line).is_some() {
                 continue;
             }
-            if let Ok(pairs) = NcParser::parse(Rule::declaration_line, line) {
+            if let Ok(pairs) = NcParser::parse(Rule::declaration_line, span.of(read)) {
                 let parts = pairs
                     .flat_map(Pair::into_inner)
                     .filter_map(|part| (part.as_rule() == Rule::declaration).then_some(part));

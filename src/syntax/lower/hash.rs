@@ -61,7 +61,7 @@ impl Lowering<'_> {
     }
 
     fn expressions_in(&mut self, rest: Span) -> Vec<Operand> {
-        let Ok(pairs) = NcParser::parse(Rule::spaced_expressions, rest.of(self.code)) else {
+        let Ok(pairs) = NcParser::parse(Rule::spaced_expressions, rest.of(self.read)) else {
             return Vec::new();
         };
         let values = pairs.flat_map(Pair::into_inner);
@@ -72,7 +72,7 @@ impl Lowering<'_> {
 
     /// The parameters and variables that a text names.
     fn places_in(&mut self, rest: Span) -> Vec<Target> {
-        let text = rest.of(self.code);
+        let text = rest.of(self.read);
         let mut places = Vec::new();
         let mut from = 0;
         while let Some(start) = next_place(text, from) {

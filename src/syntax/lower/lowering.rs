@@ -14,6 +14,8 @@ use crate::text::Span;
 /// A block on its way.
 pub(super) struct Lowering<'a> {
     pub(super) code: &'a str,
+    /// The code as the parser reads it.
+    pub(super) read: &'a str,
     pub(super) block: &'a mut Block,
     /// The first `[` that is never closed.
     pub(super) unclosed: Option<usize>,

@@ -12,4 +12,4 @@ mod word;
 
 pub(super) use block::block;
 #[cfg(test)]
-pub(super) use block::block_as;
+pub(super) use block::{block_as, read_as};

@@ -210,13 +210,27 @@ pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
                 Some(2) => {
                     let lower = said.split_whitespace().collect::<Vec<_>>().join(" ");
                     let lower = lower.to_lowercase();
-                    let is_named = left.keys().chain(after.keys()).any(|it| said.contains(it));
+                    // A folder that cannot be made is named in place of the files in it.
+                    let named = |it: &String| {
+                        let folder = Path::new(it).parent().and_then(Path::to_str);
+                        let folder = folder.filter(|folder| !folder.is_empty());
+                        said.contains(it)
+                            || folder.is_some_and(|folder| said.contains(&format!("`{folder}`")))
+                    };
+                    let is_named = left.keys().chain(after.keys()).any(named);
                     let is_named = is_named || said.contains("the output");
                     if !(said.contains("error: ") && is_named) {
                         complain("no file is named");
                     }
                     if !lower.contains(fault.cause) || fault.number == 0 {
                         complain("the cause is not said");
+                    }
+                    for (name, bytes) in &left {
+                        let is_result = !name.ends_with(".lock");
+                        let is_new = trial.before.get(name) != Some(bytes);
+                        if is_result && is_new && !said.contains(name.as_str()) {
+                            complain(&format!("`{name}` is written, and is not named"));
+                        }
                     }
                     if !said.contains("help: ") {
                         complain("nothing is advised");

@@ -135,7 +135,21 @@ fn results_of_recordings() {
 
 #[test]
 #[ignore = "minutes: `scripts/full`"]
-fn results_of_simulations() {
+fn results_of_contours() {
+    // R9.95
+    let bench = demo("contour");
+    let contour = [
+        "contour", "plate.nc", "--start", "X0,Y0,Z0", "--html", "r.html", "-o", "r.txt", "--svg",
+        "r.svg",
+    ];
+    survives(&bench, Range::FullDisk, &contour);
+    let agreed = ["golden", "--contour", "--update", "plate.nc"];
+    survives(&bench, Range::FullDisk, &agreed);
+}
+
+#[test]
+#[ignore = "minutes: `scripts/full`"]
+fn results_of_circles() {
     // R9.95
     let bench = demo("contour");
     let files = ["-o", "r.lis", "--svg", "r.svg"];
@@ -145,12 +159,6 @@ fn results_of_simulations() {
     survives(&bench, Range::FullDisk, &[&circle[..], &files].concat());
     let tune = ["tune", "--accelerations", "70", "--no-shaping"];
     survives(&bench, Range::FullDisk, &[&tune[..], &files].concat());
-    let contour = [
-        "contour", "plate.nc", "--start", "X0,Y0,Z0", "--html", "r.html",
-    ];
-    survives(&bench, Range::FullDisk, &[&contour[..], &files].concat());
-    let agreed = ["golden", "--contour", "--update", "plate.nc"];
-    survives(&bench, Range::FullDisk, &agreed);
     let call = [&tune[..], &["--output-dir", "lists"]].concat();
     survives(&bench, Range::FullDisk, &call);
 }

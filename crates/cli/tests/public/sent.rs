@@ -48,6 +48,7 @@ macro_rules! sent {
 }
 
 sent! {
+    audit::Affected<'_>,
     audit::Archive,
     audit::AuditedKind,
     audit::Auditor,

@@ -1,0 +1,85 @@
+//! Results that are agreed on, in many folders (R9.90).
+
+use std::cell::Cell;
+use std::fs;
+use std::path::PathBuf;
+
+use frictcomp_host::{AgreedFile, AgreedKind, AgreedResults, HostError, Input, Ledger};
+use tempfile::TempDir;
+
+use crate::measure::{TWICE, excess};
+
+const TIMELINE: AgreedKind = AgreedKind {
+    extension: "timeline",
+    writer: "golden --update",
+    tolerance_um: 0.0,
+};
+
+/// Folders with a program each, and what was agreed on beside it.
+struct Archive {
+    root: TempDir,
+    agreed: AgreedResults,
+    files: Vec<AgreedFile>,
+    ledger: Ledger,
+}
+
+impl Archive {
+    fn new(folders: usize) -> Self {
+        let root = tempfile::tempdir().expect("a folder");
+        let agreed = AgreedResults::of(TIMELINE, &[root.path().to_owned()]);
+        let ledger = Ledger::default();
+        let program = |number: usize| -> PathBuf {
+            let folder = root.path().join(number.to_string());
+            fs::create_dir(&folder).expect("a folder");
+            let program = folder.join("a.nc");
+            fs::write(&program, "M30\n").expect("written");
+            program
+        };
+        let inputs: Vec<Input> = (0..folders).map(|n| Input::File(program(n))).collect();
+        inputs.iter().for_each(|input| input.note(&ledger));
+        let files = inputs.iter().map(|input| agreed.beside(input));
+        Self {
+            files: files.collect::<Result<_, _>>().expect("files"),
+            root,
+            agreed,
+            ledger,
+        }
+    }
+
+    /// Agrees on another result of each program.
+    fn update(&self, result: &str) {
+        let now = |_: &Input| Ok::<_, HostError>(result.to_owned());
+        let updated = self.agreed.update(&self.files, &self.ledger, now);
+        for folder in updated.expect("nothing stands in its way") {
+            assert!(folder.failures.is_empty(), "{:?}", folder.failures);
+            assert_eq!(folder.written.len(), 1);
+        }
+        let last = self.root.path().join("0/a.nc.timeline");
+        assert_eq!(fs::read_to_string(last).expect("a result"), result);
+    }
+}
+
+/// Twice as many folders take at most as much more as the bound.
+#[track_caller]
+fn is_linear(folders: usize, bound: f64) {
+    let archives = [folders, 2 * folders].map(Archive::new);
+    let times = Cell::new(0_u64);
+    let growth = excess([0, 1], bound, |which| {
+        times.set(times.get() + 1);
+        archives[which].update(&format!("result {}\n", times.get()));
+    });
+    assert_eq!(growth, None, "twice {folders} folders");
+}
+
+#[test]
+fn what_is_agreed_on_grows_with_the_folders() {
+    // R9.90
+    is_linear(100, 1.2 * TWICE);
+}
+
+#[test]
+#[ignore = "minutes: `scripts/full`"]
+fn what_is_agreed_on_grows_with_a_thousand_folders() {
+    // R9.90
+    is_linear(1_000, TWICE);
+}

@@ -252,6 +252,7 @@ sent! {
     identify::AxisRecording,
     identify::Drift,
     identify::Fit,
+    identify::ActingShare,
     identify::FrictionCurve,
     identify::Identified,
     identify::IdentifyError,

@@ -6,8 +6,12 @@ use std::path::PathBuf;
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::read_axis;
+use frictcomp_physics::current::Switched;
 use frictcomp_physics::motion::check_cycle;
-use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify as find, identify_circles};
+use frictcomp_recordings::identify::Measured;
+use frictcomp_recordings::identify::TorqueKind;
+use frictcomp_recordings::identify::identify_measured_circles;
+use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify as find};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::identify::{IdentifyReport, render_json};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
@@ -35,11 +39,37 @@ struct Recorded {
     traces: Vec<PathBuf>,
     selection: ChannelSelection,
     cycle_s: Option<f64>,
+    said: Said,
+}
+
+/// What the caller says about the torque; it counts before what the channels tell.
+#[derive(Clone, Copy)]
+struct Said {
+    kind: Option<TorqueKind>,
+    compensation: Option<Switched>,
+}
+
+impl Said {
+    fn about(self, recorded: Measured) -> Measured {
+        Measured {
+            kind: self.kind.or(recorded.kind),
+            compensation: self.compensation.or(recorded.compensation),
+            ..recorded
+        }
+    }
+}
+
+fn switched(word: &str) -> PyResult<Switched> {
+    match word {
+        "on" => Ok(Switched::On),
+        "off" => Ok(Switched::Off),
+        _ => Err(refused(format!("`{word}` is not one of on, off"))),
+    }
 }
 
 /// Finds the friction of an axis in recordings.
 #[pyfunction]
-#[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0))]
+#[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0, torque_kind=None, compensation=None))]
 // Each is an argument of its own for Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn identify(
@@ -56,6 +86,8 @@ pub(crate) fn identify(
     points: Option<usize>,
     max_error: Option<f64>,
     feed_mm_per_min: f64,
+    torque_kind: Option<&str>,
+    compensation: Option<&str>,
 ) -> PyResult<PyIdentified> {
     let options = options(points, max_error, feed_mm_per_min)?;
     let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
@@ -80,6 +112,10 @@ pub(crate) fn identify(
         traces: traces.paths(),
         selection,
         cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
+        said: Said {
+            kind: meant_if_given(torque_kind)?,
+            compensation: compensation.map(switched).transpose()?,
+        },
     };
     interruptible(py, move |_| {
         if circles {
@@ -118,7 +154,7 @@ impl Recorded {
         };
         let recording = read_axis(trace, &self.selection, self.cycle_s)?;
         let mut options = *options;
-        options.measured = recording.measured;
+        options.measured = self.said.about(recording.measured);
         let report = IdentifyReport {
             name: shown_path(trace),
             axis: self.selection.axis.clone(),
@@ -143,11 +179,15 @@ impl Recorded {
             .map(|trace| Ok::<_, Failure>(read_axis(trace, &self.selection, self.cycle_s)?));
         let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;
         let tracks: Vec<_> = recordings.iter().map(|it| it.track.clone()).collect();
+        let measured = recordings.iter().map(|it| self.said.about(it.measured));
+        // What is known least of any recording.
+        let measured = measured.reduce(Measured::common).unwrap_or_default();
         let names = self.traces.iter().map(|path| shown_path(path));
         let report = OnCirclesReport {
             names: names.collect(),
             axis: self.selection.axis.clone(),
-            found: identify_circles(&tracks).map_err(Failure::of_identification)?,
+            found: identify_measured_circles(&tracks, &measured)
+                .map_err(Failure::of_identification)?,
             recordings,
         };
         Ok(PyIdentified {

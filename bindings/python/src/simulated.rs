@@ -11,6 +11,7 @@ use frictcomp_host::{
     CircleChannels, Ledger, Watch, compare, find_plant, memory_for_simulation, read_circles,
     read_value_list, tune as search,
 };
+use frictcomp_physics::circle::Aim;
 use frictcomp_physics::circle::{
     Circle, CircularTest, CommandedCircle, FreeParameter, Method, PathCentre, PlaneAxis, Ranges,
     Shaping, Task,
@@ -45,7 +46,7 @@ pub(crate) enum Lists {
 #[pyfunction]
 #[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
 // Each is an argument of its own for Python.
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
 pub(crate) fn circle<'py>(
     py: Python<'py>,
     radius_mm: Option<f64>,
@@ -165,9 +166,9 @@ pub(crate) struct PyTuned {
 
 /// Searches the value lists with the smallest glitch on a simulated machine.
 #[pyfunction]
-#[pyo3(signature = (*, plant="stiff", feeds=None, radii=None, model=None, cycle_time_ms=None, reading=None, free=None, shaping=true, cnc_build=None))]
+#[pyo3(signature = (*, plant="stiff", feeds=None, radii=None, model=None, cycle_time_ms=None, reading=None, free=None, shaping=true, cnc_build=None, robust=false))]
 // Each is an argument of its own for Python.
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
 pub(crate) fn tune(
     py: Python<'_>,
     plant: &str,
@@ -179,6 +180,7 @@ pub(crate) fn tune(
     free: Option<Vec<String>>,
     shaping: bool,
     cnc_build: Option<&str>,
+    robust: bool,
 ) -> PyResult<PyTuned> {
     let feeds = feeds.unwrap_or_else(|| vec![500.0, 1000.0, 2000.0, 5000.0]);
     let radii = radii.unwrap_or_else(|| vec![100.0]);
@@ -216,6 +218,7 @@ pub(crate) fn tune(
             } else {
                 Shaping::None
             },
+            aim: if robust { Aim::Robust } else { Aim::Plant },
         };
         let watch = Watch::by(Arc::new(stop.clone()));
         Ok(TuneReport {

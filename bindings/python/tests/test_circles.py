@@ -42,6 +42,24 @@ def test_an_identified_list_is_that_of_the_command(tmp_path: Path) -> None:
     assert identified.value_list() == path.read_text("utf-8")
 
 
+def test_what_is_said_about_the_torque_counts() -> None:
+    name = "programs/demo/recordings/friction_x.csv"
+    channels = ["--velocity", "SetVelo", "--torque", "ActTorque"]
+    told = document("identify", name, *channels, "--torque-kind", "loop", "--compensation", "off")
+    identified = frictcomp.identify(
+        name, velocity="SetVelo", torque="ActTorque", torque_kind="loop", compensation="off"
+    )
+    assert identified.record == told
+    with pytest.raises(frictcomp.Error):
+        frictcomp.identify(
+            name, velocity="SetVelo", torque="ActTorque", torque_kind="loop", compensation="on"
+        )
+    with pytest.raises(ValueError):
+        frictcomp.identify(name, torque_kind="felt")  # type: ignore[arg-type]
+    with pytest.raises(ValueError):
+        frictcomp.identify(name, compensation="half")  # type: ignore[arg-type]
+
+
 def test_what_makes_no_sense_is_refused() -> None:
     for radius in (0.0, -1.0, float("nan"), float("inf"), 1e300):
         with pytest.raises(frictcomp.Error):

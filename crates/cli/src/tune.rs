@@ -19,6 +19,8 @@ use frictcomp::lists::{AxisType, ListHead, Points};
 use frictcomp::machine::Axis;
 use frictcomp::text::{Place, Span, shown_path};
 use frictcomp_host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
+use frictcomp_physics::circle::Aim;
+use frictcomp_physics::circle::Checked;
 use frictcomp_physics::circle::{
     Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
 };
@@ -86,6 +88,10 @@ pub(super) struct TuneArgs {
     /// Keep the friction curve as it is; do not shape it below 1 mm/s
     #[arg(long)]
     no_shaping: bool,
+    /// Find a list that is also good where the contact is half or twice as stiff, or friction differs by
+    /// 10 % between the directions
+    #[arg(long)]
+    robust: bool,
     /// The friction model
     #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
     model: FrictionModel,
@@ -185,6 +191,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             } else {
                 Shaping::Allowed
             },
+            aim: if args.robust { Aim::Robust } else { Aim::Plant },
         };
         reports.push(TuneReport {
             plant: name,
@@ -290,18 +297,31 @@ fn axis_lists(
     PlaneAxis::ALL.into_iter().enumerate().map(of).collect()
 }
 
-/// FC506 for each circle on which compensation is worse than none (R5.25).
+/// FC506 where compensation is worse than none (R5.25).
 fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
     let worse = report.tuned.feeds.iter().filter(|it| it.is_worse());
-    let tell = |it: &FeedResult| {
-        let message = format!(
+    let on_a_circle = |it: &FeedResult| {
+        format!(
             "at {} mm/min on a radius of {} mm compensation leaves {:.1} µm, more than the {:.1} µm \
              without it",
             round(it.feed_mm_per_min),
             round(it.radius_mm),
             it.glitch_on_um,
             it.glitch_off_um
-        );
+        )
+    };
+    let mut messages: Vec<String> = worse.map(on_a_circle).collect();
+    // Between the circles it is said once, where it is worst (R5.29).
+    let between = report.tuned.check.iter().filter(|it| it.is_worse());
+    let loss = |it: &Checked| it.glitch_on_um - it.glitch_off_um;
+    let worst = between.max_by(|one, other| loss(one).total_cmp(&loss(other)));
+    if let Some(it) = worst.filter(|_| messages.is_empty()) {
+        messages.push(format!(
+            "at {:.2} mm/s² compensation leaves {:.1} µm, more than the {:.1} µm without it",
+            it.acceleration_mm_per_s2, it.glitch_on_um, it.glitch_off_um
+        ));
+    }
+    let tell = |message: String| {
         let place = Place {
             file: report.plant.as_str().into(),
             text: "".into(),
@@ -311,7 +331,7 @@ fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
         Diagnostic::new(Code::Fc506, place, message)
             .with_help("tune for fewer feeds, or search further with `--free position_delay`")
     };
-    worse.map(tell).collect()
+    messages.into_iter().map(tell).collect()
 }
 
 fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {

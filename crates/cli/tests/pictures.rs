@@ -121,6 +121,8 @@ fn circle() -> PolarChart {
             .map(|(label, peak)| PolarPanel {
                 label: label.to_owned(),
                 series: vec![PolarSeries {
+                    look: 0,
+                    stroke: frictcomp_report::svg::PolarStroke::Full,
                     name: "counter-clockwise".to_owned(),
                     points: turn(-0.6, peak),
                 }],
@@ -156,6 +158,8 @@ fn glitches() -> LineChart {
         tuned: Tuned {
             axes: [axis.clone(), axis],
             feeds: feeds.to_vec(),
+            check: Vec::new(),
+            robust: None,
             trials: 1,
         },
     }])
@@ -271,7 +275,7 @@ fn a_circle_shows_off_and_on_magnified() {
     let magnified = texts
         .iter()
         .find(|text| text.starts_with("deviation magnified"));
-    // 10 µm are 31 units where 100 mm are 105.
+    // 10 µm are 44 units where 100 mm are 145.
     assert_eq!(
         magnified.copied(),
         Some("deviation magnified 3000\u{d7} against the circle of 100 mm")
@@ -280,19 +284,20 @@ fn a_circle_shows_off_and_on_magnified() {
         .descendants()
         .filter(|node| node.has_tag_name((SVG, "path")))
         .collect();
-    assert_eq!(paths.len(), 2, "off and on beside each other");
-    for (path, centre) in paths.into_iter().zip([215.0, 645.0]) {
+    assert_eq!(paths.len(), 2, "one in the circle, one in the inset");
+    let circles = [
+        ((281.0, 379.0), 56.5..=233.5),
+        ((696.0, 262.0), 31.5..=116.5),
+    ];
+    for (path, (centre, rings)) in paths.into_iter().zip(circles) {
         let data = path.attribute("d").expect("data").replace(['M', 'L'], " ");
         let numbers: Vec<f64> = data
             .split_whitespace()
             .map(|number| number.parse().expect("a number"))
             .collect();
         for place in numbers.chunks(2) {
-            let radius = (place[0] - centre).hypot(place[1] - 313.0);
-            assert!(
-                (42.0..=168.0).contains(&radius),
-                "{place:?} is outside of the rings"
-            );
+            let radius = (place[0] - centre.0).hypot(place[1] - centre.1);
+            assert!(rings.contains(&radius), "{place:?} is outside of the rings");
         }
     }
 }
@@ -580,6 +585,8 @@ fn odd_values_make_no_odd_picture() {
             panels: vec![PolarPanel {
                 label: "&".to_owned(),
                 series: vec![PolarSeries {
+                    look: 0,
+                    stroke: frictcomp_report::svg::PolarStroke::Full,
                     name: "&".to_owned(),
                     points: points.clone(),
                 }],
@@ -675,7 +682,14 @@ fn commands_draw_what_they_compute() {
     ]);
     let document = parse(&svg);
     let shown = texts(&document);
-    for wanted in ["counter-clockwise", "clockwise", "X+", "Y\u{2212}"] {
+    // R5.30
+    for wanted in [
+        "compensation off (clockwise in fine dashes)",
+        "compensation on (clockwise in fine dashes)",
+        "compensation on, magnified further",
+        "X+",
+        "Y\u{2212}",
+    ] {
         assert!(shown.contains(&wanted), "no `{wanted}` in {shown:?}");
     }
 }

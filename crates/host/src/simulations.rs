@@ -1,5 +1,7 @@
 //! Simulations with their runs on all processors.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::watch::{Done, Watch};
 use super::workers;
 use frictcomp_physics::circle::{
@@ -29,7 +31,23 @@ pub fn compare(test: &CircularTest, watch: &Watch) -> Result<Comparison, CircleE
 /// # Errors
 /// A circle that cannot be simulated or has no glitch, or a plant that is unstable on it.
 pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
-    tune_with(task, &Runs { of: "tune", watch })
+    tune_with(
+        task,
+        &Tuning {
+            runs: Runs { of: "tune", watch },
+            done: AtomicUsize::new(0),
+            all: task.expected_trials(),
+        },
+    )
+}
+
+/// The simulations of a tuning, which goes on until nothing gets better.
+struct Tuning<'a> {
+    runs: Runs<'a>,
+    /// Those that were made in earlier steps.
+    done: AtomicUsize,
+    /// As many as there will be, about.
+    all: usize,
 }
 
 /// Runs of a simulation, and their watcher.
@@ -48,25 +66,36 @@ impl Runs<'_> {
     }
 
     fn of_each<T: Sync, R: Send>(&self, pieces: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+        self.after(pieces, (0, pieces.len()), work)
+    }
+
+    /// Pieces of work after `before` others, of `all`.
+    fn after<T: Sync, R: Send>(
+        &self,
+        pieces: &[T],
+        (before, all): (usize, usize),
+        work: impl Fn(&T) -> R + Sync,
+    ) -> Vec<R> {
         workers::map(pieces, work, |done| {
             self.watch.show(|| Done::Runs {
                 of: self.of,
-                done,
-                all: pieces.len(),
+                done: before + done,
+                all: all.max(before + pieces.len()),
             });
         })
     }
 }
 
-impl Simulations for Runs<'_> {
+impl Simulations for Tuning<'_> {
     fn make(
         &self,
         count: usize,
         simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
     ) -> Result<Vec<Heights>, CircleError> {
         let pieces: Vec<usize> = (0..count).collect();
-        let made = self.of_each(&pieces, |&at| {
-            self.wanted()?;
+        let before = self.done.fetch_add(count, Ordering::Relaxed);
+        let made = self.runs.after(&pieces, (before, self.all), |&at| {
+            self.runs.wanted()?;
             simulation(at)
         });
         made.into_iter().collect()

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use frictcomp::lists::{FrictionList, Points};
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
+    Aim, Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
     FreeParameter, Job, Lap, Method, PathFigures, PathShape, Ranges, Shaping, Task, Tuned,
     diagnose, diagnose_comparison, tune,
 };
@@ -454,6 +454,7 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
         reading: Reading::default(),
         points: Points::Whole,
         shaping: Shaping::None,
+        aim: Aim::Plant,
     };
     let tuned: Tuned = tune(&task).expect("a circle");
     let [x, y] = &tuned.axes;

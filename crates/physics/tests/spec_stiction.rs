@@ -3,8 +3,8 @@
 use frictcomp::lists::Points;
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Circle, CircularTest, Comparison, Direction, FreeParameter, Job, Method, Ranges, Shaping, Task,
-    Tuned, tune,
+    Aim, Circle, CircularTest, Comparison, Direction, FreeParameter, Job, Method, Ranges, Shaping,
+    Task, Tuned, tune,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant};
@@ -153,6 +153,7 @@ fn mp1511_and_mp1512_are_tuned() {
         reading: Reading::default(),
         points: Points::Whole,
         shaping: Shaping::Allowed,
+        aim: Aim::Plant,
     };
     let found = |tuned: &Tuned| *tuned.axes[0].stiction().expect("stiction");
     let tuned = tune(&task(Ranges::default())).expect("a circle");

@@ -1,5 +1,5 @@
-//! Whether a list acted in a recording, and whether it came early or late (R6.22): recordings of the
-//! simulated drives, with lists that are right, early, late, and others.
+//! Whether a list acted in a recording, and whether it came early or late (R6.22): recordings of drives
+//! that the tests simulate themselves, with lists that are right, early, late, and others.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -8,183 +8,181 @@
     reason = "rows and times of recordings that the tests make themselves"
 )]
 
-use std::f64::consts::TAU;
+#[path = "../../physics/tests/independent/plant.rs"]
+mod plant;
 
 use frictcomp::lists::FrictionList;
-use frictcomp_physics::current::{AdditiveCurrent, Reading};
-use frictcomp_physics::simulation::{
-    Drive, FrictionModel, POSITION_LOOP_S, Preset, SPEED_LOOP_S, STEP_S, Setpoint, plant_list,
-};
+use frictcomp::lists::TablePoint;
+use frictcomp_physics::current::Reading;
+use frictcomp_recordings::identify::ActingShare;
 use frictcomp_recordings::identify::{Predictor, Timing, Track, Verified, verify, verify_followed};
 
-/// The CNC cycle in s, and the time between two rows.
-const CYCLE_S: f64 = 0.001;
+use plant::{Bench, FAST, MID, Recorded, SLOW, SOFT, STIFF, units_at};
 
-const RADIUS_MM: f64 = 30.0;
+/// The parts of a list that act.
+const SHARES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];
 
-/// A recorded axis.
-struct Recorded {
-    track: Track,
-    errors: Vec<f64>,
-}
-
-/// What is recorded of an axis that drives circles with a list, or without one.
-fn record(plant: Preset, list: Option<&FrictionList>, feed: f64) -> Recorded {
-    let plant = plant.plant();
-    let drive = &plant.x;
-    let omega = feed / 60.0 / RADIUS_MM;
-    let length_s = 1.2 * TAU / omega;
-    let cycles = 0..(length_s / CYCLE_S).round() as u32;
-    let reference = |time: f64| {
-        let (sine, cosine) = (omega * time).sin_cos();
-        let radius = RADIUS_MM / 1000.0;
-        Setpoint {
-            position_m: radius * cosine,
-            velocity_m_per_s: -radius * omega * sine,
-            acceleration_m_per_s2: -radius * omega * omega * cosine,
-            ..Setpoint::default()
-        }
-    };
-    let commanded: Vec<Setpoint> = cycles
-        .map(|it| reference(0.4 / omega + f64::from(it) * CYCLE_S))
-        .collect();
-    let added: Vec<f64> = match list {
-        None => vec![0.0; commanded.len()],
-        Some(list) => {
-            let positions: Vec<f64> = commanded.iter().map(|it| it.position_m * 1e7).collect();
-            let speeds: Vec<f64> = commanded
-                .iter()
-                .map(|it| it.velocity_m_per_s * 1e6)
-                .collect();
-            let mut current = AdditiveCurrent::new(list, Reading::default());
-            let added = current.trace(&positions, &speeds);
-            added.iter().map(|it| it.current_units).collect()
-        }
-    };
-    let mut axis = Drive::settled(drive, FrictionModel::Lugre, commanded[0]);
-    let mut recorded = Recorded {
-        track: Track {
-            step_s: CYCLE_S,
-            velocities: Some(Vec::new()),
-            positions: Some(Vec::new()),
-            ..Track::default()
-        },
-        errors: Vec::new(),
-    };
-    let parts = (CYCLE_S / POSITION_LOOP_S).round() as u32;
-    for (at, pair) in commanded.windows(2).enumerate() {
-        let units = axis.force_n() / drive.force_per_unit_n;
-        recorded.track.times_s.push(at as f64 * CYCLE_S);
-        recorded.track.torques.push(units.round());
-        let error = pair[0].position_m - axis.position_m();
-        recorded.errors.push((error * 1e8).round() / 10.0);
-        let [velocities, positions] = [
-            &mut recorded.track.velocities,
-            &mut recorded.track.positions,
-        ];
-        velocities
-            .as_mut()
-            .expect("velocities")
-            .push(pair[0].velocity_m_per_s * 1e6);
-        positions
-            .as_mut()
-            .expect("positions")
-            .push(pair[0].position_m * 1e7);
-        for part in 1..=parts {
-            let share = f64::from(part) / f64::from(parts);
-            axis.follow(Setpoint {
-                position_m: pair[0].position_m + share * (pair[1].position_m - pair[0].position_m),
-                added_units: added[at],
-                ..pair[0]
-            });
-            for step in 0..(POSITION_LOOP_S / STEP_S).round() as usize {
-                if step % (SPEED_LOOP_S / STEP_S).round() as usize == 0 {
-                    axis.control();
-                }
-                axis.step();
-            }
-        }
+fn track(recorded: &Recorded) -> Track {
+    Track {
+        times_s: recorded.t.clone(),
+        velocities: Some(recorded.v.clone()),
+        positions: Some(recorded.x.clone()),
+        torques: recorded.torque.clone(),
+        step_s: 0.001,
     }
-    recorded
 }
 
-fn verified(recorded: &Recorded, list: &FrictionList) -> Verified {
+/// The list of the axis, whose whole current is a share of 1.
+fn list(bench: &Bench) -> FrictionList {
+    // Finer steps at low speeds, where the curve bends.
+    let speed = |at: u32| 0.25 * (f64::from(at) / 200.0).powi(3);
+    FrictionList {
+        reversal_lookahead: u16::try_from(bench.lookahead).expect("a few cycles"),
+        delay_cycles: i16::try_from(bench.delay).expect("a few cycles"),
+        position_delay: 9,
+        scaling_factor: 1000,
+        max_points: 201,
+        table: (0..=200)
+            .map(|at| TablePoint {
+                input: speed(at) * 1e6,
+                output: units_at(speed(at)),
+            })
+            .collect(),
+    }
+}
+
+fn verified(bench: &Bench) -> Verified {
+    let (recorded, list) = (bench.record(), list(bench));
     let predictor = Predictor {
-        list,
+        list: &list,
         reading: Reading::default(),
         cycle_s: None,
     };
-    verify_followed(&recorded.track, &recorded.errors, &predictor).expect("a verdict")
+    verify_followed(&track(&recorded), &recorded.error, &predictor).expect("a verdict")
 }
 
-/// The list of a plant with other delays.
-fn list(plant: Preset, lookahead: u16, delay: i16) -> FrictionList {
-    FrictionList {
-        reversal_lookahead: lookahead,
-        delay_cycles: delay,
-        ..plant_list(&plant.plant().x)
+fn share_of(timing: &Timing) -> ActingShare {
+    match timing {
+        Timing::Off(share)
+        | Timing::Other(share)
+        | Timing::Unclear(share)
+        | Timing::On { share, .. } => *share,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Nobody is told that the list acted, or that nothing did, where a part of it did. What is a quarter
+/// stronger than the list may pass for it in much noise.
+fn assert_no_false_verdict(bench: &Bench, timing: &Timing) {
+    let what = format!("{bench:?}: {timing:?}");
+    match timing {
+        Timing::On { .. } => assert!(bench.share > 0.8, "{what}"),
+        Timing::Off(_) => assert!(bench.share < 0.2, "{what}"),
+        Timing::Other(_) => assert!(![0.0, 1.0].contains(&bench.share), "{what}"),
+        _ => {}
     }
 }
 
 #[test]
-fn a_list_acted_or_not() {
-    // R6.22: three plants, two feeds.
-    for plant in [Preset::Stiff, Preset::Mid, Preset::Soft] {
-        let right = list(plant, 2, 1);
-        for feed in [1500.0, 3000.0] {
-            let off = record(plant, None, feed);
-            let found = verified(&off, &right);
-            let what = format!("{plant:?} {feed}: {:?}", found.timing);
-            assert!(
-                matches!(found.timing, Timing::Off { share } | Timing::Other { share } if share < 0.3),
-                "{what}"
-            );
-            assert!(
-                !found
-                    .verdict()
-                    .iter()
-                    .any(|it| it.contains("early") || it.contains("late")),
-                "{what}"
-            );
-            let on = record(plant, Some(&right), feed);
-            let found = verified(&on, &right);
-            let what = format!("{plant:?} {feed}: {:?}", found.timing);
-            assert!(
-                matches!(found.timing, Timing::On { share, .. } if (share - 1.0).abs() < 0.2),
-                "{what}"
-            );
-            // Half of it acted.
-            let half = FrictionList {
-                scaling_factor: 500,
-                ..right.clone()
+fn the_part_of_a_list_that_acted_is_found() {
+    // R6.22: to 0.03, at stiff contacts and soft ones.
+    for (bench, feed, share) in [
+        (STIFF, 3000.0, 0.0),
+        (STIFF, 3000.0, 0.5),
+        (STIFF, 1500.0, 1.0),
+        (MID, 3000.0, 0.25),
+        (SOFT, 3000.0, 1.0),
+        (FAST, 3000.0, 0.5),
+    ] {
+        for noise in [(0.0, 0.0), (0.03, 1.0)] {
+            let bench = Bench {
+                feed,
+                share,
+                noise,
+                turns: 2.6,
+                ..bench
             };
-            let found = verified(&record(plant, Some(&half), feed), &right);
-            let what = format!("{plant:?} {feed}: {:?}", found.timing);
-            assert!(!matches!(found.timing, Timing::Off { .. }), "{what}");
+            let timing = verified(&bench).timing;
+            let found = share_of(&timing);
+            let what = format!("{bench:?}: {timing:?}");
+            assert!((found.share - share).abs() < 0.03, "{what}");
+            assert!((found.low..=found.high).contains(&share), "{what}");
+            assert_no_false_verdict(&bench, &timing);
+            let is_said = match timing {
+                Timing::Off(_) => share == 0.0,
+                Timing::On { .. } => share == 1.0,
+                Timing::Other(_) => share > 0.0 && share < 1.0,
+                _ => false,
+            };
+            assert!(is_said, "{what}");
         }
     }
+}
+
+#[test]
+#[ignore = "minutes without optimization"]
+fn the_part_is_within_what_is_said_everywhere() {
+    // R6.22: plants, gains, feeds, noise and shares; where noise allows no 0.03, the interval says so.
+    let benches = [
+        ("stiff", STIFF),
+        ("mid", MID),
+        ("soft", SOFT),
+        ("fast", FAST),
+        ("slow", SLOW),
+    ];
+    let (mut all, mut outside) = (0, 0);
+    for noise in [(0.0, 0.0), (0.03, 1.0), (0.1, 3.0)] {
+        for (name, bench) in benches {
+            for feed in [500.0, 1500.0, 3000.0, 5000.0] {
+                let mut line = format!("{noise:?} {name:>5} {feed:>4}:");
+                for (seed, share) in SHARES.into_iter().enumerate() {
+                    let bench = Bench {
+                        feed,
+                        share,
+                        noise,
+                        turns: 3.2,
+                        seed: seed as u64 + 7,
+                        ..bench
+                    };
+                    let timing = verified(&bench).timing;
+                    assert_no_false_verdict(&bench, &timing);
+                    let found = share_of(&timing);
+                    let width = (found.high - found.low) / 2.0;
+                    line += &format!(" {:+.3} ±{width:.2}", found.share - share);
+                    all += 1;
+                    outside += u32::from(!(found.low..=found.high).contains(&share));
+                }
+                println!("{line}");
+            }
+        }
+    }
+    println!("{outside} of {all} outside");
+    assert!(outside * 50 <= all, "{outside} of {all} outside");
 }
 
 #[test]
 fn the_following_error_tells_early_and_late() {
     // R6.22
-    for plant in [Preset::Stiff, Preset::Mid, Preset::Soft] {
-        for feed in [2000.0] {
-            for (lookahead, delay, word) in [(10, 0, "early"), (0, 50, "late")] {
-                let given = list(plant, lookahead, delay);
-                let recorded = record(plant, Some(&given), feed);
-                let found = verified(&recorded, &given);
-                let what = format!("{plant:?} {feed} {word}: {:?}", found.timing);
-                assert_eq!(found.timing.early_or_late(), Some(word), "{what}");
-                assert!(found.verdict().iter().any(|it| it.contains(word)), "{what}");
-                let predictor = Predictor {
-                    list: &given,
-                    reading: Reading::default(),
-                    cycle_s: None,
-                };
-                let open = verify(&recorded.track, &predictor).expect("a verdict");
-                assert_eq!(open.timing, Timing::Open);
-            }
+    for bench in [STIFF, MID, SOFT] {
+        for (lookahead, delay, word) in [(10, 0, "early"), (0, 50, "late")] {
+            let bench = Bench {
+                feed: 2000.0,
+                lookahead,
+                delay,
+                ..bench
+            };
+            let found = verified(&bench);
+            let what = format!("{bench:?} {word}: {:?}", found.timing);
+            assert_eq!(found.timing.early_or_late(), Some(word), "{what}");
+            assert!(found.verdict().iter().any(|it| it.contains(word)), "{what}");
+            let list = list(&bench);
+            let predictor = Predictor {
+                list: &list,
+                reading: Reading::default(),
+                cycle_s: None,
+            };
+            let open = verify(&track(&bench.record()), &predictor).expect("a verdict");
+            assert_eq!(open.timing, Timing::Open);
         }
     }
 }

@@ -8,6 +8,8 @@ use super::circle::stiction_line;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::circle::Checked;
+use frictcomp_physics::circle::Robust;
 use frictcomp_physics::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
 use frictcomp_physics::stiction::StictionParameters;
 
@@ -30,10 +32,54 @@ pub fn round(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
 
-/// For which accelerations lists were tuned.
+/// For which accelerations lists were tuned, and what they leave there at most.
 pub(crate) fn tuned_range(tuned: &Tuned) -> String {
     let [least, most] = tuned.accelerations();
-    format!("Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}")
+    format!(
+        "Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}, where at most {:.2} \u{b5}m are \
+         left",
+        tuned.worst_um()
+    )
+}
+
+/// What was checked between the circles, and on machines that deviate from the plant (R5.29).
+fn checked(tuned: &Tuned) -> String {
+    let largest = |of: fn(&Checked) -> f64| tuned.check.iter().map(of).fold(0.0, f64::max);
+    let worst = tuned
+        .check
+        .iter()
+        .max_by(|one, other| one.glitch_on_um.total_cmp(&other.glitch_on_um));
+    let mut out = format!(
+        "checked at {} accelerations and 4 places of the reversal in the CNC cycle: at most {:.3} \u{b5}m, at {:.2} \
+         mm/s\u{b2}\nthe contact half as stiff {:.3}, twice as stiff {:.3}, friction \u{b1}10 % between the \
+         directions {:.3} \u{b5}m\n",
+        tuned.check.len(),
+        worst.map_or(0.0, |it| it.glitch_on_um),
+        worst.map_or(0.0, |it| it.acceleration_mm_per_s2),
+        largest(|it| it.glitch_half_stiff_um),
+        largest(|it| it.glitch_double_stiff_um),
+        largest(|it| it.glitch_uneven_um),
+    );
+    if let Some(robust) = &tuned.robust {
+        let Robust {
+            is_taken,
+            plain_um,
+            robust_um,
+        } = robust;
+        let _ = if *is_taken {
+            writeln!(
+                out,
+                "robust: over all of these at most {robust_um:.3} \u{b5}m, {plain_um:.3} with the list for the plant alone"
+            )
+        } else {
+            writeln!(
+                out,
+                "robust: a list for all of these leaves {robust_um:.3} \u{b5}m in place of {plain_um:.3}, not 5 % less \
+                 or too much on the plant itself; the list is the one for the plant alone"
+            )
+        };
+    }
+    out
 }
 
 /// The parameters and the glitches before and after, for people.
@@ -65,9 +111,11 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         }
         let _ = writeln!(
             out,
-            "{}; beyond that the glitch is not known\n",
-            tuned_range(&report.tuned)
+            "{}; beyond that the glitch is not known\n{}",
+            tuned_range(&report.tuned),
+            checked(&report.tuned)
         );
+        out.push('\n');
         let _ = writeln!(
             out,
             "v\u{b2}/R mm/s\u{b2}  feed mm/min  radius mm   glitch \u{b5}m  off      on   friction \
@@ -141,6 +189,9 @@ struct PlantRecord<'a> {
     axes: AxisRecords,
     tuned_for: Accelerations,
     feeds: Vec<FeedResult>,
+    check: Vec<Checked>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robust: Option<Robust>,
     glitch_max: f64,
 }
 
@@ -229,7 +280,20 @@ impl<'a> PlantRecord<'a> {
             },
             glitch_max: round(report.tuned.worst_um()),
             feeds: feeds.collect(),
+            check: report.tuned.check.iter().map(rounded).collect(),
+            robust: report.tuned.robust,
         }
+    }
+}
+
+fn rounded(row: &Checked) -> Checked {
+    Checked {
+        acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
+        glitch_off_um: round(row.glitch_off_um),
+        glitch_on_um: round(row.glitch_on_um),
+        glitch_half_stiff_um: round(row.glitch_half_stiff_um),
+        glitch_double_stiff_um: round(row.glitch_double_stiff_um),
+        glitch_uneven_um: round(row.glitch_uneven_um),
     }
 }
 

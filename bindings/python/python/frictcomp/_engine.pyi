@@ -498,8 +498,13 @@ def tune(
     free: Sequence[str] | None = None,
     shaping: bool = True,
     cnc_build: str | None = None,
+    robust: bool = False,
 ) -> Tuned:
-    """Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm."""
+    """Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm.
+
+    With ``robust`` the list is also good where the contact is half or twice as stiff, or friction
+    differs by 10 % between the directions.
+    """
 
 def identify(
     traces: _Path | Sequence[_Path],
@@ -515,8 +520,13 @@ def identify(
     points: int | None = None,
     max_error: float | None = None,
     feed_mm_per_min: float = 1000.0,
+    torque_kind: Literal["actual", "command", "loop"] | None = None,
+    compensation: Literal["on", "off"] | None = None,
 ) -> Identified:
     """Finds the friction of an axis in a recording, and the points of a value list.
+
+    ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
+    was on meanwhile; without them the channels tell, where they do.
 
     ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
     the file does not. With ``circles`` the recordings are circles at two or more feeds.

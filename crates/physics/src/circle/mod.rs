@@ -53,6 +53,6 @@ pub use recorded::{
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
 pub use tune::{
-    Candidate, FeedResult, FreeParameter, Heights, Ranges, Shaping, Simulations, Task, Tuned,
-    TunedAxis, tune, tune_with,
+    Aim, Candidate, Checked, FeedResult, FreeParameter, Heights, Ranges, Robust, Shaping,
+    Simulations, Task, Tuned, TunedAxis, tune, tune_with,
 };

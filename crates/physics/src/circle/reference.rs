@@ -247,6 +247,15 @@ impl Circle {
         (self.feed_mm_per_min / 60.0).powi(2) / self.radius_mm
     }
 
+    /// The same circle at the feed that makes this acceleration v²/R, in mm/s².
+    #[must_use]
+    pub fn with_acceleration(self, mm_per_s2: f64) -> Self {
+        Self {
+            feed_mm_per_min: 60.0 * (mm_per_s2 * self.radius_mm).sqrt(),
+            ..self
+        }
+    }
+
     /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
     pub(super) fn at(&self, stretch: Stretch, k: usize) -> [(f64, f64); 2] {
         #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles

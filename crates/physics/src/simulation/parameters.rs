@@ -86,6 +86,28 @@ impl DriveParameters {
         self.friction.level_n(speed) + self.friction.viscous_n_s_per_m * speed
     }
 
+    /// The same axis with a contact so many times as stiff, its damping as a part of the critical one
+    /// unchanged.
+    #[must_use]
+    pub fn with_contact(&self, factor: f64) -> Self {
+        let mut axis = self.clone();
+        let contact = &mut axis.friction;
+        contact.stiffness_n_per_m *= factor;
+        contact.damping_n_s_per_m *= factor.sqrt();
+        for element in &mut contact.elements {
+            element.stiffness_n_per_m *= factor;
+        }
+        axis
+    }
+
+    /// The same axis with more friction forwards than backwards, by this part of their mean.
+    #[must_use]
+    pub fn uneven(&self, part: f64) -> Self {
+        let mut axis = self.clone();
+        axis.friction.asymmetry = part;
+        axis
+    }
+
     /// The default axis with a contact of this stiffness in N/m.
     pub(super) fn with_stiffness(stiffness: f64) -> Self {
         let mass = 1300.0;
@@ -111,6 +133,7 @@ impl DriveParameters {
                 damping_velocity_m_per_s: 0.002,
                 elements: elements(stiffness),
                 attraction_n_per_s: 1e6,
+                asymmetry: 0.0,
             },
             stiction: None,
         }

@@ -65,6 +65,43 @@ fn short_chords_take_the_time_of_the_arc() {
 }
 
 #[test]
+#[ignore = "minutes without optimization"]
+fn chords_against_arcs() {
+    // R11.22: a table over jerk, mode, chord and feed; with a mode the time is that of the arc.
+    println!("jerk m/s³  mode            chord  F     arc s  chords s   longer  off the circle µm");
+    for jerk in [5.0, 20.0, 100.0] {
+        let axis = |name: &str| format!("[[axis]]\nname = \"{name}\"\nmax_jerk = {jerk:.1}\n");
+        let machine = ["X", "Y", "Z"].map(axis).concat();
+        let follow =
+            |program: &str| trace_of(&machine, program, &["X", "Y"], PlannerOptions::default());
+        for (name, mode) in [
+            ("none", ""),
+            ("#CONTOUR MODE", "#CONTOUR MODE ON"),
+            ("G261", "G261"),
+            ("#HSC", "#HSC ON [OPMODE 1 CONTERROR 0.01]"),
+        ] {
+            for chord in [0.05, 0.1, 0.2] {
+                for feed in [500, 2000, 5000] {
+                    let arc = follow(&arc(feed)).seconds();
+                    let found = follow(&chords(mode, feed, (chord, 4)));
+                    let longer = found.seconds() / arc - 1.0;
+                    let off = off_circle(&found);
+                    println!(
+                        "{jerk:>9}  {name:<14} {chord:>6}  {feed:>4} {arc:>7.2} {:>9.2} {:>7.1}% {off:>8.2}",
+                        found.seconds(),
+                        100.0 * longer
+                    );
+                    assert!(
+                        mode.is_empty() || longer < 0.1,
+                        "{name} {chord} F{feed}: {longer}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn without_a_mode_every_kink_slows_the_path_down() {
     // R11.22: the stop and go of short lines is shown, and counted.
     let found = follow(&chords("", 2000, (0.2, 4)));

@@ -229,7 +229,24 @@ impl Points {
 
 /// Solves a system of linear equations, the right side in the last column of each row; `None` where
 /// it has no single solution.
-pub(super) fn solve_linear(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+pub(super) fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let solved = solve_systems(rows)?;
+    Some(solved.into_iter().map(|row| row[0]).collect())
+}
+
+/// The inverse of a square matrix, where it has one.
+pub(super) fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let unit = |at: usize| (0..matrix.len()).map(move |it| if it == at { 1.0 } else { 0.0 });
+    let rows = matrix.iter().enumerate();
+    solve_systems(
+        rows.map(|(at, row)| row.iter().copied().chain(unit(at)).collect())
+            .collect(),
+    )
+}
+
+/// Solves systems of linear equations with one matrix, their right sides in the columns after it: a row
+/// of results for each unknown.
+fn solve_systems(mut rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     let size = rows.len();
     let scale: Vec<f64> = (0..size).map(|at| rows[at][at].abs().max(1e-300)).collect();
     for column in 0..size {
@@ -242,14 +259,19 @@ pub(super) fn solve_linear(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         }
         let above = rows[column].clone();
         for (at, row) in rows.iter_mut().enumerate() {
-            if at == column {
+            if at == column || row[column] == 0.0 {
                 continue;
             }
             let factor = row[column] / head;
-            for (value, above) in row.iter_mut().zip(&above) {
+            for (value, above) in row.iter_mut().zip(&above).skip(column) {
                 *value -= factor * above;
             }
         }
     }
-    Some((0..size).map(|at| rows[at][size] / rows[at][at]).collect())
+    let solved = rows.into_iter().enumerate();
+    Some(
+        solved
+            .map(|(at, row)| row[size..].iter().map(|it| it / row[at]).collect())
+            .collect(),
+    )
 }

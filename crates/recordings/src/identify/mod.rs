@@ -4,6 +4,7 @@
 //! directions have in torque, draws a curve through them and chooses the points of a value list.
 //! Speeds are in mm/s or °/s, torque and friction in drive units.
 
+mod around;
 mod circles;
 mod clipped;
 mod curve;
@@ -15,6 +16,7 @@ mod pair;
 mod recorded;
 mod ripple;
 mod segment;
+mod share;
 mod speeds;
 mod statistics;
 mod support;
@@ -36,6 +38,6 @@ pub use ripple::Ripple;
 pub use segment::Segment;
 pub use speeds::identify;
 pub use support::Wanted;
-pub use timing::Timing;
+pub use timing::{ActingShare, Timing};
 pub use track::{Track, TrackError};
 pub use verify::{Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};

@@ -61,6 +61,9 @@ const BOUNDS: [f64; 5] = [1.0, 5.0, 20.0, 80.0, f64::INFINITY];
 /// Slower than that in mm/s is rest.
 const REST: f64 = 0.05;
 
+/// Velocities with less noise in mm/s are commanded ones.
+const QUIET: f64 = 0.002;
+
 /// The velocity is averaged over so many s.
 const AVERAGED_S: f64 = 0.01;
 
@@ -143,6 +146,7 @@ pub fn verify_followed(
         samples: &samples,
         errors: &errors,
         predicted: &motion.predicted,
+        velocities: &motion.velocities,
         accelerations: &motion.accelerations,
         turns: &at_once,
         signs: &motion.signs,
@@ -228,6 +232,8 @@ impl Predictor<'_> {
 struct Motion {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
+    /// Slower than that in mm/s is no direction.
+    rest: f64,
     /// The direction of each sample; at rest the last one goes on.
     signs: Vec<f64>,
     predicted: Vec<f64>,
@@ -237,11 +243,18 @@ impl Motion {
     fn of(samples: &Samples, predictor: &Predictor<'_>) -> Self {
         let velocities =
             moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
+        let noise = noise_of(&samples.velocities);
+        // Commanded velocities turn where their sign changes; an average would turn elsewhere.
+        let (turning, rest) = if noise < QUIET {
+            (&samples.velocities, REST.min(5.0 * noise))
+        } else {
+            (&velocities, REST)
+        };
         let mut direction = 0.0;
-        let signs: Vec<f64> = velocities
+        let signs: Vec<f64> = turning
             .iter()
             .map(|velocity| {
-                if velocity.abs() > REST {
+                if velocity.abs() > rest {
                     direction = velocity.signum();
                 }
                 direction
@@ -254,7 +267,8 @@ impl Motion {
         };
         Self {
             accelerations: (0..=end).map(slope).collect(),
-            predicted: predictor.currents(samples, &velocities),
+            predicted: predictor.currents(samples, turning),
+            rest,
             signs,
             velocities,
         }
@@ -293,9 +307,8 @@ impl Motion {
     /// Whether the axis turns without standing still: only then time is seen.
     fn turns_at_once(&self, at: usize) -> bool {
         const LONGEST: usize = 20;
-        let moving = |index: &usize| self.velocities[*index].abs() > REST;
-        let before = (0..at).rev().take(LONGEST).find(moving);
-        before.is_some_and(|index| self.velocities[index] * self.velocities[at] < 0.0)
+        let moving = |index: usize| self.velocities[index].abs() > self.rest;
+        (at.saturating_sub(LONGEST)..at).any(moving)
     }
 
     fn reversal(&self, samples: &Samples, rest: &[f64], at: usize) -> Option<Reversal> {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::circle::{CircleReport, Subject};
+use crate::svg::PolarStroke;
 use crate::svg::{PolarChart, PolarPanel, PolarSeries};
 use crate::visible::{last_part, visible_line};
 use frictcomp_physics::circle::{Direction, RadialProfile, UM_PER_M};
@@ -10,24 +11,26 @@ use frictcomp_physics::circle::{Direction, RadialProfile, UM_PER_M};
 /// Points of a path in the picture.
 const POINTS: usize = 7200;
 
-/// The paths of a circular test, compensation off and on beside each other, each with its own
-/// magnification: what is left with compensation is small against what is there without.
+/// The paths of a circular test, compensation off and on in one circle at one magnification, and what is
+/// left with compensation in an inset that magnifies it as far as it needs (R5.30).
 pub fn circle(report: &CircleReport) -> PolarChart {
     let mut panels = Vec::new();
     let mut told = Vec::new();
     for side in &report.sides {
-        let paths = side.side.paths.iter();
-        let series = paths.map(|(direction, profile)| PolarSeries {
-            name: match direction {
-                Direction::Cw => "clockwise".to_owned(),
-                _ => "counter-clockwise".to_owned(),
-            },
-            points: outline(profile),
-        });
         let name = match side.name {
             "off" | "on" => format!("compensation {}", side.name),
             name => name.to_owned(),
         };
+        let paths = side.side.paths.iter();
+        let series = paths.map(|(direction, profile)| PolarSeries {
+            name: format!("{name} (clockwise in fine dashes)"),
+            look: usize::from(side.name == "off"),
+            stroke: match direction {
+                Direction::Cw => PolarStroke::Fine,
+                _ => PolarStroke::Full,
+            },
+            points: outline(profile),
+        });
         let glitch = match side.side.figures.glitch_max_um() {
             Some(glitch) => format!("largest glitch {glitch:.1} \u{b5}m"),
             None => "too fast for glitches".to_owned(),
@@ -37,6 +40,11 @@ pub fn circle(report: &CircleReport) -> PolarChart {
             label: format!("{name}, {glitch}"),
             series: series.collect(),
         });
+    }
+    if let [off, on] = &mut panels[..] {
+        off.label = told.join("; ");
+        off.series.extend(on.series.iter().cloned());
+        on.label = "compensation on, magnified further".to_owned();
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (

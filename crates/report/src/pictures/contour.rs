@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::svg::{
-    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, PlaneChart,
-    PlaneMark, PlanePoint, Series, Standing, Stroke,
+    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PlaneChart, PlaneMark,
+    PlanePoint, Series, Standing, Stroke,
 };
 use frictcomp::comp::State;
 use frictcomp::interpreter::PositionFrame;
@@ -209,16 +209,29 @@ impl ContourPicture {
 
     fn strip(&self) -> LineChart {
         let names = ["as programmed", "all on", "all off"];
-        let series = [0, 1, 2].map(|at: usize| Series {
-            name: names[at].to_owned(),
-            points: self.curves[at].points(),
-            drawn: Drawn::Line,
+        // One scale, so that heights can be compared from panel to panel.
+        let curves = [0, 1, 2].map(|at: usize| self.curves[at].points());
+        let largest = curves
+            .iter()
+            .flatten()
+            .map(|point| point[1].abs())
+            .filter(|it| it.is_finite())
+            .fold(0.0, f64::max);
+        let panels = curves.into_iter().zip(names).map(|(points, name)| Panel {
+            y: ChartAxis::linear(format!("{name}: deviation in µm, outside positive"))
+                .reaching(largest),
+            series: vec![Series {
+                name: name.to_owned(),
+                points,
+                drawn: Drawn::Plain,
+            }],
+            ..Panel::default()
         });
         let rows = self.axes.iter().zip(&self.bands);
         LineChart {
             title: "Deviation over time".to_owned(),
             description: "The signed deviation from the path while cutting, in each of the three \
-                          runs, below the states of both axes."
+                          runs on one scale, below the states of both axes."
                 .to_owned(),
             x: ChartAxis::linear("time in s"),
             bands: rows
@@ -227,12 +240,7 @@ impl ContourPicture {
                     bands: bands.clone(),
                 })
                 .collect(),
-            panels: vec![Panel {
-                y: ChartAxis::linear("deviation in µm, outside positive"),
-                series: series.into(),
-                height: PanelHeight::Full,
-                ..Panel::default()
-            }],
+            panels: panels.collect(),
             marks: Vec::new(),
         }
     }

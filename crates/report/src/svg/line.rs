@@ -17,6 +17,8 @@ pub enum Drawn {
     Line,
     /// A line with a marker at each point.
     Marked,
+    /// A line without a colour of its own: colours are those of states elsewhere in the picture.
+    Plain,
     /// A marker at each point and no line.
     Scattered,
     /// A marker at each point and no line. It has no row in the legend of its own and the colour of
@@ -274,8 +276,9 @@ impl Panel {
     fn scale(&self, ticks: u32) -> Scale {
         let values = self.series.iter().flat_map(|series| &series.points);
         let zero = self.y.from_zero.then_some(0.0);
+        let reach = self.y.reach.into_iter().flat_map(|it| [-it, it]);
         Scale::over(
-            values.map(|point| point[1]).chain(zero),
+            values.map(|point| point[1]).chain(zero).chain(reach),
             self.y.spacing,
             Ends::Round,
             ticks,
@@ -297,6 +300,7 @@ impl Panel {
         for (number, series) in self.numbered() {
             let number = number % SERIES;
             let class = match series.drawn {
+                Drawn::Plain => "fc-curve fc-axis".to_owned(),
                 Drawn::Held => format!("fc-curve fc-s{number} fc-held"),
                 Drawn::Steps | Drawn::Notches => format!("fc-curve fc-s{number} fc-steps"),
                 _ => format!("fc-curve fc-s{number}"),

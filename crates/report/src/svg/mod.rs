@@ -24,7 +24,7 @@ pub use bands::{Band, BandChart, BandRow, BandState, Standing};
 pub use frame::{Frame, STYLE};
 pub use line::{CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
 pub use plane::{PlaneChart, PlaneMark, PlanePoint, Stroke};
-pub use polar::{PolarChart, PolarPanel, PolarSeries};
+pub use polar::{PolarChart, PolarPanel, PolarSeries, PolarStroke};
 pub use reduce::Curve;
 pub(super) use scale::number;
 pub use scale::{ChartAxis, SecondUnit, Spacing};

@@ -27,6 +27,9 @@ const STRAIGHT: f64 = 7.0;
 /// Marks in a square of this size are drawn as one.
 const CELL: f64 = 13.0;
 
+/// About how long the scale of the path is.
+const PATH_BAR: f64 = 70.0;
+
 /// The class of a stretch that is left out.
 const LEFT_OUT: &str = "fc-curve fc-s3";
 
@@ -158,6 +161,7 @@ impl PlaneChart {
         self.draw_axes(&mut canvas);
         self.draw_path(&mut canvas, &fit);
         self.draw_marks(&mut canvas, &fit);
+        self.draw_labels(&mut canvas, &fit);
         let bottom = self.draw_legend(&mut canvas, &fit);
         let mut height = bottom + 18.0;
         if let Some(below) = &self.below {
@@ -249,33 +253,73 @@ impl PlaneChart {
             );
             canvas.close_link(href);
         }
-        let mut taken: Vec<Area> = Vec::new();
+    }
+
+    /// The words beside the worst marks, where neither the path nor another mark is in their way (R11.5); a
+    /// thin line leads to a mark that is farther off. Where there is no room, the mark keeps its title.
+    fn draw_labels(&self, canvas: &mut Canvas, fit: &Fit) {
+        const LINE: f64 = 16.0;
+        let mut ground = Ground::default();
+        for pair in self.points.windows(2) {
+            for of in [
+                |fit: &Fit, it: &PlanePoint| fit.place(it.place),
+                Fit::magnified,
+            ] {
+                ground.take_line(of(fit, &pair[0]), of(fit, &pair[1]));
+            }
+        }
+        for mark in &self.marks {
+            ground.take_line(fit.place(mark.place), fit.place(mark.place));
+        }
         for mark in &self.marks {
             let Some(text) = &mark.label else {
                 continue;
             };
             let (x, y) = fit.place(mark.place);
             let width = super::canvas::text_width(text);
-            let (anchor, x) = if x + width + 20.0 > WIDTH {
-                (Anchor::End, x - 9.0)
-            } else {
-                (Anchor::Start, x + 9.0)
+            let beside = |(far, turn): (f64, f64)| {
+                let (sine, cosine) = turn.sin_cos();
+                let middle = (
+                    x + cosine * (far + width / 2.0),
+                    y - sine * (far + LINE / 2.0),
+                );
+                Area {
+                    x: middle.0 - width / 2.0,
+                    y: middle.1 - LINE / 2.0,
+                    width,
+                    height: LINE,
+                }
             };
-            let area = Area {
-                x: if anchor == Anchor::End { x - width } else { x },
-                y: y - 20.0,
-                width,
-                height: 18.0,
+            let places = [10.0, 26.0, 44.0, 70.0, 100.0].into_iter().flat_map(|far| {
+                (0..16).map(move |part| (far, f64::from(part) * std::f64::consts::TAU / 16.0))
+            });
+            let fits = |area: &Area| {
+                let inside = area.x > 60.0
+                    && area.right() < WIDTH - 6.0
+                    && area.y > 40.0
+                    && area.bottom() < ROOM.bottom() + 4.0;
+                inside && ground.is_free(*area)
             };
-            if taken.iter().all(|other| !overlap(*other, area)) {
-                canvas.text("", (x, y - 7.0), anchor, text);
-                taken.push(area);
+            let Some(area) = places.map(beside).find(fits) else {
+                continue;
+            };
+            ground.take(area);
+            let near = (
+                x.clamp(area.x, area.right()),
+                y.clamp(area.y, area.bottom()),
+            );
+            if length(near, (x, y)) > 16.0 {
+                canvas.line("fc-axis", (x, y), near);
             }
+            let middle = area.x + width / 2.0;
+            canvas.text("", (middle, area.y + 12.0), Anchor::Middle, text);
         }
     }
 
+    /// The legend in rows with room for larger letters of narrow windows, and the scales below it.
     fn draw_legend(&self, canvas: &mut Canvas, fit: &Fit) -> f64 {
-        let y = ROOM.bottom() + 20.0;
+        const LARGER: f64 = 1.3;
+        let mut y = ROOM.bottom() + 20.0;
         let mut x = 16.0;
         let lines = [
             ("fc-curve fc-s0", "compensated"),
@@ -290,28 +334,33 @@ impl PlaneChart {
         for (class, text) in lines.into_iter().chain(left_out) {
             canvas.path(class, [(x, y), (x + 26.0, y)]);
             canvas.text("", (x + 32.0, y + 4.0), Anchor::Start, text);
-            x += 56.0 + super::canvas::text_width(text);
+            x += 48.0 + LARGER * super::canvas::text_width(text);
+        }
+        let text = "reversal without compensation";
+        if x + 16.0 + LARGER * super::canvas::text_width(text) > WIDTH {
+            (x, y) = (16.0, y + 22.0);
         }
         canvas.circle("fc-outline", (x + 6.0, y), 4.5);
         canvas.circle("fc-m1", (x + 6.0, y), 2.2);
-        canvas.text(
-            "",
-            (x + 16.0, y + 4.0),
-            Anchor::Start,
-            "reversal without compensation",
-        );
-        let step = round_step(LARGEST / (fit.scale * fit.magnification) * 1000.0 / 2.0);
-        let length = step / 1000.0 * fit.magnification * fit.scale;
-        let right = WIDTH - 24.0;
-        canvas.line("fc-axis", (right - length, y), (right, y));
-        canvas.line(
-            "fc-axis",
-            (right - length, y - 4.0),
-            (right - length, y + 4.0),
-        );
-        canvas.line("fc-axis", (right, y - 4.0), (right, y + 4.0));
-        let text = format!("{} µm", label(step, step));
-        canvas.text("", (right - length - 6.0, y + 4.0), Anchor::End, &text);
+        canvas.text("", (x + 16.0, y + 4.0), Anchor::Start, text);
+        y += 24.0;
+        let of_deviation = fit.scale * fit.magnification / 1000.0;
+        let bars = [
+            (LARGEST / 2.0, of_deviation, "µm of the deviation"),
+            (PATH_BAR, fit.scale, "mm of the path"),
+        ];
+        x = 16.0;
+        for (about, scale, unit) in bars {
+            let step = round_step(about / scale);
+            let right = x + step * scale;
+            canvas.line("fc-axis", (x, y), (right, y));
+            for end in [x, right] {
+                canvas.line("fc-axis", (end, y - 4.0), (end, y + 4.0));
+            }
+            let text = format!("{} {unit}", label(step, step));
+            canvas.text("", (right + 8.0, y + 4.0), Anchor::Start, &text);
+            x = right + 40.0 + LARGER * super::canvas::text_width(&text);
+        }
         y
     }
 }
@@ -349,10 +398,53 @@ fn off_line(point: (f64, f64), (from, to): ((f64, f64), (f64, f64))) -> f64 {
     cross.abs() / length(from, to)
 }
 
-fn overlap(one: Area, other: Area) -> bool {
-    let beside = one.right() < other.x || other.right() < one.x;
-    let above = one.bottom() < other.y || other.bottom() < one.y;
-    !(beside || above)
+/// Squares of the picture on which something is drawn.
+#[derive(Debug, Default)]
+struct Ground {
+    taken: std::collections::BTreeSet<(i64, i64)>,
+}
+
+impl Ground {
+    /// The side of a square.
+    const SQUARE: f64 = 6.0;
+
+    #[allow(clippy::cast_possible_truncation)] // within the picture
+    fn square((x, y): (f64, f64)) -> (i64, i64) {
+        (
+            (x / Self::SQUARE).floor() as i64,
+            (y / Self::SQUARE).floor() as i64,
+        )
+    }
+
+    fn take_line(&mut self, from: (f64, f64), to: (f64, f64)) {
+        let steps = (length(from, to) / (Self::SQUARE / 2.0))
+            .ceil()
+            .clamp(1.0, 2000.0);
+        let mut step = 0.0;
+        while step <= steps {
+            let part = step / steps;
+            let at = (
+                from.0 + part * (to.0 - from.0),
+                from.1 + part * (to.1 - from.1),
+            );
+            self.taken.insert(Self::square(at));
+            step += 1.0;
+        }
+    }
+
+    fn squares(area: Area) -> impl Iterator<Item = (i64, i64)> {
+        let (left, top) = Self::square((area.x, area.y));
+        let (right, bottom) = Self::square((area.right(), area.bottom()));
+        (left..=right).flat_map(move |x| (top..=bottom).map(move |y| (x, y)))
+    }
+
+    fn is_free(&self, area: Area) -> bool {
+        Self::squares(area).all(|square| !self.taken.contains(&square))
+    }
+
+    fn take(&mut self, area: Area) {
+        self.taken.extend(Self::squares(area));
+    }
 }
 
 /// The points cut into stretches that are drawn alike; each begins where the one before it ends.

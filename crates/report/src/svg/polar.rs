@@ -12,11 +12,26 @@ use super::scale::{label, round_step};
 /// One way round the circle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarSeries {
-    /// Its name in the legend.
+    /// Its name in the legend; series of one name have one row.
     pub name: String,
+    /// Its colour: 0 where compensation is on, 1 where it is off.
+    pub look: usize,
+    /// Whether it is drawn finer, as the other way round the circle.
+    pub stroke: PolarStroke,
     /// Pairs of the angle from the first axis in rad and the radial deviation in µm, in the order
     /// of the motion.
     pub points: Vec<[f64; 2]>,
+}
+
+/// How the two ways round the circle are told apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum PolarStroke {
+    /// As it is.
+    #[default]
+    Full,
+    /// Finer, in dashes.
+    Fine,
 }
 
 /// A circle with its own magnification.
@@ -28,7 +43,7 @@ pub struct PolarPanel {
     pub series: Vec<PolarSeries>,
 }
 
-/// Radial deviations from a commanded circle, one panel beside the other.
+/// Radial deviations from a commanded circle; beside it an inset with a magnification of its own (R5.30).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarChart {
     /// The heading.
@@ -39,7 +54,7 @@ pub struct PolarChart {
     pub axes: [String; 2],
     /// The commanded radius in mm.
     pub radius: f64,
-    /// One or two circles.
+    /// One circle, or one and the inset.
     pub panels: Vec<PolarPanel>,
 }
 
@@ -56,21 +71,28 @@ struct Layout {
 /// The heading and what stands above the circle.
 const TOP: f64 = 112.0;
 
+/// On a smaller circle there is no room for the names of all rings.
+const SMALL: f64 = 100.0;
+
 /// The names of the quadrants around the rings.
 const NAMES: f64 = 34.0;
 
 impl Layout {
     /// The panel with a number out of so many.
     fn of(number: usize, count: usize) -> Self {
-        let (circle, reach) = if count > 1 {
-            (105.0, 62.0)
-        } else {
-            (190.0, 110.0)
+        let (circle, reach) = match (number, count) {
+            (_, 0 | 1) => (190.0, 110.0),
+            (0, _) => (145.0, 88.0),
+            _ => (74.0, 42.0),
         };
-        #[allow(clippy::cast_precision_loss)] // two
-        let [number, count] = [number, count.max(1)].map(|it| it as f64);
+        let half = circle + reach + NAMES;
+        let x = match (number, count) {
+            (_, 0 | 1) => WIDTH / 2.0,
+            (0, _) => 14.0 + half,
+            _ => WIDTH - 14.0 - half,
+        };
         Self {
-            centre: (WIDTH * (number + 0.5) / count, TOP + NAMES + reach + circle),
+            centre: (x, TOP + half),
             circle,
             reach,
         }
@@ -97,26 +119,30 @@ impl PolarChart {
             canvas.text("", (layout.left(), 54.0), Anchor::Start, &panel.label);
             magnified.draw_rings(&mut canvas);
             self.draw_directions(&mut canvas, layout);
-            for (number, series) in panel.series.iter().enumerate() {
-                let number = number % SERIES;
+            for series in &panel.series {
+                let look = series.look % SERIES;
                 let kept = reduce(&series.points, |[angle, _]| angle / TAU * 1440.0);
-                let class = format!("fc-curve fc-s{number}");
+                let class = match series.stroke {
+                    PolarStroke::Full => format!("fc-curve fc-s{look}"),
+                    PolarStroke::Fine => format!("fc-curve fc-s{look} fc-held"),
+                };
                 canvas.path(&class, kept.iter().map(|&point| magnified.place(point)));
             }
             magnified.draw_bar(&mut canvas, self.radius);
         }
         let bottom = Layout::of(0, count).bottom();
-        let longest = self.panels.iter().max_by_key(|panel| panel.series.len());
-        let named = longest.map_or(&[][..], |panel| &panel.series);
-        let legend = Legend {
-            items: (named.iter().enumerate())
-                .map(|(look, series)| LegendItem {
-                    look,
-                    name: &series.name,
-                    drawn: LegendLook::Line,
-                })
-                .collect(),
-        };
+        let mut items: Vec<LegendItem<'_>> = Vec::new();
+        for series in self.panels.iter().flat_map(|panel| &panel.series) {
+            let item = LegendItem {
+                look: series.look,
+                name: &series.name,
+                drawn: LegendLook::Line,
+            };
+            if !items.contains(&item) {
+                items.push(item);
+            }
+        }
+        let legend = Legend { items };
         let height = legend.draw(&mut canvas, (16.0, bottom)) + bottom + 10.0;
         canvas.finish(
             frame,
@@ -195,6 +221,11 @@ impl Magnified {
             let class = if ring == 0.0 { "fc-axis" } else { "fc-grid" };
             let radius = circle + ring * self.step * self.factor;
             canvas.circle(class, centre, radius);
+            // Among small rings the outermost ones and the circle have their names.
+            let is_named = ring == 0.0 || ring.abs() > self.rings - 0.5;
+            if !is_named && self.layout.circle < SMALL {
+                continue;
+            }
             let mut text = label(ring * self.step, self.step);
             if ring > 0.0 {
                 text.insert(0, '+');
@@ -220,13 +251,15 @@ impl Magnified {
         if radius > 0.0 && radius.is_finite() {
             // The commanded circle is drawn `circle` long for `radius` millimetres.
             let times = self.factor * 1000.0 * radius / self.layout.circle;
-            let text = format!(
-                "deviation magnified {}\u{d7} against the circle of {} mm",
-                label(round_to_two_digits(times), 1.0),
-                label(radius, decimal_of(radius)),
-            );
+            let times = label(round_to_two_digits(times), 1.0);
+            let mm = label(radius, decimal_of(radius));
+            let whole = format!("deviation magnified {times}\u{d7} against the circle of {mm} mm");
+            let text = if left + text_width(&whole) < WIDTH - 16.0 {
+                whole
+            } else {
+                format!("deviation magnified {times}\u{d7}")
+            };
             canvas.text("fc-quiet", (left, y + 22.0), Anchor::Start, &text);
-            debug_assert!(text_width(&text) < WIDTH, "it fits into a picture");
         }
     }
 }

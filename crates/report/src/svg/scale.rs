@@ -22,6 +22,8 @@ pub struct ChartAxis {
     pub spacing: Spacing,
     /// Whether 0 is on it, whatever the values are.
     pub from_zero: bool,
+    /// How far it reaches in both directions, whatever the values are.
+    pub reach: Option<f64>,
     /// The same values in another unit, at the other side.
     pub second: Option<SecondUnit>,
 }
@@ -65,6 +67,12 @@ impl ChartAxis {
     /// The same with 0 on it.
     pub fn from_zero(mut self) -> Self {
         self.from_zero = true;
+        self
+    }
+
+    /// The same, reaching so far in both directions.
+    pub fn reaching(mut self, reach: f64) -> Self {
+        self.reach = Some(reach);
         self
     }
 

@@ -6,7 +6,7 @@
 //! random numbers; these here give the same numbers everywhere and always.
 
 /// Points of a generation.
-const POINTS: usize = 12;
+pub(super) const POINTS: usize = 12;
 
 /// Points that count, the better half.
 const COUNTED: usize = POINTS / 2;

@@ -7,6 +7,7 @@
 //! who makes the [`Simulations`] makes them in any order.
 
 mod candidate;
+mod check;
 mod evolution;
 mod heights;
 mod ranges;
@@ -18,7 +19,8 @@ mod task;
 mod tuned;
 
 pub use candidate::Candidate;
+pub use check::Checked;
 pub use heights::Heights;
 pub use ranges::{FreeParameter, Ranges};
-pub use task::{Shaping, Task};
-pub use tuned::{FeedResult, Simulations, Tuned, TunedAxis, tune, tune_with};
+pub use task::{Aim, Shaping, Task};
+pub use tuned::{FeedResult, Robust, Simulations, Tuned, TunedAxis, tune, tune_with};

@@ -41,6 +41,8 @@ pub(super) struct AxisAlone<'a> {
     pub(super) drive: &'a DriveParameters,
     pub(super) model: FrictionModel,
     pub(super) reading: Reading,
+    /// How much later within its CNC cycle the axis reverses than on a whole run, in cycles.
+    pub(super) phase: f64,
 }
 
 /// The commanded angle of one reversal of an axis in the turn that a whole run evaluates, which
@@ -71,7 +73,7 @@ impl AxisAlone<'_> {
         let first = window.begin.saturating_sub(lead);
         let turning = circle.angular_velocity() * circle.cycle_time_s;
         let stretch = Stretch {
-            start: real(first) * turning,
+            start: (real(first) - self.phase) * turning,
             length: real(window.end - first) * turning,
             lead: window.begin - first,
             direction: Direction::Ccw,

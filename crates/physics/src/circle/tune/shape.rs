@@ -7,7 +7,7 @@
 //! `reversal_lookahead`.
 
 use super::candidate::Candidate;
-use super::evolution::Evolution;
+use super::evolution::{Evolution, POINTS};
 use super::heights::Heights;
 use super::ranges::Ranges;
 use crate::simulation::{DriveParameters, plant_list_at};
@@ -24,6 +24,9 @@ const FREE: usize = 12;
 
 /// How far an output may be from the curve, as a part.
 const BOUND: f64 = 0.6;
+
+/// How much the parts of three neighbours may bend: second difference of outputs by their curve (R5.29).
+const BEND: f64 = 0.15;
 
 /// The first step of the search, as a part of the curve.
 const STEP: f64 = 0.15;
@@ -83,6 +86,9 @@ struct Run {
 }
 
 impl ShapeSearch {
+    /// Lists that a search tries at most.
+    pub(super) const MOST_TRIALS: usize = MOST * POINTS;
+
     /// A search around the friction curve of a drive with the parameters that are best without a
     /// shape. Outputs are written as `points`.
     pub(super) fn new(
@@ -167,15 +173,12 @@ impl ShapeSearch {
     /// The list of a point of the search, within all bounds.
     fn shaped(&self, point: &[f64]) -> FrictionList {
         let candidate = self.candidate(point);
-        let factors = point.iter().take(FREE);
-        let bent = self
-            .curve
-            .table
-            .iter()
-            .zip(factors.chain(std::iter::repeat(&0.0)));
+        let factors = smoothed(point);
+        let factors = factors.iter().chain(std::iter::repeat(&0.0));
+        let bent = self.curve.table.iter().zip(factors);
         let bent = bent.map(|(point, factor)| TablePoint {
             input: point.input,
-            output: point.output * (1.0 + factor.clamp(-BOUND, BOUND)),
+            output: point.output * (1.0 + factor),
         });
         let list = FrictionList {
             table: bent.collect(),
@@ -220,8 +223,9 @@ impl ShapeSearch {
 
     /// How far a point of the search is out of bounds.
     fn excess(&self, point: &[f64]) -> f64 {
-        let factors = point.iter().take(FREE);
-        let outside = factors.map(|it| (it.abs() - BOUND).max(0.0).powi(2));
+        let smoothed = smoothed(point);
+        let factors = point.iter().zip(smoothed);
+        let outside = factors.map(|(wanted, taken)| (wanted - taken).powi(2));
         let candidate = self.candidate(point);
         let taken = [
             f64::from(candidate.delay_cycles),
@@ -233,4 +237,36 @@ impl ShapeSearch {
         let beyond = wanted.map(|((wanted, taken), unit)| ((wanted - taken) / unit).powi(2));
         outside.sum::<f64>() + beyond.sum::<f64>()
     }
+}
+
+/// The factors of a point of the search, within their bounds and without kinks: again and again, three
+/// neighbours that bend too much share what is too much. The points of the curve that follow are not free.
+fn smoothed(point: &[f64]) -> [f64; FREE] {
+    const ROUNDS: usize = 200;
+    // Rounded outputs bend a little more.
+    const ALLOWED: f64 = 0.93 * BEND;
+    let mut factors = [0.0; FREE + 2];
+    for (factor, wanted) in factors.iter_mut().zip(&point[..FREE]) {
+        *factor = wanted.clamp(-BOUND, BOUND);
+    }
+    for _ in 0..ROUNDS {
+        let mut is_smooth = true;
+        for at in 1..=FREE {
+            let bend = factors[at - 1] - 2.0 * factors[at] + factors[at + 1];
+            let excess = bend - bend.clamp(-ALLOWED, ALLOWED);
+            if excess.abs() > 1e-3 {
+                is_smooth = false;
+            }
+            // The normal of the bound is 1, -2, 1; what is not free does not move.
+            let moved = |at: usize| if at < FREE { 1.0 } else { 0.0 };
+            let length = moved(at - 1) + 4.0 * moved(at) + moved(at + 1);
+            for (place, weight) in [(at - 1, 1.0), (at, -2.0), (at + 1, 1.0)] {
+                factors[place] -= moved(place) * weight * excess / length;
+            }
+        }
+        if is_smooth {
+            break;
+        }
+    }
+    std::array::from_fn(|at| factors[at].clamp(-BOUND, BOUND))
 }

@@ -31,6 +31,20 @@ pub struct Task {
     pub points: Points,
     /// Whether the points below 1 mm/s get a shape of their own.
     pub shaping: Shaping,
+    /// For which machines the list must be good.
+    pub aim: Aim,
+}
+
+/// For which machines a list must be good (R5.29).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Aim {
+    /// The plant as it is described.
+    #[default]
+    Plant,
+    /// That one, and those whose contact is half or twice as stiff or whose friction differs by ±10 %
+    /// between the directions; on the plant itself the list may leave a quarter more.
+    Robust,
 }
 
 /// Whether the points below 1 mm/s get a shape of their own.
@@ -111,15 +125,15 @@ impl Task {
         &self,
         axes: &[PlaneAxis],
         compensation: &Method,
-        bound_um: f64,
+        (circles, bound_um): (&[Circle], f64),
     ) -> Result<Heights, CircleError> {
-        let mut heights = vec![0.0; self.circles.len()];
-        let mut order: Vec<usize> = (0..self.circles.len()).collect();
+        let mut heights = vec![0.0; circles.len()];
+        let mut order: Vec<usize> = (0..circles.len()).collect();
         // The fastest circle is the shortest simulation.
-        let feed = |at: &usize| self.circles[*at].feed_mm_per_min;
+        let feed = |at: &usize| circles[*at].feed_mm_per_min;
         order.sort_by(|one, other| feed(other).total_cmp(&feed(one)));
         for at in order {
-            heights[at] = self.glitch_um(axes, self.circles[at], Some(compensation))?;
+            heights[at] = self.glitch_um(axes, circles[at], Some(compensation))?;
             if heights[at] >= bound_um {
                 return Ok(Heights::lost());
             }
@@ -149,6 +163,7 @@ impl Task {
                 drive: self.drive(axis),
                 model: self.model,
                 reading: self.reading,
+                phase: 0.0,
             };
             alone.glitch_um(circle, compensation)
         });

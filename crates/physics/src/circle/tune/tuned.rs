@@ -6,10 +6,12 @@ use super::super::crossing::PlaneAxis;
 use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
+use super::check::{CHECKED, Checked, Deviating};
 use super::heights::Heights;
 use super::search::Search;
 use super::shape::ShapeSearch;
 use super::space::{Lists, Space, Stictions};
+use super::task::Aim;
 use super::task::{Shaping, Task, Variant};
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
@@ -69,6 +71,20 @@ impl TunedAxis {
     }
 }
 
+/// A robust list against one for the plant alone: the largest glitch over the range, on the plant and on
+/// machines that deviate from it (R5.29).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Robust {
+    /// Whether it gains 5 % or more and costs a quarter at most on the plant; else the other list is kept.
+    pub is_taken: bool,
+    /// The list for the plant alone.
+    #[serde(rename = "glitch_plain")]
+    pub plain_um: f64,
+    /// The robust one.
+    #[serde(rename = "glitch_robust")]
+    pub robust_um: f64,
+}
+
 /// The result of a tuning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tuned {
@@ -76,6 +92,10 @@ pub struct Tuned {
     pub axes: [TunedAxis; 2],
     /// What the lists leave on each circle.
     pub feeds: Vec<FeedResult>,
+    /// What they leave at accelerations all over the range (R5.29).
+    pub check: Vec<Checked>,
+    /// What a search for a robust list found, where that was wanted.
+    pub robust: Option<Robust>,
     /// How many lists, or sets of parameters, were tried.
     pub trials: usize,
 }
@@ -86,12 +106,10 @@ impl Tuned {
         self.axes.iter().any(|axis| axis.stiction().is_some())
     }
 
-    /// The largest glitch with compensation.
+    /// The largest glitch with compensation, on the circles and all over their range.
     pub fn worst_um(&self) -> f64 {
-        self.feeds
-            .iter()
-            .map(|it| it.glitch_on_um)
-            .fold(0.0, f64::max)
+        let circles = self.feeds.iter().map(|it| it.glitch_on_um);
+        circles.fold(worst(&self.check, |it| it.glitch_on_um), f64::max)
     }
 
     /// The range of v²/R in mm/s² for which the lists were tuned.
@@ -104,7 +122,7 @@ impl Tuned {
 }
 
 /// Simulations that do not depend on each other: how many there are, and what makes one of them.
-pub trait Simulations: Send {
+pub trait Simulations: Send + Sync {
     /// Makes all of them, in any order, and gives their results in theirs.
     ///
     /// # Errors
@@ -141,55 +159,45 @@ pub fn tune(task: &Task) -> Result<Tuned, CircleError> {
 /// A shape is taken if it leaves at most this part of the largest glitch.
 const WORTH_IT: f64 = 0.95;
 
+/// A robust list is taken if it leaves at most this part of what the other leaves on machines that
+/// deviate (R5.29) …
+const WORTH_ROBUST: f64 = 0.95;
+
+/// … and at most this factor more on the plant.
+const ROBUST_COSTS: f64 = 1.25;
+
 /// Tunes with whoever makes the simulations; the result is the same.
 ///
 /// # Errors
 /// A circle that cannot be simulated, or has no glitch.
 pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, CircleError> {
     task.check()?;
-    let tuning = Tuning { task, simulations };
-    let mut trials = 0;
-    let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
-    let [of_x, of_y] = Method::of_plant(&task.plant);
-    for axes in task.groups() {
-        let Some(&first) = axes.first() else { continue };
-        let own = match first {
-            PlaneAxis::X => &of_x,
-            PlaneAxis::Y => &of_y,
-        };
-        let (plain, shaped) = match own {
-            Some(Method::Current(_)) => tuning.list(&axes, &mut trials)?,
-            Some(Method::Stiction(stiction)) => {
-                (tuning.stiction(&axes, stiction, &mut trials)?, None)
-            }
-            None => (TunedAxis::default(), None),
-        };
-        found.extend(
-            axes.iter()
-                .map(|&axis| (axis, plain.clone(), shaped.clone())),
-        );
-    }
-    let of = |axis: PlaneAxis, shaping: Shaping| {
-        let mut found = found.iter().filter(|(of, ..)| *of == axis);
-        let (_, plain, shaped) = found.next().expect("every axis is in a group");
-        match shaping {
-            Shaping::Allowed => shaped.as_ref().unwrap_or(plain).clone(),
-            Shaping::None => plain.clone(),
-        }
+    let mut tuning = Tuning {
+        task,
+        simulations,
+        searched: task.searched(),
+        limit_um: None,
     };
-    let both = |shaping| PlaneAxis::ALL.map(|axis| of(axis, shaping));
-    let mut axes = both(Shaping::None);
-    let shaped = both(Shaping::Allowed);
-    if shaped != axes {
-        let worst = |axes: &[TunedAxis; 2]| {
-            let glitches = tuning.wholes(axes, &[Variant::On])?;
-            Ok(glitches.into_iter().flatten().fold(0.0, f64::max))
-        };
-        if worst(&shaped)? <= WORTH_IT * worst(&axes)? {
-            axes = shaped;
+    let mut trials = 0;
+    let mut found = tuning.found(&mut trials)?;
+    let mut robust = None;
+    if task.aim == Aim::Robust {
+        let limit_um = ROBUST_COSTS * worst(&found.check, |it| it.glitch_on_um);
+        tuning.limit_um = Some(limit_um);
+        let other = tuning.found(&mut trials)?;
+        let [before, after] = [&found, &other].map(|it| worst(&it.check, Checked::robust_um));
+        let is_taken =
+            after <= WORTH_ROBUST * before && worst(&other.check, |it| it.glitch_on_um) <= limit_um;
+        robust = Some(Robust {
+            is_taken,
+            plain_um: before,
+            robust_um: after,
+        });
+        if is_taken {
+            found = other;
         }
     }
-    let glitches = tuning.wholes(&axes, &Variant::ALL)?;
+    let glitches = tuning.wholes(&found.axes, &Variant::ALL)?;
     let feeds = task.circles.iter().zip(glitches);
     let feeds = feeds.map(|(circle, glitches)| FeedResult {
         feed_mm_per_min: circle.feed_mm_per_min,
@@ -202,9 +210,21 @@ pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, Ci
     });
     Ok(Tuned {
         feeds: feeds.collect(),
-        axes,
+        axes: found.axes,
+        check: found.check,
+        robust,
         trials,
     })
+}
+
+fn worst(check: &[Checked], of: impl Fn(&Checked) -> f64) -> f64 {
+    check.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Lists, and what they leave over the range.
+struct Found {
+    axes: [TunedAxis; 2],
+    check: Vec<Checked>,
 }
 
 /// A list that without a shape takes most of the glitch away beyond the range that is tuned for must
@@ -241,13 +261,147 @@ impl Reserve {
     }
 }
 
+impl Task {
+    /// How many simulations a tuning makes, about: a search ends when nothing gets better.
+    pub fn expected_trials(&self) -> usize {
+        /// Lists of the search for the parameters of a list, as a rule.
+        const PARAMETERS: usize = 400;
+        let shapes = match self.shaping {
+            Shaping::Allowed => ShapeSearch::MOST_TRIALS,
+            Shaping::None => 0,
+        };
+        let searches = match self.aim {
+            Aim::Plant => 1,
+            Aim::Robust => 2,
+        };
+        let check = CHECKED * Self::reversals_of_a_check();
+        searches * self.groups().len() * (PARAMETERS + shapes + 2 * check)
+    }
+}
+
 /// A task, and who makes its simulations.
 struct Tuning<'a> {
     task: &'a Task,
     simulations: &'a dyn Simulations,
+    /// The circles that a search looks at.
+    searched: Vec<Circle>,
+    /// What a robust list may leave on the plant; without it only the plant counts.
+    limit_um: Option<f64>,
 }
 
 impl Tuning<'_> {
+    /// The best lists, checked over the whole range: with a shape where that leaves less.
+    fn found(&self, trials: &mut usize) -> Result<Found, CircleError> {
+        let task = self.task;
+        let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
+        let [of_x, of_y] = Method::of_plant(&task.plant);
+        for axes in task.groups() {
+            let Some(&first) = axes.first() else { continue };
+            let own = match first {
+                PlaneAxis::X => &of_x,
+                PlaneAxis::Y => &of_y,
+            };
+            let (plain, shaped) = match own {
+                Some(Method::Current(_)) => self.list(&axes, trials)?,
+                Some(Method::Stiction(stiction)) => (self.stiction(&axes, stiction, trials)?, None),
+                None => (TunedAxis::default(), None),
+            };
+            let each = axes.iter();
+            found.extend(each.map(|&axis| (axis, plain.clone(), shaped.clone())));
+        }
+        let of = |axis: PlaneAxis, shaping: Shaping| {
+            let mut found = found.iter().filter(|(of, ..)| *of == axis);
+            let (_, plain, shaped) = found.next().expect("every axis is in a group");
+            match shaping {
+                Shaping::Allowed => shaped.as_ref().unwrap_or(plain).clone(),
+                Shaping::None => plain.clone(),
+            }
+        };
+        let both = |shaping| PlaneAxis::ALL.map(|axis| of(axis, shaping));
+        let checked = |axes: [TunedAxis; 2]| {
+            let check = self.check(&axes)?;
+            Ok(Found { axes, check })
+        };
+        let plain = checked(both(Shaping::None))?;
+        let shaped = both(Shaping::Allowed);
+        if shaped == plain.axes {
+            return Ok(plain);
+        }
+        let shaped = checked(shaped)?;
+        let left = |found: &Found| {
+            worst(&found.check, |it| match self.limit_um {
+                None => it.glitch_on_um,
+                Some(_) => it.robust_um(),
+            })
+        };
+        let is_worth_it = left(&shaped) <= WORTH_IT * left(&plain);
+        Ok(if is_worth_it { shaped } else { plain })
+    }
+
+    /// What lists leave over the whole range.
+    fn check(&self, axes: &[TunedAxis; 2]) -> Result<Vec<Checked>, CircleError> {
+        let task = self.task;
+        let circles = task.checked();
+        let is_same = task.plant.x == task.plant.y && axes[0] == axes[1];
+        let looked_at = &PlaneAxis::ALL[..if is_same { 1 } else { 2 }];
+        let reversals = Task::reversals_of_a_check();
+        let count = looked_at.len() * circles.len() * reversals;
+        let heights = self.simulations.make(count, &|at| {
+            let (row, reversal) = (at / reversals, at % reversals);
+            let axis = looked_at[row / circles.len()];
+            let compensation = match axis {
+                PlaneAxis::X => &axes[0],
+                PlaneAxis::Y => &axes[1],
+            };
+            let circle = circles[row % circles.len()];
+            task.check_reversal(axis, (circle, reversal), compensation.compensation.as_ref())
+        })?;
+        let glitches: Vec<f64> = heights.iter().map(Heights::worst_um).collect();
+        let rows: Vec<Checked> = glitches
+            .chunks(reversals)
+            .enumerate()
+            .map(|(at, glitches)| Task::row(circles[at % circles.len()], glitches))
+            .collect();
+        let (of_first, of_second) = rows.split_at(circles.len());
+        Ok(of_first
+            .iter()
+            .enumerate()
+            .map(|(at, row)| of_second.get(at).map_or(*row, |other| row.or(*other)))
+            .collect())
+    }
+
+    /// What a compensation leaves on each circle of the search; one that reaches `bound_um` has lost.
+    fn heights(
+        &self,
+        axes: &[PlaneAxis],
+        compensation: &Method,
+        bound_um: f64,
+    ) -> Result<Heights, CircleError> {
+        let Some(limit_um) = self.limit_um else {
+            return self
+                .task
+                .heights(axes, compensation, (&self.searched, bound_um));
+        };
+        let of = |circle: &Circle| {
+            let glitches = Deviating::ALL.map(|deviating| {
+                self.task
+                    .deviating_um(axes[0], (*circle, deviating), compensation)
+            });
+            let mut most: f64 = 0.0;
+            let mut plant = 0.0;
+            for (glitch, deviating) in glitches.into_iter().zip(Deviating::ALL) {
+                let glitch = glitch?;
+                most = most.max(glitch);
+                if deviating == Deviating::Nothing {
+                    plant = glitch;
+                }
+            }
+            // What costs too much on the plant is no gain elsewhere.
+            Ok(most * (plant / limit_um).max(1.0).powi(2))
+        };
+        let heights: Result<Vec<f64>, CircleError> = self.searched.iter().map(of).collect();
+        Ok(Heights(heights?))
+    }
     /// The best value list of axes whose table is their friction curve, and the best with a shape.
     fn list(
         &self,
@@ -307,7 +461,7 @@ impl Tuning<'_> {
         while let Some(trials) = search.next_trials() {
             let bound = search.bound();
             let heights = self.simulations.make(trials.len(), &|at| {
-                self.task.heights(axes, &of(trials[at]), bound)
+                self.heights(axes, &of(trials[at]), bound)
             })?;
             search.take(&trials, &heights);
         }
@@ -331,7 +485,7 @@ impl Tuning<'_> {
             let lists: Vec<Method> = lists.into_iter().map(Method::from).collect();
             let heights = self.simulations.make(lists.len(), &|at| {
                 let list = &lists[at];
-                let mut heights = task.heights(axes, list, f64::INFINITY)?;
+                let mut heights = self.heights(axes, list, f64::INFINITY)?;
                 if let Some(reserve) = &reserve {
                     let glitch = task.glitch_um(axes, reserve.circle, Some(list))?;
                     heights.0.push(reserve.weighed(heights.worst_um(), glitch));

@@ -37,6 +37,9 @@ pub struct Friction {
     pub elements: Vec<GmsElement>,
     /// How fast slipping elements approach their share of the friction, C.
     pub attraction_n_per_s: f64,
+    /// The part by which a sliding contact has more friction forwards, and less backwards.
+    #[serde(skip)]
+    pub asymmetry: f64,
 }
 
 impl Friction {
@@ -55,12 +58,19 @@ impl Friction {
         self.coulomb_n + (self.breakaway_n - self.coulomb_n) * fading(power)
     }
 
+    /// The same at a velocity with its direction.
+    #[inline]
+    pub(super) fn level_towards_n(&self, velocity_m_per_s: f64) -> f64 {
+        self.level_n(velocity_m_per_s.abs())
+            * (1.0 + self.asymmetry * 1.0_f64.copysign(velocity_m_per_s))
+    }
+
     /// The friction in N at a constant velocity, `sign(v)·g(v) + fv·v` (R5.10); 0 at standstill.
     pub fn steady_n(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
         }
-        self.level_n(velocity_m_per_s.abs())
+        self.level_towards_n(velocity_m_per_s)
             .copysign(velocity_m_per_s)
             + self.viscous_n_s_per_m * velocity_m_per_s
     }

@@ -30,7 +30,7 @@ impl Gms {
         let level = if velocity == 0.0 {
             0.0
         } else {
-            friction.level_n(velocity.abs()).copysign(velocity)
+            friction.level_towards_n(velocity).copysign(velocity)
         };
         let settle = |&is: &GmsElement| Element {
             is,
@@ -50,7 +50,7 @@ impl Gms {
 
     /// The friction in N over a step at this velocity in m/s.
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
-        let level = self.friction.level_n(velocity.abs()).max(LEAST_N);
+        let level = self.friction.level_towards_n(velocity).max(LEAST_N);
         let damping = self.friction.micro_damping(velocity) * velocity / self.stiffness;
         let approach = (-self.friction.attraction_n_per_s / level * STEP_S).exp();
         let mut force = self.friction.viscous_n_s_per_m * velocity;

@@ -18,7 +18,7 @@ pub(in crate::simulation) struct Lugre {
 impl Lugre {
     pub(super) fn settled(friction: &Friction, velocity: f64) -> Self {
         let slides = if velocity == 0.0 { 0.0 } else { 1.0 };
-        let deflection = slides * friction.level_n(velocity.abs()) / friction.stiffness_n_per_m;
+        let deflection = slides * friction.level_towards_n(velocity) / friction.stiffness_n_per_m;
         Self {
             friction: friction.clone(),
             deflection: deflection.copysign(velocity),
@@ -31,7 +31,7 @@ impl Lugre {
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
         let contact = &self.friction;
         let speed = velocity.abs();
-        let level = contact.level_n(speed).max(LEAST_N);
+        let level = contact.level_towards_n(velocity).max(LEAST_N);
         let rate = contact.stiffness_n_per_m * speed / level;
         let steady = (level / contact.stiffness_n_per_m).copysign(velocity);
         self.deflection = steady + (self.deflection - steady) * fading(rate * STEP_S);

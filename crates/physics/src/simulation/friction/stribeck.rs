@@ -22,7 +22,7 @@ impl Stribeck {
     #[inline]
     pub(super) fn velocity_after(&self, velocity: f64, force: f64, per_mass: f64) -> f64 {
         let free = velocity + per_mass * force;
-        let dry = per_mass * self.friction.level_n(velocity.abs());
+        let dry = per_mass * self.friction.level_towards_n(velocity);
         let rest = (free.abs() - dry).max(0.0);
         // The viscous part acts on the velocity at the end, which is stable for any step.
         (rest / (1.0 + per_mass * self.friction.viscous_n_s_per_m)).copysign(free)

@@ -1,0 +1,251 @@
+//! What a list leaves over the whole range for which it was tuned, not only where it was looked at
+//! (R5.29).
+
+use serde::Serialize;
+
+use super::super::crossing::PlaneAxis;
+use super::super::method::Method;
+use super::super::reference::{Circle, CircleError};
+use super::heights::Heights;
+use super::reversal::AxisAlone;
+use super::task::Task;
+use crate::simulation::DriveParameters;
+
+/// Accelerations at which a result is checked.
+pub(super) const CHECKED: usize = 25;
+
+/// Accelerations that are searched are at most this factor apart.
+const APART: f64 = 2.5;
+
+/// Where within its CNC cycle an axis reverses.
+const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// How much friction differs between the directions, as a part.
+const UNEVEN: f64 = 0.1;
+
+/// What the machine is in place of what the plant says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Deviating {
+    /// What the plant says.
+    Nothing,
+    /// A contact half as stiff.
+    HalfStiff,
+    /// A contact twice as stiff.
+    DoubleStiff,
+    /// 10 % more friction forwards, 10 % less backwards.
+    Forwards,
+    /// The other way round.
+    Backwards,
+}
+
+impl Deviating {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Nothing,
+        Self::HalfStiff,
+        Self::DoubleStiff,
+        Self::Forwards,
+        Self::Backwards,
+    ];
+
+    /// The drive that deviates from `drive` so.
+    pub(super) fn of(self, drive: &DriveParameters) -> DriveParameters {
+        match self {
+            Self::Nothing => drive.clone(),
+            Self::HalfStiff => drive.with_contact(0.5),
+            Self::DoubleStiff => drive.with_contact(2.0),
+            Self::Forwards => drive.uneven(UNEVEN),
+            Self::Backwards => drive.uneven(-UNEVEN),
+        }
+    }
+}
+
+/// What a list leaves at one acceleration, in µm: the largest over the axes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Checked {
+    /// The acceleration v²/R at the reversal in mm/s².
+    #[serde(rename = "acceleration")]
+    pub acceleration_mm_per_s2: f64,
+    /// Without compensation.
+    #[serde(rename = "glitch_off")]
+    pub glitch_off_um: f64,
+    /// With it, at the worst of four places of the reversal within its CNC cycle.
+    #[serde(rename = "glitch_on")]
+    pub glitch_on_um: f64,
+    /// With it, the contact being half as stiff.
+    #[serde(rename = "glitch_stiffness_half")]
+    pub glitch_half_stiff_um: f64,
+    /// With it, the contact being twice as stiff.
+    #[serde(rename = "glitch_stiffness_double")]
+    pub glitch_double_stiff_um: f64,
+    /// With it, friction differing by ±10 % between the directions.
+    #[serde(rename = "glitch_uneven10")]
+    pub glitch_uneven_um: f64,
+}
+
+impl Checked {
+    /// Whether compensation makes it worse, by more than the place of the reversal within its cycle does.
+    pub fn is_worse(&self) -> bool {
+        const PLACE: f64 = 1.02;
+        self.glitch_on_um > PLACE * self.glitch_off_um
+    }
+
+    /// The largest with compensation, on the plant and on those that deviate from it.
+    pub(super) fn robust_um(&self) -> f64 {
+        self.glitch_on_um
+            .max(self.glitch_half_stiff_um)
+            .max(self.glitch_double_stiff_um)
+            .max(self.glitch_uneven_um)
+    }
+
+    /// The larger values of both.
+    pub(super) fn or(self, other: Self) -> Self {
+        Self {
+            acceleration_mm_per_s2: self.acceleration_mm_per_s2,
+            glitch_off_um: self.glitch_off_um.max(other.glitch_off_um),
+            glitch_on_um: self.glitch_on_um.max(other.glitch_on_um),
+            glitch_half_stiff_um: self.glitch_half_stiff_um.max(other.glitch_half_stiff_um),
+            glitch_double_stiff_um: self
+                .glitch_double_stiff_um
+                .max(other.glitch_double_stiff_um),
+            glitch_uneven_um: self.glitch_uneven_um.max(other.glitch_uneven_um),
+        }
+    }
+}
+
+/// Reversals that are simulated for one row of the check.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    deviating: Deviating,
+    phase: f64,
+    is_on: bool,
+}
+
+impl Trial {
+    /// The reversals of a row. A drive that is the same in both directions reverses alike in both.
+    fn all() -> impl Iterator<Item = Self> {
+        let of = |deviating, phase, is_on| Self {
+            deviating,
+            phase,
+            is_on,
+        };
+        let nominal = PHASES.map(|phase| of(Deviating::Nothing, phase, true));
+        let others = Deviating::ALL[1..].iter().map(move |&it| of(it, 0.0, true));
+        [of(Deviating::Nothing, 0.0, false)]
+            .into_iter()
+            .chain(nominal)
+            .chain(others)
+    }
+}
+
+impl Task {
+    /// The circles that a search looks at: those of the task, and others between them.
+    pub(super) fn searched(&self) -> Vec<Circle> {
+        let sorted = self.by_acceleration();
+        let mut searched = self.circles.clone();
+        for pair in sorted.windows(2) {
+            let [from, to] = [pair[0], pair[1]].map(|it| it.acceleration_mm_per_s2());
+            let parts = ((to / from).ln() / APART.ln()).ceil().max(1.0);
+            let mut part = 1.0;
+            while part < parts {
+                let acceleration = from * (to / from).powf(part / parts);
+                searched.push(pair[1].with_acceleration(acceleration));
+                part += 1.0;
+            }
+        }
+        searched
+    }
+
+    /// The circles on which a result is checked, evenly over the range on a logarithmic scale.
+    pub(super) fn checked(&self) -> Vec<Circle> {
+        let sorted = self.by_acceleration();
+        let [Some(first), Some(last)] = [sorted.first(), sorted.last()] else {
+            return Vec::new();
+        };
+        let [from, to] = [first, last].map(|it| it.acceleration_mm_per_s2());
+        if from >= to {
+            return vec![*first];
+        }
+        let at = |number: usize| {
+            #[allow(clippy::cast_precision_loss)] // 25 of them
+            let part = number as f64 / (CHECKED - 1) as f64;
+            let acceleration = from * (to / from).powf(part);
+            let next = sorted.iter().find(|it| {
+                it.acceleration_mm_per_s2() >= acceleration * (1.0 - f64::EPSILON.sqrt())
+            });
+            next.unwrap_or(last).with_acceleration(acceleration)
+        };
+        (0..CHECKED).map(at).collect()
+    }
+
+    fn by_acceleration(&self) -> Vec<Circle> {
+        let mut sorted = self.circles.clone();
+        let by = |circle: &Circle| circle.acceleration_mm_per_s2();
+        sorted.sort_by(|one, other| by(one).total_cmp(&by(other)));
+        sorted
+    }
+
+    /// How many reversals [`check_reversal`](Self::check_reversal) knows for one circle.
+    pub(super) fn reversals_of_a_check() -> usize {
+        Trial::all().count()
+    }
+
+    /// The glitch at one of the reversals of a check, with what compensates the axis.
+    pub(super) fn check_reversal(
+        &self,
+        axis: PlaneAxis,
+        (circle, number): (Circle, usize),
+        compensation: Option<&Method>,
+    ) -> Result<Heights, CircleError> {
+        let trial = Trial::all().nth(number).unwrap_or(Trial {
+            deviating: Deviating::Nothing,
+            phase: 0.0,
+            is_on: true,
+        });
+        let drive = trial.deviating.of(self.drive(axis));
+        let alone = AxisAlone {
+            axis,
+            drive: &drive,
+            model: self.model,
+            reading: self.reading,
+            phase: trial.phase,
+        };
+        let glitch = alone.glitch_um(circle, compensation.filter(|_| trial.is_on))?;
+        Ok(Heights(vec![glitch]))
+    }
+
+    /// The glitch at the reversal of an axis on a machine that deviates.
+    pub(super) fn deviating_um(
+        &self,
+        axis: PlaneAxis,
+        (circle, deviating): (Circle, Deviating),
+        compensation: &Method,
+    ) -> Result<f64, CircleError> {
+        let alone = AxisAlone {
+            axis,
+            drive: &deviating.of(self.drive(axis)),
+            model: self.model,
+            reading: self.reading,
+            phase: 0.0,
+        };
+        alone.glitch_um(circle, Some(compensation))
+    }
+
+    /// The row of a circle from the glitches at its reversals, in their order.
+    pub(super) fn row(circle: Circle, glitches: &[f64]) -> Checked {
+        let mut row = Checked {
+            acceleration_mm_per_s2: circle.acceleration_mm_per_s2(),
+            ..Checked::default()
+        };
+        for (trial, &glitch) in Trial::all().zip(glitches) {
+            let value = match (trial.is_on, trial.deviating) {
+                (false, _) => &mut row.glitch_off_um,
+                (true, Deviating::Nothing) => &mut row.glitch_on_um,
+                (true, Deviating::HalfStiff) => &mut row.glitch_half_stiff_um,
+                (true, Deviating::DoubleStiff) => &mut row.glitch_double_stiff_um,
+                (true, Deviating::Forwards | Deviating::Backwards) => &mut row.glitch_uneven_um,
+            };
+            *value = value.max(glitch);
+        }
+        row
+    }
+}

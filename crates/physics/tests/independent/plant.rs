@@ -1,0 +1,209 @@
+//! Recordings of an axis that drives circles, made without the crate: the additive current of chapter 4,
+//! the loops and the bristle of chapter 5.2, then the noise of an encoder and the steps of a drive.
+
+use std::f64::consts::TAU;
+
+/// The CNC cycle in s, and the time between two rows.
+const CYCLE_S: f64 = 0.001;
+
+/// What is recorded.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bench {
+    pub(crate) stiffness: f64,
+    pub(crate) mass: f64,
+    pub(crate) kv: f64,
+    /// Bandwidth of the speed loop in Hz.
+    pub(crate) bandwidth: f64,
+    pub(crate) reset_s: f64,
+    pub(crate) current_loop_s: f64,
+    /// In mm/min.
+    pub(crate) feed: f64,
+    pub(crate) radius_mm: f64,
+    pub(crate) turns: f64,
+    /// Part of the current of the list that acts.
+    pub(crate) share: f64,
+    pub(crate) lookahead: usize,
+    pub(crate) delay: usize,
+    /// Noise of the recorded position in µm, and of the torque in units.
+    pub(crate) noise: (f64, f64),
+    pub(crate) seed: u64,
+}
+
+pub(crate) const STIFF: Bench = Bench {
+    stiffness: 1e9,
+    mass: 1300.0,
+    kv: 33.3,
+    bandwidth: 45.0,
+    reset_s: 0.012,
+    current_loop_s: 0.0006,
+    feed: 3000.0,
+    radius_mm: 30.0,
+    turns: 2.2,
+    share: 1.0,
+    lookahead: 2,
+    delay: 1,
+    noise: (0.0, 0.0),
+    seed: 1,
+};
+
+pub(crate) const MID: Bench = Bench {
+    stiffness: 3e8,
+    ..STIFF
+};
+
+pub(crate) const SOFT: Bench = Bench {
+    stiffness: 8e7,
+    ..STIFF
+};
+
+/// A fast machine tool.
+pub(crate) const FAST: Bench = Bench {
+    kv: 60.0,
+    bandwidth: 80.0,
+    reset_s: 0.006,
+    current_loop_s: 0.0003,
+    ..MID
+};
+
+/// A slow one.
+pub(crate) const SLOW: Bench = Bench {
+    kv: 20.0,
+    bandwidth: 25.0,
+    reset_s: 0.03,
+    current_loop_s: 0.0015,
+    ..MID
+};
+
+/// N of a drive unit.
+const UNIT: f64 = 5.0;
+
+/// µm after a reversal in which the current of the list builds up.
+const BUILD_UP: f64 = 0.9;
+
+/// Columns in the units of lists and traces.
+#[derive(Debug, Default)]
+pub(crate) struct Recorded {
+    pub(crate) t: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) x: Vec<f64>,
+    pub(crate) torque: Vec<f64>,
+    /// Commanded less actual position.
+    pub(crate) error: Vec<f64>,
+}
+
+/// The friction that slips at a speed in m/s, in N.
+fn level(speed: f64) -> f64 {
+    500.0 + 120.0 * (-speed.abs() / 0.003).exp()
+}
+
+/// The friction at a steady speed in m/s, in drive units: what the list holds.
+pub(crate) fn units_at(speed: f64) -> f64 {
+    (level(speed) + 4000.0 * speed.abs()) / UNIT
+}
+
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * self.uniform().max(1e-300).ln()).sqrt();
+        radius * (TAU * self.uniform()).cos()
+    }
+}
+
+impl Bench {
+    /// Commanded positions in m and velocities in m/s.
+    fn commanded(&self) -> Vec<(f64, f64)> {
+        let radius = self.radius_mm / 1000.0;
+        let omega = self.feed / 60_000.0 / radius;
+        let cycles = (self.turns * TAU / omega / CYCLE_S) as usize;
+        let at = |cycle: usize| {
+            let angle = omega * cycle as f64 * CYCLE_S + 0.4;
+            (radius * angle.cos(), -radius * omega * angle.sin())
+        };
+        (0..=cycles).map(at).collect()
+    }
+
+    /// The current of the whole list, cycle by cycle.
+    fn currents(&self, motion: &[(f64, f64)]) -> Vec<f64> {
+        let (mut direction, mut turned_at, mut is_building) = (0.0, 0.0, false);
+        let mut raw = Vec::new();
+        for (at, &(place, velocity)) in motion.iter().enumerate() {
+            if velocity.signum() != direction {
+                direction = velocity.signum();
+                turned_at = motion[at.saturating_sub(1)].0;
+                is_building = true;
+            }
+            let way = (place - turned_at).abs() * 1e6;
+            is_building &= way < BUILD_UP;
+            let built = if is_building { way / BUILD_UP } else { 1.0 };
+            let later = motion[at + 1..].iter().take(self.lookahead);
+            let until = later
+                .enumerate()
+                .find(|(_, it)| it.1 * direction < 0.0)
+                .map(|it| it.0);
+            let left = until.map_or(1.0, |it| it as f64 / self.lookahead as f64);
+            raw.push(direction * units_at(velocity) * built.min(left));
+        }
+        let late = |at: usize| at.checked_sub(self.delay).map_or(0.0, |it| raw[it]);
+        (0..raw.len()).map(late).collect()
+    }
+
+    pub(crate) fn record(&self) -> Recorded {
+        const STEP: f64 = 62.5e-6;
+        let kp = self.mass * TAU * self.bandwidth;
+        let decay = (-STEP / self.current_loop_s).exp();
+        let motion = self.commanded();
+        let added = self.currents(&motion);
+        let mut random = Random(self.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+        for _ in 0..20 {
+            random.uniform();
+        }
+        let (mut x, mut v) = motion[0];
+        let steady = units_at(v) * UNIT * v.signum();
+        let mut z = level(v) / self.stiffness * v.signum();
+        let (mut force, mut asked, mut command, mut target) = (steady, steady, steady, v);
+        let mut integral = steady - self.share * UNIT * added[0];
+        let mut recorded = Recorded::default();
+        for (at, pair) in motion.windows(2).enumerate() {
+            let ((from, velocity), to) = (pair[0], pair[1].0);
+            let (of_place, of_torque) = self.noise;
+            let error = (from - x) * 1e7 + 10.0 * of_place * random.normal();
+            let torque = force / UNIT + of_torque * random.normal();
+            recorded.t.push(at as f64 * CYCLE_S);
+            recorded.v.push(velocity * 1e6);
+            recorded.x.push(from * 1e7);
+            recorded.error.push((error * 10.0).round() / 10.0);
+            recorded.torque.push(torque.round());
+            for step in 0..16 {
+                if step % 4 == 0 {
+                    let place = from + (to - from) * f64::from(step) / 16.0;
+                    target = self.kv * (place - x) + (to - from) / CYCLE_S;
+                }
+                if step % 2 == 0 {
+                    command = asked;
+                    asked = kp * (target - v) + integral + self.share * UNIT * added[at];
+                    integral += kp / self.reset_s * 125e-6 * (target - v);
+                }
+                force = command + (force - command) * decay;
+                let loss = self.stiffness * v.abs() / level(v);
+                if v != 0.0 {
+                    let steady = level(v) / self.stiffness * v.signum();
+                    z = steady + (z - steady) * (-loss * STEP).exp();
+                }
+                let damping =
+                    0.6 * (self.stiffness * self.mass).sqrt() * (-(v / 0.002).powi(2)).exp();
+                let friction = self.stiffness * z + damping * (v - loss * z) + 4000.0 * v;
+                v += (force - friction) / self.mass * STEP;
+                x += v * STEP;
+            }
+        }
+        recorded
+    }
+}

@@ -272,7 +272,7 @@ impl Recorder<'_> {
         let errors = self.said.iter_mut();
         for error in errors.filter(|said| said.code.severity() == Severity::Error) {
             let words = branch_in_words(ways, file);
-            error.message.push_str(&format!(", if {words}"));
+            error.message = format!("{}, if {words}", error.message);
         }
     }
 

@@ -17,6 +17,7 @@ use crate::interpreter::run::step::Step;
 use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
+use crate::interpreter::values::plain::Truth;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
@@ -143,32 +144,10 @@ impl Interpreter {
             }
             Flow::EndWhile | Flow::EndDo(None) => Some(Step::Jump(links.opener)),
             Flow::EndDo(Some(condition)) => {
-                let value = self.value(*condition, at)?;
-                match (&value, value.truth()) {
-                    (Value::Unknown(cause), _) => {
-                        let goals = [links.opener, entry + 1].map(Goal::block);
-                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
-                            return Ok(None);
-                        }
-                        self.skip_unknown(links.opener..entry, cause, span, at)
-                    }
-                    (_, Some(true)) => Some(Step::Jump(links.opener)),
-                    _ => None,
-                }
+                self.repeat_where((*condition, Truth::Holds), links.opener..entry, at)?
             }
             Flow::Until(condition) => {
-                let value = self.value(*condition, at)?;
-                match (&value, value.truth()) {
-                    (Value::Unknown(cause), _) => {
-                        let goals = [entry + 1, links.opener].map(Goal::block);
-                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
-                            return Ok(None);
-                        }
-                        self.skip_unknown(links.opener..entry, cause, span, at)
-                    }
-                    (_, Some(false)) => Some(Step::Jump(links.opener)),
-                    _ => None,
-                }
+                self.repeat_where((*condition, Truth::Fails), links.opener..entry, at)?
             }
             Flow::Break => Some(after),
             Flow::Continue => Some(Step::Jump(links.end)),
@@ -230,6 +209,29 @@ impl Interpreter {
             (_, Some(false)) => Some(Step::Jump(region.end + 1)),
             (_, None) => return Err(no_condition(span)),
         })
+    }
+
+    /// Goes back to the opener of a loop where the condition at its end says so.
+    fn repeat_where(
+        &mut self,
+        (condition, repeats): (Operand, Truth),
+        region: Range<EntryIndex>,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = self.value(condition, at)?;
+        if let Value::Unknown(cause) = &value {
+            let span = flow_span(at.block);
+            let mut goals = [region.start, region.end + 1].map(Goal::block);
+            if repeats == Truth::Fails {
+                goals.reverse();
+            }
+            if self.part_at(condition, cause, (ConditionKind::Loop, span), goals, at) {
+                return Ok(None);
+            }
+            return Ok(self.skip_unknown(region, cause, span, at));
+        }
+        let is_repeated = value.truth() == Some(repeats == Truth::Holds);
+        Ok(is_repeated.then_some(Step::Jump(region.start)))
     }
 
     /// Goes through the loop once more, or leaves it when the counter passed the end.

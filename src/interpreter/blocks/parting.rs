@@ -75,16 +75,14 @@ impl Interpreter {
                 conclusions(at.block, at.text, expression, truth).as_slice()
                 && let Some(of) = self.active_variable(name)
                 && self.is_effective(of)
-                && (*number == 0.0 || *number == 1.0)
+                && let Some(says) = Truth::of_switch(*number)
             {
-                let is_on = *number == 1.0;
-                let holds = truth == Truth::Holds;
                 return Some((
                     of,
-                    if is_on == holds {
-                        Truth::Holds
+                    if truth == Truth::Holds {
+                        says
                     } else {
-                        Truth::Fails
+                        says.turned()
                     },
                 ));
             }

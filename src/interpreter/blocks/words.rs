@@ -78,7 +78,7 @@ impl Interpreter {
                 match self.names.get(name).copied() {
                     Some(axis) => self.axis_word(axis, word.span, number),
                     None if self.is_main_spindle(name) => {
-                        self.state.control.modal.pace.speed(number)
+                        self.state.control.modal.pace.speed(number);
                     }
                     None if name.starts_with('S') => {}
                     None => self.lack_axis(name, word.span, at),

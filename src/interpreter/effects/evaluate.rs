@@ -331,7 +331,7 @@ impl Interpreter {
             }
             Place::Variable(name) => self.state.control.memory.set_variable(&name, value),
             Place::Elements(name, cause) => {
-                self.state.control.memory.forget_elements(&name, &cause)
+                self.state.control.memory.forget_elements(&name, &cause);
             }
             Place::Parameters(cause) => self.state.control.memory.forget_parameters(&cause),
             Place::Nowhere => {}

@@ -41,13 +41,9 @@ impl Interpreter {
         }
     }
 
-    /// Executes a block and tells the observer. `Continue` where the next block follows.
-    pub(in crate::interpreter) fn execute(
-        &mut self,
-        at: &At<'_>,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> ControlFlow<Departure> {
+    /// What ways that meet here leave is said, and the block counted.
+    #[inline]
+    fn begin_block(&mut self, finder: &mut dyn Finder) {
         self.work.clear();
         self.work.diagnostics.append(&mut self.met);
         self.work.aside.withheld.append(&mut self.met_withheld);
@@ -56,6 +52,16 @@ impl Interpreter {
         if self.state.track.ways.has_targets() {
             self.arrive(finder);
         }
+    }
+
+    /// Executes a block and tells the observer. `Continue` where the next block follows.
+    pub(in crate::interpreter) fn execute(
+        &mut self,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<Departure> {
+        self.begin_block(finder);
         let mut intent = Intent::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
@@ -145,10 +151,7 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
-        self.work.said = u64::try_from(self.work.diagnostics.len()).unwrap_or(u64::MAX);
-        // They are said; what is left at program end belongs to no executed block.
-        self.work.diagnostics.clear();
-        self.work.changes.clear();
+        self.work.forget_said();
         match step {
             step if flow.is_break() => {
                 self.state.parked = step;

@@ -18,10 +18,8 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         loop {
-            if !self.state.pending.is_empty() {
-                if self.choose_path() {
-                    self.tell_joined(observer);
-                }
+            if !self.state.pending.is_empty() && self.choose_path() {
+                self.tell_joined(observer);
             }
             let Some(frame) = self.state.control.frames.running() else {
                 let ending = self.state.control.ending.take();
@@ -93,31 +91,23 @@ impl Interpreter {
                 frame.called_from = called_from;
             }
             let step = match flow {
-                ControlFlow::Continue(()) if self.sides.is_empty() => continue,
-                ControlFlow::Continue(()) => {
-                    self.take_sides(None, finder);
-                    continue;
-                }
-                ControlFlow::Break(Departure::Step(step)) => step,
-                ControlFlow::Break(Departure::Paused) if self.sides.is_empty() => {
-                    return RunOutcome::Paused;
-                }
+                ControlFlow::Continue(()) => None,
+                ControlFlow::Break(Departure::Step(step)) => Some(step),
                 ControlFlow::Break(Departure::Paused) => {
                     let step = self.state.parked.take();
                     self.state.parked = self.part_and_step(step, finder);
                     return RunOutcome::Paused;
                 }
             };
-            let Some(step) = self.part_and_step(Some(step), finder) else {
+            let Some(step) = self.part_and_step(step, finder) else {
                 continue;
             };
             if let ControlFlow::Break(by) = self.follow(step) {
                 if by != EndedBy::Error && !self.work.covered {
                     self.meet_at_end(finder);
                 }
-                match self.end_path(by) {
-                    Some(by) => return RunOutcome::Ended(by),
-                    None => {}
+                if let Some(by) = self.end_path(by) {
+                    return RunOutcome::Ended(by);
                 }
             }
         }

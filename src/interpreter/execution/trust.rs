@@ -115,10 +115,8 @@ impl Interpreter {
 
     fn check_frames(&self, control: &ControlState) -> Doubt {
         let depth = control.frames.depth();
-        let frames = control.frames.iter();
-        let frames = frames
-            .map(|frame| self.has_frame(frame, depth))
-            .all(|has| has);
+        let mut frames = control.frames.iter();
+        let frames = frames.all(|frame| self.has_frame(frame, depth));
         holds(frames, "a block that is not there")
     }
 

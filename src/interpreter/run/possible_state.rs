@@ -150,7 +150,7 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     match more {
         0 => {}
         1 => words.push_str(", and on 1 more way"),
-        more => words.push_str(&format!(", and on {more} more ways")),
+        more => words = format!("{words}, and on {more} more ways"),
     }
     words
 }

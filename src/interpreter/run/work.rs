@@ -91,6 +91,13 @@ pub(in crate::interpreter) struct Work {
 }
 
 impl Work {
+    /// What there was to say about the block is said; what is left at program end belongs to no block.
+    pub(in crate::interpreter) fn forget_said(&mut self) {
+        self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
+        self.diagnostics.clear();
+        self.changes.clear();
+    }
+
     pub(in crate::interpreter) fn clear(&mut self) {
         self.outcomes.clear();
         self.changes.clear();

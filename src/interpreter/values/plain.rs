@@ -14,7 +14,17 @@ pub(in crate::interpreter) enum Truth {
 }
 
 impl Truth {
-    fn turned(self) -> Self {
+    /// What the number of a switch says: 1 is on, 0 is off.
+    #[allow(clippy::float_cmp)] // Any other number says nothing.
+    pub(in crate::interpreter) fn of_switch(number: f64) -> Option<Self> {
+        match number {
+            1.0 => Some(Self::Holds),
+            0.0 => Some(Self::Fails),
+            _ => None,
+        }
+    }
+
+    pub(in crate::interpreter) fn turned(self) -> Self {
         match self {
             Self::Holds => Self::Fails,
             Self::Fails => Self::Holds,

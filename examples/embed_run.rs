@@ -16,7 +16,7 @@ N40 M30
 ";
 
 /// Prints each block with its changes and stops the run after a block number.
-fn watch(machine: &Machine, event: Event<'_>, stop_after: Option<i64>) -> ControlFlow<()> {
+fn watch(machine: &Machine, event: &Event<'_>, stop_after: Option<i64>) -> ControlFlow<()> {
     let Event::Executed(block) = event else {
         return ControlFlow::Continue(());
     };
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let start = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), start, Options::default());
-    let mut observer = |event: Event<'_>| watch(&machine, event, Some(20));
+    let mut observer = |event: Event<'_>| watch(&machine, &event, Some(20));
     let outcome = run.program(program(), &mut NoFiles, &mut observer);
     assert_eq!(outcome, RunOutcome::Paused);
 
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let snapshot: Snapshot = serde_json::from_str(&saved)?;
     let mut source = |name: &str| (name == "a.nc").then(program);
     let mut run = Interpreter::resume(machine.clone(), Options::default(), snapshot, &mut source)?;
-    let mut observer = |event: Event<'_>| watch(&machine, event, None);
+    let mut observer = |event: Event<'_>| watch(&machine, &event, None);
     let outcome = run.go_on(&mut NoFiles, &mut observer);
     assert!(matches!(outcome, RunOutcome::Ended(_)));
     Ok(())

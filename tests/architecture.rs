@@ -161,11 +161,11 @@ fn sources_of(package: &'static str, whole: Option<&str>) -> Vec<File> {
     paths.sort();
     let files = paths.into_iter().map(|path| {
         let below = path.strip_prefix(&root).expect("below src");
-        let name = below.to_string_lossy().replace('\\', "/");
+        let within = below.to_string_lossy().replace('\\', "/");
         let name = match whole {
-            Some(room) if name == "lib.rs" => format!("{room}/mod.rs"),
-            Some(room) => format!("{room}/{name}"),
-            None => name,
+            Some(folder) if within == "lib.rs" => format!("{folder}/mod.rs"),
+            Some(folder) => format!("{folder}/{within}"),
+            None => within,
         };
         let first = name.split('/').next().expect("a name");
         File {

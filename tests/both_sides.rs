@@ -26,6 +26,10 @@ impl Dice {
         self.0 ^= self.0 << 17;
         (self.0 >> 11) % sides
     }
+
+    fn pick(&mut self, of: usize) -> usize {
+        usize::try_from(self.roll(of as u64)).expect("a small number")
+    }
 }
 
 /// What a program may contain.
@@ -58,7 +62,7 @@ impl Writer {
     /// A variable of the machine with so many values, 0 and up.
     fn variable(&mut self, values: u64) -> String {
         if self.sort == Sort::Any && !self.asked.is_empty() && self.dice.roll(3) == 0 {
-            let at = self.dice.roll(self.asked.len() as u64);
+            let at = self.dice.pick(self.asked.len());
             return format!("V.E.C{at}");
         }
         self.asked.push(values);
@@ -75,20 +79,20 @@ impl Writer {
             5 => format!("{} == 1 && {} == 1", self.variable(2), self.variable(2)),
             6 => format!("P{} > {}", self.dice.roll(3) + 1, self.dice.roll(3)),
             _ => {
-                let axis = AXES[self.dice.roll(3) as usize];
+                let axis = AXES[self.dice.pick(3)];
                 format!("V.A.FRICT_COMP_ACTIVE.{axis} == {}", self.dice.roll(2))
             }
         }
     }
 
     fn command(&mut self) {
-        let axis = AXES[self.dice.roll(3) as usize];
+        let axis = AXES[self.dice.pick(3)];
         let word = if self.dice.roll(2) == 0 { "ON" } else { "OFF" };
         self.line(&format!("{axis}[COMP {word} FRICT]"));
     }
 
     fn blocks(&mut self, depth: u32) {
-        for _ in 0..1 + self.dice.roll(3) {
+        for _ in 0..=self.dice.roll(3) {
             self.block(depth);
         }
     }
@@ -174,7 +178,7 @@ impl Writer {
     fn leave_loop(&mut self) {
         if !self.full() && self.dice.roll(3) == 0 {
             let condition = self.condition();
-            let word = ["$BREAK", "$CONTINUE", "M30"][self.dice.roll(3) as usize];
+            let word = ["$BREAK", "$CONTINUE", "M30"][self.dice.pick(3)];
             self.line(&format!("$IF {condition}"));
             self.command();
             self.line(word);
@@ -213,7 +217,7 @@ impl Writer {
     fn switch(&mut self, depth: u32) {
         let subject = self.variable(3);
         self.line(&format!("$SWITCH {subject}"));
-        for case in 0..1 + self.dice.roll(2) {
+        for case in 0..=self.dice.roll(2) {
             self.line(&format!("$CASE {case}"));
             self.blocks(depth - 1);
             if self.dice.roll(4) > 0 {
@@ -229,8 +233,8 @@ impl Writer {
 
     fn skip(&mut self) {
         self.skips = true;
-        for _ in 0..1 + self.dice.roll(2) {
-            let axis = AXES[self.dice.roll(3) as usize];
+        for _ in 0..=self.dice.roll(2) {
+            let axis = AXES[self.dice.pick(3)];
             let word = if self.dice.roll(2) == 0 { "ON" } else { "OFF" };
             self.line(&format!("/{axis}[COMP {word} FRICT]"));
         }
@@ -247,7 +251,7 @@ impl Writer {
             let condition = self.condition();
             self.line(&format!("$IF {condition}"));
             self.command();
-            let word = ["M17", "M30"][self.dice.roll(2) as usize];
+            let word = ["M17", "M30"][self.dice.pick(2)];
             self.line(word);
             self.line("$ENDIF");
             self.command();
@@ -306,7 +310,10 @@ fn run(text: &str, given: &[u64], skip: Option<SkipLevels>) -> Option<Vec<State>
     let options = Options::default().with_skip(skip).with_limits(limits);
     let mut run = Interpreter::new(machine, compensation, options);
     for (at, value) in given.iter().enumerate() {
-        run.set(&format!("V.E.C{at}"), &Setting::Number(*value as f64));
+        run.set(
+            &format!("V.E.C{at}"),
+            &Setting::Number(f64::from(u32::try_from(*value).expect("a small number"))),
+        );
     }
     let mut left = None;
     let mut said = Vec::new();

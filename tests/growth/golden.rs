@@ -36,7 +36,9 @@ impl Archive {
             program
         };
         let inputs: Vec<Input> = (0..folders).map(|n| Input::File(program(n))).collect();
-        inputs.iter().for_each(|input| input.note(&ledger));
+        for input in &inputs {
+            input.note(&ledger);
+        }
         let files = inputs.iter().map(|input| agreed.beside(input));
         Self {
             files: files.collect::<Result<_, _>>().expect("files"),

@@ -314,8 +314,8 @@ fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
     // Between the circles it is said once, where it is worst (R5.29).
     let between = report.tuned.check.iter().filter(|it| it.is_worse());
     let loss = |it: &Checked| it.glitch_on_um - it.glitch_off_um;
-    let worst = between.max_by(|one, other| loss(one).total_cmp(&loss(other)));
-    if let Some(it) = worst.filter(|_| messages.is_empty()) {
+    let worst_of_all = between.max_by(|one, other| loss(one).total_cmp(&loss(other)));
+    if let Some(it) = worst_of_all.filter(|_| messages.is_empty()) {
         messages.push(format!(
             "at {:.2} mm/s² compensation leaves {:.1} µm, more than the {:.1} µm without it",
             it.acceleration_mm_per_s2, it.glitch_on_um, it.glitch_off_um

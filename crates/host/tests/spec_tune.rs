@@ -203,17 +203,7 @@ fn lists_are_as_good_as_those_that_were_found_elsewhere() {
         task.shaping = Shaping::Allowed;
         let tuned = tune_on_all_processors(&task, &Watch::default()).expect("circles");
         let worst = tuned.worst_um();
-        println!(
-            "{preset}: {worst:.3} µm over the range, trials {}",
-            tuned.trials
-        );
-        for row in &tuned.check {
-            println!("{row:.2?}");
-        }
         assert!(worst <= most, "{preset}: {worst} {:?}", tuned.feeds);
-        let [x, _] = &tuned.axes;
-        let curve = plant_list(&task.plant.x);
-        println!("{:?} {}", x.list(), curve.table.len());
         assert!(
             tuned.feeds.iter().all(|it| !it.is_worse()),
             "{:?}",

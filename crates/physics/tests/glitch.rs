@@ -45,10 +45,10 @@ fn glitch(bench: &Bench) -> f64 {
         let left = (turn - before..turn + after)
             .map(row)
             .map(|it| it.1 - error - slope * (it.0 - time));
-        let [least, most] = left.fold([f64::MAX, f64::MIN], |[least, most], it| {
-            [least.min(it), most.max(it)]
+        let [lowest, highest] = left.fold([f64::MAX, f64::MIN], |[lowest, highest], it| {
+            [lowest.min(it), highest.max(it)]
         });
-        most - least
+        highest - lowest
     });
     heights.fold(0.0, f64::max)
 }

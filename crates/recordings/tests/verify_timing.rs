@@ -109,8 +109,8 @@ fn the_part_of_a_list_that_acted_is_found() {
             assert!((found.low..=found.high).contains(&share), "{what}");
             assert_no_false_verdict(&bench, &timing);
             let is_said = match timing {
-                Timing::Off(_) => share == 0.0,
-                Timing::On { .. } => share == 1.0,
+                Timing::Off(_) => share <= 0.0,
+                Timing::On { .. } => share >= 1.0,
                 Timing::Other(_) => share > 0.0 && share < 1.0,
                 _ => false,
             };
@@ -123,18 +123,11 @@ fn the_part_of_a_list_that_acted_is_found() {
 #[ignore = "minutes without optimization"]
 fn the_part_is_within_what_is_said_everywhere() {
     // R6.22: plants, gains, feeds, noise and shares; where noise allows no 0.03, the interval says so.
-    let benches = [
-        ("stiff", STIFF),
-        ("mid", MID),
-        ("soft", SOFT),
-        ("fast", FAST),
-        ("slow", SLOW),
-    ];
+    let benches = [STIFF, MID, SOFT, FAST, SLOW];
     let (mut all, mut outside) = (0, 0);
     for noise in [(0.0, 0.0), (0.03, 1.0), (0.1, 3.0)] {
-        for (name, bench) in benches {
+        for bench in benches {
             for feed in [500.0, 1500.0, 3000.0, 5000.0] {
-                let mut line = format!("{noise:?} {name:>5} {feed:>4}:");
                 for (seed, share) in SHARES.into_iter().enumerate() {
                     let bench = Bench {
                         feed,
@@ -147,16 +140,12 @@ fn the_part_is_within_what_is_said_everywhere() {
                     let timing = verified(&bench).timing;
                     assert_no_false_verdict(&bench, &timing);
                     let found = share_of(&timing);
-                    let width = (found.high - found.low) / 2.0;
-                    line += &format!(" {:+.3} ±{width:.2}", found.share - share);
                     all += 1;
                     outside += u32::from(!(found.low..=found.high).contains(&share));
                 }
-                println!("{line}");
             }
         }
     }
-    println!("{outside} of {all} outside");
     assert!(outside * 50 <= all, "{outside} of {all} outside");
 }
 

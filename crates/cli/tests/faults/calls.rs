@@ -1,6 +1,7 @@
 //! The calls of the tool that write, and what becomes of the files when one of them fails.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -226,7 +227,7 @@ pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
                         complain("the cause is not said");
                     }
                     for (name, bytes) in &left {
-                        let is_result = !name.ends_with(".lock");
+                        let is_result = Path::new(name).extension() != Some(OsStr::new("lock"));
                         let is_new = trial.before.get(name) != Some(bytes);
                         if is_result && is_new && !said.contains(name.as_str()) {
                             complain(&format!("`{name}` is written, and is not named"));

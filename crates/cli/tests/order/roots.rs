@@ -75,7 +75,10 @@ fn bytes_of_a_mended_subprogram_stay() {
         let bench = bench(&[("a.nc", caller), ("b.nc", caller)]);
         let path = bench.folder().join("sub/tool.nc");
         fs::create_dir(bench.folder().join("sub")).expect("a folder");
-        let [head, tail] = [format!("n010 X[comp off frict] "), format!("{end}n020 m17")];
+        let [head, tail] = [
+            "n010 X[comp off frict] ".to_owned(),
+            format!("{end}n020 m17"),
+        ];
         let before = [head.as_bytes(), comment, tail.as_bytes()].concat();
         fs::write(&path, before).expect("written");
         let (_, said) = audited(&bench, &["--fix", "leavers", "--write", "."]);

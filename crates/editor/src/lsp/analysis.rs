@@ -257,7 +257,6 @@ impl Sink for Survey {
                     return ControlFlow::Continue(());
                 }
             }
-            Record::Join(_) => {}
             Record::End(end) => {
                 self.states.end(end.state);
                 self.ended_by = Some(end.by);
@@ -272,7 +271,7 @@ impl Sink for Survey {
                 });
                 self.ends = ends.collect();
             }
-            Record::Machine(_) => {}
+            Record::Machine(_) | Record::Join(_) => {}
         }
         self.findings.record(record)
     }

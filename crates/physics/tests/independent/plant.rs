@@ -135,7 +135,7 @@ impl Bench {
         let (mut direction, mut turned_at, mut is_building) = (0.0, 0.0, false);
         let mut raw = Vec::new();
         for (at, &(place, velocity)) in motion.iter().enumerate() {
-            if velocity.signum() != direction {
+            if velocity.signum() * direction <= 0.0 {
                 direction = velocity.signum();
                 turned_at = motion[at.saturating_sub(1)].0;
                 is_building = true;

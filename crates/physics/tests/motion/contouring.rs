@@ -66,6 +66,7 @@ fn short_chords_take_the_time_of_the_arc() {
 
 #[test]
 #[ignore = "minutes without optimization"]
+#[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
 fn chords_against_arcs() {
     // R11.22: a table over jerk, mode, chord and feed; with a mode the time is that of the arc.
     println!("jerk m/s³  mode            chord  F     arc s  chords s   longer  off the circle µm");

@@ -137,13 +137,13 @@ impl Signals<'_> {
             .windows(2)
             .map(|it| count(it[1] - it[0]))
             .collect();
-        let gap_s = median(&gaps).map_or(AFTER_S, |it| 0.7 * it * self.step_s);
-        if gap_s < LEAST_AFTER_S {
+        let shortest_s = median(&gaps).map_or(AFTER_S, |it| 0.7 * it * self.step_s);
+        if shortest_s < LEAST_AFTER_S {
             return Vec::new();
         }
         let (before, after) = (
-            samples(BEFORE_S.min(gap_s / 2.0)),
-            samples(AFTER_S.min(gap_s)),
+            samples(BEFORE_S.min(shortest_s / 2.0)),
+            samples(AFTER_S.min(shortest_s)),
         );
         let of = |(number, &turn): (usize, &usize)| {
             let window = Window {
@@ -311,7 +311,7 @@ fn integrated(signal: &[f64], step_s: f64) -> Vec<f64> {
 fn between(signal: &[f64]) -> Vec<f64> {
     let last = signal.len() - 1;
     let curve = |at: usize| {
-        let [a, b, c, d] = [
+        let [before, here, next, after] = [
             at.saturating_sub(1),
             at,
             (at + 1).min(last),
@@ -320,9 +320,9 @@ fn between(signal: &[f64]) -> Vec<f64> {
         .map(|it| signal[it]);
         (0..PARTS).map(move |part| {
             let t = count(part) / count(PARTS);
-            let cubic = 3.0 * (b - c) + d - a;
-            let square = 2.0 * a - 5.0 * b + 4.0 * c - d;
-            b + 0.5 * t * (c - a + t * (square + t * cubic))
+            let cubic = 3.0 * (here - next) + after - before;
+            let square = 2.0 * before - 5.0 * here + 4.0 * next - after;
+            here + 0.5 * t * (next - before + t * (square + t * cubic))
         })
     };
     (0..=last).flat_map(curve).collect()

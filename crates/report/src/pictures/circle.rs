@@ -44,7 +44,7 @@ pub fn circle(report: &CircleReport) -> PolarChart {
     if let [off, on] = &mut panels[..] {
         off.label = told.join("; ");
         off.series.extend(on.series.iter().cloned());
-        on.label = "compensation on, magnified further".to_owned();
+        "compensation on, magnified further".clone_into(&mut on.label);
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (

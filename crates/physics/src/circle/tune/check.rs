@@ -161,7 +161,7 @@ impl Task {
         let [Some(first), Some(last)] = [sorted.first(), sorted.last()] else {
             return Vec::new();
         };
-        let [from, to] = [first, last].map(|it| it.acceleration_mm_per_s2());
+        let [from, to] = [first, last].map(Circle::acceleration_mm_per_s2);
         if from >= to {
             return vec![*first];
         }

@@ -348,13 +348,17 @@ impl Tuning<'_> {
         let count = looked_at.len() * circles.len() * reversals;
         let heights = self.simulations.make(count, &|at| {
             let (row, reversal) = (at / reversals, at % reversals);
-            let axis = looked_at[row / circles.len()];
-            let compensation = match axis {
+            let plane_axis = looked_at[row / circles.len()];
+            let compensation = match plane_axis {
                 PlaneAxis::X => &axes[0],
                 PlaneAxis::Y => &axes[1],
             };
             let circle = circles[row % circles.len()];
-            task.check_reversal(axis, (circle, reversal), compensation.compensation.as_ref())
+            task.check_reversal(
+                plane_axis,
+                (circle, reversal),
+                compensation.compensation.as_ref(),
+            )
         })?;
         let glitches: Vec<f64> = heights.iter().map(Heights::worst_um).collect();
         let rows: Vec<Checked> = glitches

@@ -25,6 +25,8 @@ pub(crate) struct ConfigFile {
     pub(crate) one_more_axis: Option<NamedFix>,
     /// `[variables]`.
     pub(crate) variables: Vec<(String, Variable)>,
+    /// Variables of the machine that keep their values while a program runs.
+    pub(crate) stable: Vec<String>,
     /// `[lint]`.
     pub(crate) levels: Levels,
     /// The extensions of programs in `[check]`, in lower case and without a dot.
@@ -45,6 +47,9 @@ pub(super) const ROOT: Shape = Shape {
     name: "frictcomp.toml",
     keys: Some(&["machine", "axis", "variables", "lint", "check"]),
 };
+
+/// The key of `[variables]` that is no variable.
+const STABLE: &str = "stable";
 
 pub(super) const VARIABLES: Shape = Shape {
     name: "[variables]",
@@ -70,6 +75,7 @@ impl ConfigFile {
         Ok(Self {
             machine: MachineTable::read(&root)?,
             variables: variables(&root)?,
+            stable: stable(&root)?,
             levels: levels(&root)?,
             extensions: extensions(&root)?,
             axes: AxisTable::read_all(&root)?,
@@ -96,12 +102,32 @@ fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     given.into_iter().map(extension).collect()
 }
 
+/// The variables of the machine that keep their values while a program runs (R14.1).
+fn stable(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
+    let Some(variables) = root.table("variables", &VARIABLES)? else {
+        return Ok(Vec::new());
+    };
+    let name = |given: Given<String>| {
+        let is_one = given
+            .value
+            .get(..2)
+            .is_some_and(|it| it.eq_ignore_ascii_case("V."));
+        if is_one {
+            return Ok(given.value);
+        }
+        let message = format!("`{}` is not a variable of the machine", given.value);
+        Err(ConfigError::at(&given, message)
+            .with_help("write `stable = [\"V.E.PART\"]`, the names without a value"))
+    };
+    variables.strings(STABLE)?.into_iter().map(name).collect()
+}
+
 fn variables(root: &Section<'_>) -> Result<Vec<(String, Variable)>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {
         return Ok(Vec::new());
     };
     let mut found = Vec::new();
-    for name in variables.names() {
+    for name in variables.names().filter(|name| name.value != STABLE) {
         let variable = match variables.number(name.value) {
             Some(Given {
                 value:

@@ -159,16 +159,14 @@ impl Subject<'_> {
         let possible = self.possible?;
         let mut states = possible.states.iter().map(|it| it.state);
         let away = states.find(|state| *state != start_up)?;
-        Some(
-            match (
-                possible.ways_to(away, file),
-                possible.ways_to(start_up, file),
-            ) {
-                (Some(ways), _) => format!(" if {ways}"),
-                (None, Some(ways)) => format!(" unless {ways}"),
-                (None, None) => return None,
-            },
-        )
+        if let Some(ways) = possible.ways_to(away, file) {
+            return Some(format!(" if {ways}"));
+        }
+        let ways = possible.ways_to(start_up, file)?;
+        Some(match ways.strip_prefix("not ") {
+            Some(condition) if possible.rests_on_one_condition() => format!(" if {condition}"),
+            _ => format!(" unless {ways}"),
+        })
     }
 
     /// The command that makes the state that of the start of the control.

@@ -46,6 +46,8 @@ pub struct Machine {
     pub parameters: Parameters,
     /// The skip levels that are on, where the configuration says so (R2.90).
     pub skip: Option<SkipLevels>,
+    /// The variables of the machine that keep their values while a program runs (R14.1).
+    pub stable: Vec<String>,
     /// What the channel list says about motion.
     pub channel: ChannelSettings,
 }

@@ -60,7 +60,7 @@ impl Interpreter {
             },
             texts: vec![text.into()],
             cause: cause.clone(),
-            reads: reads(at.block, at.text, expression),
+            reads: reads(at.block, at.text, expression, &self.stable),
         };
         self.part(question, vec![yes, no], at)
     }
@@ -197,7 +197,7 @@ impl Interpreter {
         let subject_of = conclusions(at.block, at.text, expression, Truth::Holds);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
-        let variable = match reads(at.block, at.text, expression).as_deref() {
+        let variable = match reads(at.block, at.text, expression, &self.stable).as_deref() {
             Some([target]) if subject_of.is_empty() => Some(target.clone()),
             _ => crate::interpreter::values::plain::variable(at.block, at.text, expression),
         };
@@ -218,7 +218,7 @@ impl Interpreter {
             span: if place.end > place.start { place } else { span },
             texts,
             cause: cause.clone(),
-            reads: reads(at.block, at.text, expression),
+            reads: reads(at.block, at.text, expression, &self.stable),
         };
         self.part(question, goals, at)
     }

@@ -138,6 +138,10 @@ impl Builder {
         self.index.main = main_of(&self.index.sections);
         self.check_jumps();
         for (statement, opener) in std::mem::take(&mut self.inner) {
+            // A loop without an end cannot be left: it is none, which is said of its opener.
+            if !self.index.is_linked(opener) {
+                continue;
+            }
             let end = self.index.links(opener).end;
             let links = Links {
                 opener,

@@ -231,8 +231,10 @@ impl Index {
             .entries
             .get(entry as usize)
             .map_or(1, |entry| entry.line);
-        let span = self.source.lines().line_span(self.source.text(), line);
-        self.source.place(span)
+        let text = self.source.text();
+        let span = self.source.lines().line_span(text, line);
+        let (start, block) = (span.start as usize, span.of(text).trim_end());
+        self.source.place(Span::new(start, start + block.len()))
     }
 
     /// The loop that contains a block, by its opener.

@@ -22,6 +22,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
 use crate::interpreter::values::effort::Effort;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::set_name;
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::syntax::SkipLevels;
 use crate::syntax::ast::Block;
@@ -57,6 +58,8 @@ pub struct Interpreter {
     pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
     pub(in crate::interpreter) names: BTreeMap<String, AxisIndex>,
+    /// The variables of the machine that keep their values while a program runs (R14.1).
+    pub(in crate::interpreter) stable: BTreeSet<String>,
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: Programs,
@@ -183,6 +186,7 @@ impl Interpreter {
             }
         }
         Self {
+            stable: machine.stable.iter().map(|name| set_name(name)).collect(),
             any_required: machine.axes.iter().any(|axis| !axis.monitored().is_empty()),
             machine,
             options,

@@ -116,6 +116,12 @@ impl PossibleStates {
         named.collect::<Vec<_>>().join(", ")
     }
 
+    /// Whether one condition decides.
+    pub(crate) fn rests_on_one_condition(&self) -> bool {
+        let mut named = self.states.iter().flat_map(|state| &state.ways);
+        named.all(|ways| matches!(ways.as_slice(), [way] if way.len() == 1))
+    }
+
     /// Whether a state is possible.
     pub fn has(&self, state: State) -> bool {
         self.states.iter().any(|it| it.state == state)

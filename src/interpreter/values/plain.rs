@@ -1,5 +1,7 @@
 //! What conditions say about the values that they read, where they are plain (R14.1).
 
+use std::collections::BTreeSet;
+
 use super::target::Target;
 use super::value::Value;
 use super::variable::canonical;
@@ -170,11 +172,12 @@ fn popped(node: Node) -> usize {
     }
 }
 
-/// What an expression reads, where nothing but the program writes all of it.
+/// What an expression reads, where nothing but the program writes all of it, or what is `stable`.
 pub(in crate::interpreter) fn reads(
     block: &Block,
     text: &str,
     expression: Expression,
+    stable: &BTreeSet<String>,
 ) -> Option<Vec<Target>> {
     let mut found = Vec::new();
     for at in expression.start..expression.end {
@@ -187,9 +190,10 @@ pub(in crate::interpreter) fn reads(
         };
         let is_of_program = match &read {
             Target::Parameter(Owner::Program | Owner::Call, _) => true,
-            Target::Variable(name) => ["V.P.", "V.L.", "V.S."]
-                .iter()
-                .any(|family| name.starts_with(family)),
+            Target::Variable(name) => {
+                let mut families = ["V.P.", "V.L.", "V.S."].iter();
+                families.any(|family| name.starts_with(family)) || stable.contains(name)
+            }
             Target::Elements(_) | Target::Parameters => false,
         };
         if !is_of_program {

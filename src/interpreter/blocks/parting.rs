@@ -14,7 +14,7 @@ use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::unknown::branching::{Goal, Question};
 use crate::interpreter::values::cause::{PROBE, skip_level};
-use crate::interpreter::values::plain::{Truth, conclusions, reads, text_of};
+use crate::interpreter::values::plain::{Asking, Truth, conclusions, reads, text_of};
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -197,7 +197,8 @@ impl Interpreter {
         let subject_of = conclusions(at.block, at.text, expression, Truth::Holds);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
-        let variable = match reads(at.block, at.text, expression, &self.stable).as_deref() {
+        let mut asking = reads(at.block, at.text, expression, &self.stable);
+        let variable = match asking.as_ref().map(|asking| asking.reads.as_slice()) {
             Some([target]) if subject_of.is_empty() => Some(target.clone()),
             _ => crate::interpreter::values::plain::variable(at.block, at.text, expression),
         };
@@ -213,12 +214,16 @@ impl Interpreter {
             });
         }
         goals.push(other);
+        if let Some(asking) = &mut asking {
+            // Cases of the same values are the same question.
+            asking.meaning = format!("{} {}", asking.meaning, texts.join("|"));
+        }
         let question = Question {
             kind: ConditionKind::Case,
             span: if place.end > place.start { place } else { span },
             texts,
             cause: cause.clone(),
-            reads: reads(at.block, at.text, expression, &self.stable),
+            reads: asking,
         };
         self.part(question, goals, at)
     }
@@ -305,9 +310,12 @@ impl Interpreter {
             kind: ConditionKind::Skip(level),
             span: Span::new(0, parsed.text.trim_end().len()),
             texts: vec![cause.clone()],
-            cause,
+            cause: cause.clone(),
             // The switch of blocks without a number is read when the main program begins.
-            reads: is_bare.then(Vec::new),
+            reads: is_bare.then(|| Asking {
+                reads: Vec::new(),
+                meaning: cause.to_string(),
+            }),
         };
         let goals = [after, entry].map(Goal::block);
         if !self.part(question, goals.into(), &at) {

@@ -13,6 +13,7 @@ use crate::interpreter::run::path::{Asked, BranchSide};
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::way_set::{Answer, WaySet};
 use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::plain::Asking;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
@@ -40,7 +41,7 @@ pub(in crate::interpreter) struct Question {
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     pub(in crate::interpreter) cause: Arc<str>,
     /// What it reads, where nothing but the program writes that.
-    pub(in crate::interpreter) reads: Option<Vec<Target>>,
+    pub(in crate::interpreter) reads: Option<Asking>,
 }
 
 /// Where a way goes on.
@@ -130,10 +131,13 @@ impl Interpreter {
 
     /// The number of the condition that a question asks for.
     fn ask(&mut self, question: Question, at: &At<'_>) -> u32 {
-        let key: Arc<str> = question.texts.join("|").into();
-        if question.reads.is_some() {
+        let key = question
+            .reads
+            .as_ref()
+            .map(|asking| Arc::from(&*asking.meaning));
+        if let Some(key) = &key {
             let mut asked = self.state.track.asked.iter();
-            if let Some(asked) = asked.find(|asked| asked.key == key) {
+            if let Some(asked) = asked.find(|asked| asked.key == *key) {
                 return asked.condition;
             }
         }
@@ -143,7 +147,7 @@ impl Interpreter {
         self.state.control.untouched.forget(condition);
         let track = &mut self.state.track;
         track.asked.retain(|asked| asked.condition != condition);
-        if let Some(reads) = question.reads {
+        if let Some((Asking { reads, .. }, key)) = question.reads.zip(key) {
             if track.asked.len() >= MAX_ASKED {
                 track.asked.remove(0);
             }

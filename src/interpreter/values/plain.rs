@@ -172,22 +172,34 @@ fn popped(node: Node) -> usize {
     }
 }
 
+/// What an expression reads, and what it does with it, however it is written.
+pub(in crate::interpreter) struct Asking {
+    pub(in crate::interpreter) reads: Vec<Target>,
+    pub(in crate::interpreter) meaning: String,
+}
+
 /// What an expression reads, where nothing but the program writes all of it, or what is `stable`.
 pub(in crate::interpreter) fn reads(
     block: &Block,
     text: &str,
     expression: Expression,
     stable: &BTreeSet<String>,
-) -> Option<Vec<Target>> {
+) -> Option<Asking> {
     let mut found = Vec::new();
+    let mut meaning = String::new();
     for at in expression.start..expression.end {
         let at = at as usize;
         let node = *block.nodes.get(at)?;
         let read = match node {
-            Node::Number(_) | Node::Negate | Node::Binary(_) => continue,
-            Node::Call { function, .. } if is_pure(function) => continue,
-            node => target(node, block.spans.get(at)?.of(text))?,
+            Node::Number(_) | Node::Negate | Node::Binary(_) => None,
+            Node::Call { function, .. } if is_pure(function) => None,
+            node => Some(target(node, block.spans.get(at)?.of(text))?),
         };
+        let Some(read) = read else {
+            meaning = format!("{meaning} {node:?}");
+            continue;
+        };
+        meaning = format!("{meaning} {read:?}");
         let is_of_program = match &read {
             Target::Parameter(Owner::Program | Owner::Call, _) => true,
             Target::Variable(name) => {
@@ -201,7 +213,10 @@ pub(in crate::interpreter) fn reads(
         }
         found.push(read);
     }
-    Some(found)
+    Some(Asking {
+        reads: found,
+        meaning,
+    })
 }
 
 /// Whether a function of numbers gives the same for the same numbers.

@@ -104,10 +104,10 @@ fn too_little_memory_for_a_program_with_flow_leaves_the_state_alone() {
     let good = bench.read("s.json");
     bench.write(
         "b.nc",
-        &format!("$IF 1\n$ENDIF\n{}M30\n", "X1 Y2 Z3\n".repeat(4_000_000)),
+        &format!("$IF 1\n$ENDIF\n{}M30\n", "X1 Y2 Z3\n".repeat(8_000_000)),
     );
     let call = ["run", "--changes", "--state", "s.json", "b.nc"];
-    let output = limited(&bench, "ulimit -v 40000", &call)
+    let output = limited(&bench, "ulimit -v 60000", &call)
         .output()
         .expect("it starts");
     assert_ne!(output.status.code(), Some(0));

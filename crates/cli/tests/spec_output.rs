@@ -130,10 +130,11 @@ fn csv_names_branches_last_and_has_a_row_where_ways_meet() {
         [
             ("1", "active", ""),
             ("2", "inactive", "V.E.A == 2 (line 1)"),
+            ("3", "inactive", "V.E.A == 2 (line 1)"),
             ("3", "active", "not V.E.A == 2 (line 1)"),
             ("4", "active", "not V.E.A == 2 (line 1)"),
-            ("5", "unknown", "join"),
-            ("5", "unknown", ""),
+            ("5", "active", "not V.E.A == 2 (line 1)"),
+            ("6", "unknown", "join"),
             ("6", "unknown", ""),
             ("7", "active", ""),
             ("8", "active", ""),

@@ -122,6 +122,39 @@ static void states(void)
     frictcomp_compensation_free(states);
 }
 
+/* A state file in which X is off if a value has come from the machine. */
+static void possible_states(const char *left)
+{
+    const uint32_t frict = FRICTCOMP_KIND_FRICT;
+    FrictcompMachine *machine = frictcomp_machine_unconfigured();
+    CHECK(frictcomp_compensation_read(machine, left) == NULL && said("another machine"));
+    CHECK(frictcomp_machine_enable(machine, "X") == FRICTCOMP_STATUS_OK);
+    CHECK(frictcomp_machine_enable(machine, "Y") == FRICTCOMP_STATUS_OK);
+    CHECK(frictcomp_compensation_read(NULL, left) == NULL && said("`machine` is NULL"));
+    CHECK(frictcomp_compensation_read(machine, NULL) == NULL && said("`path` is NULL"));
+    CHECK(frictcomp_compensation_read(machine, "not/there.json") == NULL && said("not/there.json"));
+
+    FrictcompCompensation *states = frictcomp_compensation_read(machine, left);
+    CHECK(states != NULL);
+    frictcomp_machine_free(machine);
+    CHECK(frictcomp_state(states, 0, frict) == FRICTCOMP_STATE_UNKNOWN);
+    const char *words = frictcomp_possible_states(states, 0, frict);
+    CHECK(words != NULL && strstr(words, "inactive if V.E.MATERIAL == 2 (") == words);
+    CHECK(strstr(words, "part.nc:1), else active") != NULL);
+    CHECK(frictcomp_possible_states(states, 1, frict) == NULL && frictcomp_last_error() == NULL);
+    CHECK(frictcomp_possible_states(states, 99, frict) == NULL && said("no axis 99"));
+    CHECK(frictcomp_possible_states(states, 0, 77) == NULL && said("no kind"));
+    CHECK(frictcomp_possible_states(NULL, 0, frict) == NULL && said("`compensation` is NULL"));
+
+    /* A state that was known in between is unknown for another reason. */
+    CHECK(frictcomp_apply(states, "X[COMP ON FRICT]") == FRICTCOMP_STATUS_OK);
+    CHECK(frictcomp_state(states, 0, frict) == FRICTCOMP_STATE_ACTIVE);
+    CHECK(frictcomp_possible_states(states, 0, frict) == NULL && frictcomp_last_error() == NULL);
+    CHECK(frictcomp_set_state(states, 0, frict, FRICTCOMP_STATE_UNKNOWN) == FRICTCOMP_STATUS_OK);
+    CHECK(frictcomp_possible_states(states, 0, frict) == NULL);
+    frictcomp_compensation_free(states);
+}
+
 static void long_text(void)
 {
     const size_t length = 1000 * 1000;
@@ -139,13 +172,14 @@ static void long_text(void)
 
 int main(int argc, char **argv)
 {
-    if (argc != 2) {
-        fprintf(stderr, "usage: %s FOLDER-OF-THE-DEMO\n", argv[0]);
+    if (argc != 3) {
+        fprintf(stderr, "usage: %s FOLDER-OF-THE-DEMO STATE-FILE\n", argv[0]);
         return EXIT_FAILURE;
     }
     CHECK(strchr(frictcomp_version(), '.') != NULL);
     machines(argv[1]);
     states();
+    possible_states(argv[2]);
     long_text();
     puts("every mistake has its status");
     return EXIT_SUCCESS;

@@ -157,6 +157,11 @@ void frictcomp_machine_free(FrictcompMachine *machine);
 // be done.
 FrictcompCompensation *frictcomp_compensation_new(const FrictcompMachine *machine);
 
+// The states that dry runs left in a state file of `frictcomp run --state`, on the same machine; NULL
+// where that cannot be done. The path is UTF-8.
+FrictcompCompensation *frictcomp_compensation_read(const FrictcompMachine *machine,
+                                                   const char *path);
+
 // Frees the states; NULL is nothing to free.
 void frictcomp_compensation_free(FrictcompCompensation *compensation);
 
@@ -188,6 +193,14 @@ FrictcompStatus frictcomp_set_coupling(FrictcompCompensation *compensation,
 FrictcompState frictcomp_state(const FrictcompCompensation *compensation,
                                size_t axis,
                                uint32_t kind);
+
+// The states that are possible for a kind of compensation, a `FrictcompKind`, on an axis, with the
+// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL where the
+// state is known, and where it is unknown for another reason than a condition of a dry run. The text is
+// there until the handle is changed or freed.
+const char *frictcomp_possible_states(const FrictcompCompensation *compensation,
+                                      size_t axis,
+                                      uint32_t kind);
 
 // How many states the last call with this handle changed; 0 for NULL.
 size_t frictcomp_change_count(const FrictcompCompensation *compensation);

@@ -1,9 +1,15 @@
 //! The state of compensation behind a handle.
 
-use frictcomp::comp::{AxisIndex, Change, Compensation, Coupling, Kind, State};
-use frictcomp::syntax::parse_comp;
+use std::ffi::CString;
+use std::path::Path;
 
-use crate::failure::Failure;
+use frictcomp::Session;
+use frictcomp::comp::{AxisIndex, Change, Compensation, Coupling, Kind, State};
+use frictcomp::session::SessionOptions;
+use frictcomp::syntax::parse_comp;
+use frictcomp_host::StateFile;
+
+use crate::failure::{Failure, c_text};
 use crate::machine::FrictcompMachine;
 
 /// A kind of axis compensation that COMP switches.
@@ -73,6 +79,15 @@ pub struct FrictcompChange {
 pub struct FrictcompCompensation {
     states: Compensation,
     changes: Vec<FrictcompChange>,
+    possible: Vec<Possible>,
+}
+
+/// The states that are possible where one is unknown.
+#[derive(Debug)]
+struct Possible {
+    axis: AxisIndex,
+    kind: Kind,
+    words: CString,
 }
 
 impl FrictcompCompensation {
@@ -81,7 +96,27 @@ impl FrictcompCompensation {
         Self {
             states: machine.machine().compensation(),
             changes: Vec::new(),
+            possible: Vec::new(),
         }
+    }
+
+    /// The states that dry runs left in a state file.
+    pub(crate) fn left_in(machine: &FrictcompMachine, path: &Path) -> Result<Self, Failure> {
+        let saved = StateFile::read(path)?;
+        let resumed = Session::resume(machine.machine().clone(), SessionOptions::default(), saved);
+        let (session, _) =
+            resumed.map_err(|error| Failure::of_state(&path.display().to_string(), &error))?;
+        let left = session.state();
+        let possible = left.possible.iter().map(|it| Possible {
+            axis: it.axis,
+            kind: it.kind,
+            words: c_text(&it.in_words("")),
+        });
+        Ok(Self {
+            states: left.compensation.clone(),
+            changes: Vec::new(),
+            possible: possible.collect(),
+        })
     }
 
     /// A call begins that may change a state.
@@ -94,6 +129,13 @@ impl FrictcompCompensation {
     pub(crate) fn apply(&mut self, command: &str) -> Result<(), Failure> {
         let command = parse_comp(command)?.ok_or(Failure::NotComp)?;
         let changes = self.states.apply(&command)?;
+        // What a command leaves on an axis that may be coupled is unknown for another reason.
+        let (axis, kinds) = (
+            self.states.resolve(&command.axis)?,
+            command.selection.kinds(),
+        );
+        self.possible
+            .retain(|it| it.axis != axis || !kinds.contains(it.kind));
         self.changed(&changes);
         Ok(())
     }
@@ -129,6 +171,8 @@ impl FrictcompCompensation {
         }
         let from = self.states.state(axis, kind);
         self.states.restore(axis, selected, unknown);
+        self.possible
+            .retain(|it| (it.axis, it.kind) != (axis, kind));
         let to = self.states.state(axis, kind);
         let change = Change {
             axis,
@@ -161,12 +205,23 @@ impl FrictcompCompensation {
         Ok(self.states.state(axis, kind).into())
     }
 
+    /// The states that are possible in words, where it is known on which conditions they depend.
+    pub(crate) fn possible(&self, axis: usize, kind: u32) -> Result<Option<&CString>, Failure> {
+        let (axis, kind) = (self.axis(axis)?, kind_of(kind)?);
+        let mut possible = self.possible.iter();
+        let found = possible.find(|it| (it.axis, it.kind) == (axis, kind));
+        Ok(found.map(|it| &it.words))
+    }
+
     /// What the last call that could change a state changed, in the order of the changes.
     pub(crate) fn changes(&self) -> &[FrictcompChange] {
         &self.changes
     }
 
     fn changed(&mut self, changes: &[Change]) {
+        let states = &self.states;
+        self.possible
+            .retain(|it| states.state(it.axis, it.kind) == State::Unknown);
         self.changes
             .extend(changes.iter().map(|change| FrictcompChange {
                 axis: change.axis.get(),

@@ -174,6 +174,23 @@ pub unsafe extern "C" fn frictcomp_compensation_new(
     )
 }
 
+/// The states that dry runs left in a state file of `frictcomp run --state`, on the same machine; NULL
+/// where that cannot be done. The path is UTF-8.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn frictcomp_compensation_read(
+    machine: *const FrictcompMachine,
+    path: *const c_char,
+) -> *mut FrictcompCompensation {
+    call(
+        |_| null_mut(),
+        || {
+            let machine = unsafe { read(machine, "machine") }?;
+            let path = unsafe { text(path, "path") }?;
+            FrictcompCompensation::left_in(machine, Path::new(path)).map(handle)
+        },
+    )
+}
+
 /// Frees the states; NULL is nothing to free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_compensation_free(compensation: *mut FrictcompCompensation) {
@@ -260,6 +277,26 @@ pub unsafe extern "C" fn frictcomp_state(
     call(
         |_| FrictcompState::Unknown,
         || unsafe { read(compensation, "compensation") }?.state(axis, kind),
+    )
+}
+
+/// The states that are possible for a kind of compensation, a `FrictcompKind`, on an axis, with the
+/// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL where the
+/// state is known, and where it is unknown for another reason than a condition of a dry run. The text is
+/// there until the handle is changed or freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn frictcomp_possible_states(
+    compensation: *const FrictcompCompensation,
+    axis: usize,
+    kind: u32,
+) -> *const c_char {
+    call(
+        |_| null(),
+        || {
+            let states = unsafe { read(compensation, "compensation") }?;
+            let words = states.possible(axis, kind)?;
+            Ok(words.map_or(null(), |words| words.as_ptr()))
+        },
     )
 }
 

@@ -7,6 +7,7 @@ use std::ptr::null;
 
 use frictcomp::comp::CompensationError;
 use frictcomp::diagnostic::Code;
+use frictcomp::session::StateError;
 use frictcomp::syntax::Fault;
 use frictcomp_host::HostError;
 use thiserror::Error;
@@ -51,6 +52,10 @@ pub(crate) enum Failure {
 impl Failure {
     pub(crate) fn bad(message: impl Into<String>) -> Self {
         Self::BadArgument(message.into())
+    }
+
+    pub(crate) fn of_state(path: &str, error: &StateError) -> Self {
+        Self::Machine(format!("the state file `{path}` cannot be used: {error}"))
     }
 
     pub(crate) fn status(&self) -> FrictcompStatus {

@@ -6,3 +6,17 @@ use pyo3::prelude::*;
 pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (json,))
 }
+
+/// A text in JSON, which Python gets as its own values.
+#[derive(Debug, Clone)]
+pub(crate) struct Json(pub(crate) String);
+
+impl<'py> IntoPyObject<'py> for Json {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        parsed(py, &self.0)
+    }
+}

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import gc
+import io
+from pathlib import Path
 from typing import Any
 
 import duckdb
@@ -10,7 +13,7 @@ import pandas
 import polars
 import pyarrow
 import pytest
-from conftest import programs, records
+from conftest import command, programs, records
 
 import frictcomp
 
@@ -24,7 +27,7 @@ def test_a_timeline_is_a_table_of_blocks() -> None:
     assert blocks.columns == timeline.columns
     assert blocks.columns == [
         *["program", "seq", "file", "line", "n", "level", "text"],
-        *["X", "Y", "Z", "changes", "codes"],
+        *["X", "Y", "Z", "changes", "codes", "branch"],
     ]
     inactive = blocks.filter(polars.col("X") == "inactive")
     assert inactive["line"].to_list() == [5, 6]
@@ -61,6 +64,12 @@ def wordless(record: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in record.items() if name != "help"}
 
 
+def of_friction(record: dict[str, Any]) -> dict[str, Any]:
+    """The states of friction compensation that are possible, by axis."""
+    axes = record.get("possible", {})
+    return {axis: kinds["FRICT"] for axis, kinds in axes.items() if "FRICT" in kinds}
+
+
 @pytest.mark.parametrize("name", programs("programs/ok", "programs/err", "programs/demo"))
 def test_values_are_those_of_the_command(name: str) -> None:
     told = records("run", "--format", "ndjson", "--kinds", "all", name)
@@ -72,6 +81,7 @@ def test_values_are_those_of_the_command(name: str) -> None:
         for key in ["program", "seq", "file", "line", "n", "text", "changes"]:
             assert row[key] == block[key], key
         assert row["level"] == block.get("level")
+        assert (row["branch"] is not None) == ("branch" in block)
         # An axis has its state before a program names it, too.
         for axis, state in block["friction"].items():
             assert row[axis] == state
@@ -83,14 +93,73 @@ def test_values_are_those_of_the_command(name: str) -> None:
     assert [wordless(it) for it in of_messages(timeline.messages)] == diagnostics
     (summary,) = [it for it in told if it["record"] == "summary"]
     assert timeline.friction == summary["friction"]
+    assert timeline.possible == of_friction(summary)
     assert timeline.opaque == summary["opaque"]
     assert timeline.messages.errors == summary["errors"]
     assert timeline.messages.warnings == summary["warnings"]
     ends = [it for it in told if it["record"] == "end"]
-    assert [(it.by, it.blocks, it.end) for it in timeline.programs] == [
-        (it["by"], it["seq"], it["friction"]) for it in ends
+    assert [(it.by, it.blocks, it.end, it.possible) for it in timeline.programs] == [
+        (it["by"], it["seq"], it["friction"], of_friction(it)) for it in ends
     ]
     assert timeline.messages.remark == told[0].get("remark") or "--" in told[0]["remark"]
+
+
+def test_states_that_depend_on_the_machine_name_their_ways(tmp_path: Path) -> None:
+    # R14.2
+    part = tmp_path / "part.nc"
+    part.write_text(
+        "N10 $IF V.E.MATERIAL == 2\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\n"
+        "/N40 Y[COMP OFF FRICT]\nN50 X1\nN60 M30\n"
+    )
+    machine = frictcomp.Machine(isolated=True, enable=["X", "Y"])
+    timeline = frictcomp.run(part, machine=machine)
+    assert timeline.friction == {"X": "unknown", "Y": "unknown"}
+    asked = {"kind": "condition", "file": str(part), "line": 1, "text": "V.E.MATERIAL == 2"}
+    skip = {"kind": "skip", "level": 1, "executed": True, "file": str(part), "line": 4}
+    assert timeline.possible == {
+        "X": [
+            {"state": "inactive", "ways": [[{**asked, "holds": True}]], "more": 0},
+            {"state": "active", "ways": None},
+        ],
+        "Y": [
+            {"state": "inactive", "ways": [[skip]], "more": 0},
+            {"state": "active", "ways": None},
+        ],
+    }
+    (run,) = timeline.programs
+    assert run.possible == timeline.possible
+    blocks = polars.DataFrame(timeline)
+    assert blocks["branch"].to_list() == [
+        *[None, "V.E.MATERIAL == 2 (line 1)", None],
+        *["skip level 1 is off", None, None],
+    ]
+    assert pandas.DataFrame.from_arrow(timeline)["branch"].notna().sum() == 2
+    chosen = frictcomp.run(
+        part,
+        machine=frictcomp.Machine(isolated=True, enable=["X", "Y"], variables={"V.E.MATERIAL": 1}),
+        limits=frictcomp.Limits(skip=[1]),
+    )
+    assert chosen.possible == {} and chosen.programs[0].possible == {}
+    assert polars.DataFrame(chosen)["branch"].null_count() == len(chosen)
+
+
+def test_branches_are_those_of_csv(tmp_path: Path) -> None:
+    # R14.2
+    part = tmp_path / "part.nc"
+    part.write_text(
+        "N10 $WHILE V.E.A < 3\nN20 X[COMP OFF FRICT]\nN30 $ENDWHILE\n"
+        "N40 $IF V.E.B == 1\nN50 X[COMP ON FRICT]\nN60 M30\nN70 $ENDIF\nN80 M30\n"
+    )
+    told = command("run", "--isolated", "--enable", "X", "--format", "csv", str(part)).stdout
+    rows = list(csv.DictReader(io.StringIO(told)))
+    blocks = polars.DataFrame(
+        frictcomp.run(part, machine=frictcomp.Machine(isolated=True, enable=["X"]))
+    ).to_dicts()
+    executed = [it for it in rows if it["branch"] != "join"]
+    assert len(executed) < len(rows)
+    assert [(it["text"], it["X"], it["branch"] or None) for it in executed] == [
+        (it["text"], it["X"], it["branch"]) for it in blocks
+    ]
 
 
 def test_pandas_duckdb_and_pyarrow_take_it_too() -> None:

@@ -94,10 +94,67 @@ fn csv_has_a_row_a_block() {
         .map(str::to_owned)
         .collect();
     let expected = [
-        "program", "seq", "file", "line", "n", "text", "X", "Y", "Z", "changes", "codes",
+        "program", "seq", "file", "line", "n", "text", "X", "Y", "Z", "changes", "codes", "branch",
     ];
     assert_eq!(header, expected);
     assert_eq!(reader.records().count(), 2);
+}
+
+/// The rows of `run --format csv`: line, state of X, codes and branch.
+fn csv_rows(program: &str) -> Vec<[String; 4]> {
+    let bench = Bench::new(&[("a.nc", program)]);
+    let text = bench.stdout(&["run", "--format", "csv", "a.nc"]);
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().expect("a header").clone();
+    let at = |name: &str| header.iter().position(|it| it == name).expect(name);
+    let columns = ["line", "X", "codes", "branch"].map(at);
+    let rows = reader.records().map(|row| {
+        let row = row.expect("as many fields as the header");
+        columns.map(|column| row[column].to_owned())
+    });
+    rows.collect()
+}
+
+#[test]
+fn csv_names_branches_last_and_has_a_row_where_ways_meet() {
+    // R14.2
+    let rows = csv_rows(
+        "N10 $IF V.E.A == 2\nN20 X[COMP OFF FRICT]\nN30 $ELSE\nN40 X1\nN50 $ENDIF\nN60 Y1\n\
+         N70 X[COMP ON FRICT]\nN80 M30\n",
+    );
+    let branches = rows
+        .iter()
+        .map(|[line, x, _, branch]| (&**line, &**x, &**branch));
+    assert_eq!(
+        branches.collect::<Vec<_>>(),
+        [
+            ("1", "active", ""),
+            ("2", "inactive", "V.E.A == 2 (line 1)"),
+            ("3", "inactive", "V.E.A == 2 (line 1)"),
+            ("3", "active", "not V.E.A == 2 (line 1)"),
+            ("4", "active", "not V.E.A == 2 (line 1)"),
+            ("5", "active", "not V.E.A == 2 (line 1)"),
+            ("6", "unknown", "join"),
+            ("6", "unknown", ""),
+            ("7", "active", ""),
+            ("8", "active", ""),
+        ]
+    );
+}
+
+#[test]
+fn ways_that_meet_at_program_end_have_a_last_row() {
+    // R14.2, R14.3: the row before is that of one way, on which X is active.
+    let rows = csv_rows("$IF V.E.A == 2\nX[COMP OFF FRICT]\nM30\n$ENDIF\nX1\nM30\n");
+    let [.., before, last] = &rows[..] else {
+        panic!("{rows:?}");
+    };
+    assert_eq!(before[1..], ["active", "", "not V.E.A == 2 (line 1)"]);
+    assert_eq!(last[..2], ["6", "unknown"]);
+    assert!(last[2].contains("FC401"), "{last:?}");
+    assert_eq!(last[3], "join");
+    let decided = csv_rows("X[COMP OFF FRICT]\nM30\n");
+    assert!(decided.iter().all(|row| row[3].is_empty()), "{decided:?}");
 }
 
 #[test]

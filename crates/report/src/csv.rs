@@ -1,21 +1,26 @@
-//! One row a block, for spreadsheets (R9.15), quoted as RFC 4180 says.
+//! One row a block, and one where ways meet (R14.2), for spreadsheets (R9.15), quoted as RFC 4180 says.
 
 use std::io::Write;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Change, Kind};
-use frictcomp::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
+use frictcomp::timeline::{End, Join, PositionFrame, Record, Row, Sink, StateView};
 
 use super::output::{Gathered, Output};
 use super::strings::integer;
 use super::view::View;
 use super::visible::{any_byte, is_command, visible, visible_line};
 
+/// What the last column says of a row that is no block.
+const JOIN: &[u8] = b"join";
+
 /// The last row: what is said at program end joins its codes.
 #[derive(Debug, Default)]
 struct Held {
     row: Vec<u8>,
     codes: String,
+    /// The field of the last column.
+    branch: Vec<u8>,
     /// Whether it is written even if nothing more is said about it.
     wanted: bool,
 }
@@ -30,6 +35,8 @@ pub struct Csv<W> {
     version: Option<u64>,
     changes: String,
     positions: Positions,
+    /// The fields `file` and `line` of the last row, where it is one of some ways only.
+    place: Vec<u8>,
 }
 
 /// Whether the rows say where the axes stand.
@@ -54,6 +61,7 @@ impl<W: Write> Csv<W> {
             version: None,
             changes: String::new(),
             positions: Positions::Hidden,
+            place: Vec::new(),
         }
     }
 
@@ -77,7 +85,7 @@ impl<W: Write> Csv<W> {
             }
             out.extend_from_slice(b"frame,");
         }
-        out.extend_from_slice(b"changes,codes\n");
+        out.extend_from_slice(b"changes,codes,branch\n");
     }
 
     fn block(&mut self, row: &Row<'_>) {
@@ -89,9 +97,7 @@ impl<W: Write> Csv<W> {
         out.push(b',');
         integer(out, row.seq);
         out.push(b',');
-        field(out, &visible_line(row.file));
-        out.push(b',');
-        integer(out, row.line);
+        append_place(out, row.file, row.line);
         out.push(b',');
         if let Some(number) = row.number {
             integer(out, number);
@@ -118,9 +124,46 @@ impl<W: Write> Csv<W> {
                 list.push_str(diagnostic.code.as_str());
             });
         }
+        self.place.clear();
+        if let Some(words) = row.branch_in_words() {
+            field(&mut self.held.branch, &words);
+            append_place(&mut self.place, row.file, row.line);
+        }
+    }
+
+    fn join(&mut self, join: &Join<'_>) {
+        self.place.clear();
+        append_place(&mut self.place, join.file, join.line);
+        self.joined(join.program, join.seq, join.state);
+    }
+
+    /// Holds the state that all ways may leave as a row of its own: the row before it may be one of
+    /// some ways only.
+    fn joined(&mut self, program: u32, seq: u64, state: StateView<'_>) {
+        self.release();
+        self.keep_states(state);
+        self.held.wanted = true;
+        let out = &mut self.held.row;
+        integer(out, program);
+        out.push(b',');
+        integer(out, seq);
+        out.push(b',');
+        out.append(&mut self.place);
+        // It has neither a number nor a text, nor positions, nor changes.
+        out.extend_from_slice(b",,,");
+        out.extend_from_slice(&self.states);
+        if self.positions == Positions::Shown {
+            let columns = state.machine.axes.len() + 1;
+            out.extend(std::iter::repeat_n(b',', columns));
+        }
+        out.push(b',');
+        self.held.branch.extend_from_slice(JOIN);
     }
 
     fn end(&mut self, end: &End<'_>) {
+        if !self.place.is_empty() {
+            self.joined(end.program, end.seq, end.state);
+        }
         for note in end.notes {
             join(&mut self.held.codes, |list| {
                 list.push_str(note.diagnostic.code.as_str());
@@ -149,10 +192,13 @@ impl<W: Write> Csv<W> {
         if self.held.wanted && !self.held.row.is_empty() {
             self.output.bytes.extend_from_slice(&self.held.row);
             field(&mut self.output.bytes, &self.held.codes);
+            self.output.bytes.push(b',');
+            self.output.bytes.extend_from_slice(&self.held.branch);
             self.output.bytes.push(b'\n');
         }
         self.held.row.clear();
         self.held.codes.clear();
+        self.held.branch.clear();
         self.held.wanted = false;
     }
 }
@@ -162,11 +208,12 @@ impl<W: Write> Sink for Csv<W> {
         match record {
             Record::Session { state, .. } => self.header(*state),
             Record::Block(row) => self.block(row),
+            Record::Join(join) => self.join(join),
             Record::End(end) => {
                 self.end(end);
                 return self.output.flush();
             }
-            Record::Machine(_) | Record::Program { .. } | Record::Join(_) | Record::Summary(_) => {}
+            Record::Machine(_) | Record::Program { .. } | Record::Summary(_) => {}
         }
         self.output.settle()
     }
@@ -186,6 +233,12 @@ impl<W: Write> Gathered for Csv<W> {
     fn close(&mut self) {
         self.release();
     }
+}
+
+fn append_place(out: &mut Vec<u8>, file: &str, line: u32) {
+    field(out, &visible_line(file));
+    out.push(b',');
+    integer(out, line);
 }
 
 fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {

@@ -36,6 +36,8 @@ _Program: TypeAlias = str | bytes | PathLike[str] | Text
 _Kinds: TypeAlias = str | Sequence[str]
 _State: TypeAlias = Literal["active", "ineffective", "inactive", "unconfigured", "unknown"]
 _Severity: TypeAlias = Literal["error", "warning", "info"]
+# With the keys of the records: `state`, `ways`, `more`.
+_PossibleState: TypeAlias = dict[str, Any]
 
 @final
 class Text:
@@ -214,6 +216,14 @@ class ProgramRun:
     @property
     def end(self) -> dict[str, _State]:
         """Friction compensation after its end, by axis."""
+    @property
+    def possible(self) -> dict[str, list[_PossibleState]]:
+        """The states that are possible after its end, by axis, where they differ between ways.
+
+        Such an axis is ``unknown`` in ``end``. Each state has its ``ways``, lists of conditions that
+        hold together, at most four, and ``more``, how many ways are not named. The state on all other
+        ways has None for ``ways``.
+        """
 
 @final
 class Timeline:
@@ -221,7 +231,9 @@ class Timeline:
 
     pandas, polars and DuckDB take it without a copy: ``polars.DataFrame(timeline)``,
     ``pandas.DataFrame.from_arrow(timeline)``, ``duckdb.sql("select * from timeline")``. The columns
-    are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON.
+    are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON. ``branch`` says on which
+    ways a block is executed, None where on all of them; the rows of CSV that are no block, where ways
+    meet, are left out.
     """
 
     @property
@@ -239,6 +251,9 @@ class Timeline:
     @property
     def friction(self) -> dict[str, _State]:
         """Friction compensation of each axis at the end."""
+    @property
+    def possible(self) -> dict[str, list[_PossibleState]]:
+        """The states that are possible at the end, as in ``ProgramRun``."""
     @property
     def state(self) -> State:
         """What the next run starts with."""

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
 use crate::failure::raised_for;
+use crate::json::Json;
 use crate::messages::PyMessages;
 use crate::state::PyState;
 
@@ -27,6 +28,8 @@ pub(crate) struct PyProgramRun {
     blocks: u64,
     start: BTreeMap<String, &'static str>,
     end: BTreeMap<String, &'static str>,
+    /// The states that are possible after its end, by axis.
+    possible: Json,
 }
 
 #[pymethods]
@@ -80,6 +83,11 @@ impl PyTimeline {
     #[getter]
     fn friction(&self) -> BTreeMap<String, &'static str> {
         self.recorded.friction.clone()
+    }
+
+    #[getter]
+    fn possible(&self) -> Json {
+        self.recorded.possible.clone()
     }
 
     #[getter]

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use frictcomp::comp::Kind;
+use frictcomp::interpreter::PossibleState;
 use frictcomp::session::SavedState;
 use frictcomp::timeline::{Footing, Record, Sink, StateView};
 
 use super::PyProgramRun;
 use super::rows::{Rows, Shown};
 use crate::arrow::Table;
+use crate::json::Json;
 use crate::messages::{PyMessage, Said};
 use crate::state::PyState;
 use crate::work::Stop;
@@ -21,6 +23,8 @@ pub(crate) struct Recorded {
     pub(crate) programs: Vec<PyProgramRun>,
     pub(crate) said: Said,
     pub(crate) friction: BTreeMap<String, &'static str>,
+    /// The states that are possible where ways differ, by axis.
+    pub(crate) possible: Json,
     pub(crate) opaque: BTreeMap<String, u64>,
     pub(crate) is_assumed: bool,
     pub(crate) state: PyState,
@@ -55,6 +59,7 @@ impl Recorder {
         Recorded {
             axes: end.axes().map(|(_, name)| name.to_owned()).collect(),
             friction: friction(end),
+            possible: possible(end),
             table: self.rows.into_table(end),
             programs: self.programs,
             said: self.said,
@@ -105,6 +110,7 @@ impl Sink for Recorder {
                 blocks: 0,
                 start: friction(*state),
                 end: BTreeMap::new(),
+                possible: possible(*state),
             }),
             Record::Block(row) => {
                 self.rows.push(row);
@@ -112,6 +118,7 @@ impl Sink for Recorder {
                     self.messages(record);
                 }
             }
+            // It is no block; what follows has the state that the ways left.
             Record::Join(_) => {}
             Record::End(end) => {
                 self.messages(record);
@@ -120,6 +127,7 @@ impl Sink for Recorder {
                     run.by = Some(end.by.as_str());
                     run.blocks = end.seq;
                     run.end = friction(end.state);
+                    run.possible = possible(end.state);
                 }
             }
             Record::Summary(summary) => {
@@ -137,4 +145,15 @@ fn friction(state: StateView<'_>) -> BTreeMap<String, &'static str> {
     let axes = state.axes();
     axes.map(|(axis, name)| (name.to_owned(), state.state(axis, Kind::Frict).as_str()))
         .collect()
+}
+
+/// The states of friction compensation that are possible where ways differ, by axis (R14.2).
+fn possible(state: StateView<'_>) -> Json {
+    let axes = state.axes().filter_map(|(axis, name)| {
+        let mut split = state.possible.iter();
+        let found = split.find(|it| it.axis == axis && it.kind == Kind::Frict)?;
+        Some((name, found.states.as_slice()))
+    });
+    let axes: BTreeMap<&str, &[PossibleState]> = axes.collect();
+    Json(serde_json::to_string(&axes).expect("names and texts are JSON"))
 }

@@ -68,6 +68,7 @@ struct Batch {
     frames: Vec<i32>,
     changes: Changes,
     codes: Codes,
+    branch: StringBuilder,
 }
 
 /// What the blocks changed.
@@ -125,7 +126,7 @@ impl Rows {
 
     /// Adds a block.
     pub(crate) fn push(&mut self, row: &Row<'_>) {
-        if self.batch.program.len() >= ROWS || self.batch.text.values_slice().len() >= TEXT {
+        if self.batch.is_full() {
             let full = std::mem::take(&mut self.batch);
             self.full.push(full.closed());
         }
@@ -158,6 +159,7 @@ impl Rows {
         for said in row.diagnostics {
             batch.codes.words.append_value(said.code.as_str());
         }
+        batch.branch.append_option(row.branch_in_words());
     }
 
     /// A code about the program as a whole, which belongs to its last block.
@@ -215,6 +217,11 @@ impl Rows {
 }
 
 impl Batch {
+    fn is_full(&self) -> bool {
+        let texts = [&self.text, &self.branch];
+        self.program.len() >= ROWS || texts.iter().any(|it| it.values_slice().len() >= TEXT)
+    }
+
     fn push_positions(&mut self, row: &Row<'_>) {
         let axes = row.state.machine.axes.len();
         self.positions.resize_with(axes, Vec::new);
@@ -293,6 +300,7 @@ impl Columns {
         }
         arrays.push(batch.changes.finish());
         arrays.push(batch.codes.finish());
+        arrays.push(Arc::new(batch.branch.finish()));
         let made = RecordBatch::try_new(self.schema.clone(), arrays);
         made.expect("each block gave every column one value")
     }
@@ -340,7 +348,7 @@ fn words(numbers: Vec<i32>, words: &Arc<StringArray>) -> ArrayRef {
 
 /// The columns that every timeline has before those of the axes, and after them.
 const BEFORE: [&str; 7] = ["program", "seq", "file", "line", "n", "level", "text"];
-const AFTER: [&str; 3] = ["frame", "changes", "codes"];
+const AFTER: [&str; 4] = ["frame", "changes", "codes", "branch"];
 
 /// The name of the column of a state: that of the axis, `X.LEAD` for other kinds, and
 /// `X.FRICT` where an axis has the name of another column.
@@ -385,5 +393,6 @@ fn schema(axes: &[(usize, &str)], kinds: &[Kind], positions: bool) -> SchemaRef 
     fields.push(Field::new(AFTER[1], changes, false));
     let codes = DataType::List(item(DataType::Utf8));
     fields.push(Field::new(AFTER[2], codes, false));
+    fields.push(Field::new(AFTER[3], DataType::Utf8, true));
     Arc::new(Schema::new(fields))
 }

@@ -603,7 +603,7 @@ sent! {
     timeline::Modal,
     timeline::Motion,
     timeline::PositionFrame,
-    timeline::Possible,
+    timeline::Possible<'_>,
     timeline::Record<'_>,
     timeline::Repeat,
     timeline::Row<'_>,

@@ -106,7 +106,10 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
 
 /// A bar in words.
 fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
-    let word = stretch.state.as_str();
+    let word = match stretch.ways {
+        Some(ways) => format!("{} ({})", stretch.state.as_str(), digest.ways.text(ways)),
+        None => stretch.state.as_str().to_owned(),
+    };
     match stretch.spot {
         None => format!("{label} {word} at program start"),
         Some(spot) => {

@@ -86,8 +86,7 @@ impl Rows {
         }
         let switched = row.changes.iter().filter(|it| it.kind == Kind::Frict);
         let switched = switched.filter(|it| it.from != it.to);
-        self.switched
-            .extend(switched.map(|it| (at, it.axis.get())));
+        self.switched.extend(switched.map(|it| (at, it.axis.get())));
         let breaks = row.text.bytes().filter(|byte| *byte == b'\n').count();
         self.kept.push(KeptRow {
             line: row.line,

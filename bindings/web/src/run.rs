@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use frictcomp::comp::KindSet;
-use frictcomp::comp::Kind;
+use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Wording;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};

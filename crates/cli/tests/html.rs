@@ -218,7 +218,9 @@ N50 M30
     let source = section(&report, "source");
     let line = format!("<strong>X</strong> <span class=\"state unknown\">unknown</span>: {words}");
     assert_eq!(source.matches(&line).count(), 1, "{source}");
-    let (_, below) = source.split_once("id=\"f0l3\"").expect("the line where ways meet");
+    let (_, below) = source
+        .split_once("id=\"f0l3\"")
+        .expect("the line where ways meet");
     assert!(below.contains(&line), "{source}");
 }
 

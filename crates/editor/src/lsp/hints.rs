@@ -93,7 +93,8 @@ pub(super) fn left(run: &Run, file: &str) -> Option<String> {
     let away: Vec<String> = away
         .map(|axis| {
             let told = left.told(axis.at, file);
-            format!("{} {}", axis.axis, told.unwrap_or_else(|| axis.end.to_string()))
+            let end = told.unwrap_or_else(|| axis.end.to_string());
+            format!("{} {end}", axis.axis)
         })
         .collect();
     (!away.is_empty()).then(|| format!("leaves {}", away.join(", ")))

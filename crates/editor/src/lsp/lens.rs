@@ -31,7 +31,8 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
     let mut lenses = Vec::new();
     lenses.extend(run.remark.clone().map(said));
     let name = shown_path(&document.path);
-    let left = left(run, &name).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
+    let left =
+        left(run, &name).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
     lenses.push(said(left));
     lenses.extend(inherited(view, document).map(said));
     lenses.push(CodeLens {

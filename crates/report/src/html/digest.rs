@@ -472,7 +472,9 @@ impl RunDigest {
         let last = self.programs.last();
         let path = last.map_or("", |program| &self.files[program.file].name);
         let ways = summary.axes.iter().filter_map(|axis| {
-            let found = self.ways.find(summary.state, (axis.axis, Kind::Frict), path);
+            let found = self
+                .ways
+                .find(summary.state, (axis.axis, Kind::Frict), path);
             Some((axis.axis, found.ways?))
         });
         let ways = ways.collect();

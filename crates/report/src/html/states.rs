@@ -107,7 +107,9 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
 /// A bar in words.
 fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
     let word = stretch.state.as_str();
-    let ways = stretch.ways.map(|ways| format!(": {}", digest.ways.text(ways)));
+    let ways = stretch
+        .ways
+        .map(|ways| format!(": {}", digest.ways.text(ways)));
     let ways = ways.unwrap_or_default();
     match stretch.spot {
         None => format!("{label} {word} at program start{ways}"),

@@ -133,25 +133,6 @@ const tests = {
     await close(page);
   },
 
-  async "an unknown state says when it is which"() {
-    const page = await open();
-    await dropTexts(page, {
-      "ways.nc": "$IF V.E.PART < 2\nX[COMP OFF FRICT]\n$ENDIF\nG1 X1 F100\nM30\n",
-      "frictcomp.toml": "[[axis]]\nname = \"X\"\nfrict_comp = true\n",
-    });
-    await page.getByRole("heading", { name: "ways.nc" }).waitFor();
-    await rows(page).first().waitFor();
-    const words = "inactive if V.E.PART < 2 (line 1), else ineffective";
-    const titles = await rows(page).evaluateAll((all) => all.map((row) =>
-      row.querySelector("td.states").getAttribute("title")));
-    assert.deepEqual(titles, [null, null, words, words, words]);
-    assert.equal(await page.locator(".timeline td.states.changed").count(), 1);
-    const result = page.getByRole("status", { name: "Result" });
-    assert.ok((await result.textContent()).includes(`Not known at the end: X (${words})`));
-    assert.ok((await page.locator("#left").textContent()).includes(`unknown: ${words}`));
-    await close(page);
-  },
-
   async "an edit changes the timeline"() {
     const page = await open();
     await page.getByRole("button", { name: "Show an example" }).click();

@@ -52,6 +52,12 @@ impl<'a> StateView<'a> {
         self.compensation.state(axis, kind)
     }
 
+    /// The states of one kind on one axis that are possible, where it is unknown because ways differ.
+    pub fn possible_of(self, axis: AxisIndex, kind: Kind) -> Option<&'a PossibleStates> {
+        let mut possible = self.possible.iter();
+        possible.find(|it| (it.axis, it.kind) == (axis, kind))
+    }
+
     /// The name of an axis.
     pub fn name(self, axis: AxisIndex) -> &'a str {
         &self.machine.axis(axis).name

@@ -45,6 +45,8 @@ export interface Axis {
   listed: boolean;
   changes: number;
   changedBy: { file: string; line: number; number: number | null }[];
+  /** What is possible at the end where that is unknown because ways differ. */
+  possible: string | null;
   /** The feed moves without compensation, to stand after the name. */
   uncompensated: string | null;
   bar: Stretch[];
@@ -79,20 +81,26 @@ export interface Overview {
   notableItems: number;
 }
 
-export interface BlockItem {
+/** The states at a line of the timeline. */
+export interface States {
+  states: State[];
+  /** What is possible for an axis that is unknown because ways differ; left out where none is. */
+  possible?: [axis: number, words: string][];
+}
+
+export interface BlockItem extends States {
   kind: "block";
   block: number;
   file: string | null;
   line: number;
   level: number;
   text: string;
-  states: State[];
   changes: number[];
 }
 
 export type Item =
   | BlockItem
-  | { kind: "start" | "end"; states: State[] }
+  | States & { kind: "start" | "end" }
   | { kind: "message"; at: number };
 
 export interface AuditCell {

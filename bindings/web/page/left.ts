@@ -17,7 +17,7 @@ export function left(overview: Overview, jump: (line: number) => void): HTMLElem
     h("tr", {},
       h("th", { scope: "row" }, axis.name),
       h("td", {}, word(axis.start, axis)),
-      h("td", {}, word(axis.end, axis)),
+      h("td", {}, word(axis.end, axis), axis.possible !== null && `: ${axis.possible}`),
       h("td", { class: "by" }, ...changedBy(axis, overview.program, jump))));
   return h(
     "table", { class: "left" },

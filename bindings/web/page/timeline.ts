@@ -1,7 +1,7 @@
 // The timeline: blocks with the states after them and the messages at their lines. Only what is on the
 // screen is asked for.
 
-import type { Axis, BlockItem, Item, Overview, State, View } from "./answers";
+import type { Axis, BlockItem, Item, Overview, States, View } from "./answers";
 import { fill, grouped, h } from "./dom";
 import type { Session } from "./session";
 import { listed, word } from "./states";
@@ -208,7 +208,7 @@ export class Timeline {
         const told = item.kind === "start" ? "at start" : `end${ended}`;
         return h(
           "tr", { class: "edge", "aria-rowindex": index },
-          h("td", {}), h("td", {}, told), ...cells(item.states, [], overview.axes, axes),
+          h("td", {}), h("td", {}, told), ...cells(item, [], overview.axes, axes),
         );
       }
     }
@@ -233,7 +233,7 @@ export class Timeline {
       },
       h("td", { class: "line", title: `${place}${item.line}` }, grouped(item.line)),
       h("td", { class: "text", title: isOwn ? null : `in ${item.file ?? ""}` }, text),
-      ...cells(item.states, item.changes, overview.axes, axes),
+      ...cells(item, item.changes, overview.axes, axes),
     );
   }
 }
@@ -253,16 +253,17 @@ function head(overview: Overview, axes: number[]): HTMLElement {
 }
 
 function cells(
-  states: State[], changes: number[], all: Axis[], axes: number[],
+  { states, possible = [] }: States, changes: number[], all: Axis[], axes: number[],
 ): (HTMLElement | null)[] {
   return axes.map((at) => {
     const [axis, state] = [all[at], states[at]];
     if (!axis || !state) {
       return null;
     }
+    const ways = possible.find(([unknown]) => unknown === at);
     const isChanged = changes.includes(at);
     return h(
-      "td", { class: isChanged ? "states changed" : "states" }, word(state, axis),
+      "td", { class: isChanged ? "states changed" : "states", title: ways?.[1] ?? null }, word(state, axis),
       isChanged && h("span", { class: "mark", title: "changed by this block" }, " \u25c4"),
     );
   });

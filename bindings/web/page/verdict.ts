@@ -71,7 +71,8 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
       away.map((axis) => `${axis.name} ${axis.startUp}`).join(", ")}.`);
   }
   if (unknown.length > 0) {
-    say("warning", `Not known at the end: ${names(unknown)}. Only the machine decides it.`);
+    const left = unknown.map((axis) => axis.possible === null ? axis.name : `${axis.name} (${axis.possible})`);
+    say("warning", `Not known at the end: ${left.join(", ")}. Only the machine decides it.`);
   }
   const idle = axes.filter((axis) => axis.end === "ineffective");
   if (idle.length > 0) {

@@ -1,8 +1,10 @@
 //! The executed blocks of a run, each in a few bytes.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
+use frictcomp::interpreter::PossibleStates;
 use frictcomp::timeline::{Row, StateView};
 
 /// So many blocks are kept for the timeline.
@@ -20,17 +22,47 @@ pub(crate) struct KeptRow {
     pub(crate) level: u8,
 }
 
+/// Friction compensation of all axes at a moment.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct Moment {
+    pub(crate) states: Vec<State>,
+    /// What is possible where a state is unknown because ways differ (R14.2).
+    possible: Vec<PossibleStates>,
+}
+
+impl Moment {
+    fn of(view: StateView<'_>) -> Self {
+        let axes = (0..view.machine.axes.len()).map(AxisIndex::new);
+        let possible = view.possible.iter();
+        let possible = possible.filter(|it| it.kind == Kind::Frict).cloned();
+        Self {
+            states: axes.map(|axis| view.state(axis, Kind::Frict)).collect(),
+            possible: possible.collect(),
+        }
+    }
+
+    /// What is possible for axes, by their positions, in words as seen from a file.
+    pub(crate) fn possible(&self, file: &str) -> Vec<(usize, String)> {
+        let possible = self.possible.iter();
+        possible
+            .map(|it| (it.axis.get(), it.in_words(file)))
+            .collect()
+    }
+}
+
 /// The executed blocks, and the states after them.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     pub(crate) kept: Vec<KeptRow>,
-    /// The rows that change a state.
+    /// The rows after which the states are others than after the row above.
     pub(crate) changed: Vec<u32>,
+    /// The axes that rows switch, by their positions.
+    switched: Vec<(u32, usize)>,
     /// The names of the files.
     pub(crate) files: Vec<String>,
     /// Every combination of states that occurs, the one at the start first.
-    vectors: Vec<Vec<State>>,
-    known: HashMap<Vec<State>, u32>,
+    moments: Vec<Arc<Moment>>,
+    known: HashMap<Arc<Moment>, u32>,
     /// The states of the last row, and what they were made of.
     current: u32,
     version: Option<u64>,
@@ -42,16 +74,19 @@ impl Rows {
     /// Takes a block.
     pub(crate) fn push(&mut self, row: &Row<'_>) {
         self.blocks += 1;
-        let before = self.current;
+        let above = self.kept.last().map_or(0, |above| above.states);
         self.see(row.state);
         if self.kept.len() >= MOST_ROWS {
             return;
         }
         let file = self.file(row.file);
         let at = u32::try_from(self.kept.len()).unwrap_or(u32::MAX);
-        if before != self.current {
+        if above != self.current {
             self.changed.push(at);
         }
+        let switched = row.changes.iter().filter(|it| it.kind == Kind::Frict);
+        let switched = switched.filter(|it| it.from != it.to);
+        self.switched.extend(switched.map(|it| (at, it.axis.get())));
         let breaks = row.text.bytes().filter(|byte| *byte == b'\n').count();
         self.kept.push(KeptRow {
             line: row.line,
@@ -64,17 +99,26 @@ impl Rows {
 
     /// The states after a row; of those before the first row without a number.
     pub(crate) fn states(&self, row: Option<usize>) -> &[State] {
-        let vector = row.map_or(0, |row| self.kept[row].states);
-        let vector = usize::try_from(vector).unwrap_or(usize::MAX);
-        self.vectors.get(vector).map_or(&[], Vec::as_slice)
+        self.moment(row).map_or(&[], |moment| &moment.states)
+    }
+
+    /// The moment after a row; that before the first row without a number.
+    pub(crate) fn moment(&self, row: Option<usize>) -> Option<&Moment> {
+        self.numbered(row.map_or(0, |row| self.kept[row].states))
+    }
+
+    fn numbered(&self, moment: u32) -> Option<&Moment> {
+        let moment = usize::try_from(moment).unwrap_or(usize::MAX);
+        self.moments.get(moment).map(AsRef::as_ref)
     }
 
     /// The axes whose state a row changes.
     pub(crate) fn changes(&self, row: usize) -> Vec<usize> {
-        let (before, after) = (self.states(row.checked_sub(1)), self.states(Some(row)));
-        let axes = before.iter().zip(after).enumerate();
-        axes.filter_map(|(axis, (before, after))| (before != after).then_some(axis))
-            .collect()
+        let row = u32::try_from(row).unwrap_or(u32::MAX);
+        let from = self.switched.partition_point(|(at, _)| *at < row);
+        let of_row = self.switched[from..].iter();
+        let of_row = of_row.take_while(|(at, _)| *at == row);
+        of_row.map(|(_, axis)| *axis).collect()
     }
 
     fn file(&mut self, name: &str) -> u16 {
@@ -93,9 +137,8 @@ impl Rows {
     }
 
     /// The states of the moment: after the end, those that the program leaves.
-    pub(crate) fn current(&self) -> &[State] {
-        let current = usize::try_from(self.current).unwrap_or(usize::MAX);
-        self.vectors.get(current).map_or(&[], Vec::as_slice)
+    pub(crate) fn current(&self) -> Option<&Moment> {
+        self.numbered(self.current)
     }
 
     /// Makes the states of a moment the current ones; the first are those of the start.
@@ -104,16 +147,14 @@ impl Rows {
             return;
         }
         self.version = Some(state.version);
-        let axes = 0..state.machine.axes.len();
-        let vector: Vec<State> = axes
-            .map(|axis| state.state(AxisIndex::new(axis), Kind::Frict))
-            .collect();
-        if let Some(&known) = self.known.get(&vector) {
+        let moment = Moment::of(state);
+        if let Some(&known) = self.known.get(&moment) {
             self.current = known;
             return;
         }
-        self.current = u32::try_from(self.vectors.len()).unwrap_or(u32::MAX);
-        self.known.insert(vector.clone(), self.current);
-        self.vectors.push(vector);
+        self.current = u32::try_from(self.moments.len()).unwrap_or(u32::MAX);
+        let moment = Arc::new(moment);
+        self.known.insert(Arc::clone(&moment), self.current);
+        self.moments.push(moment);
     }
 }

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use frictcomp::comp::KindSet;
-use frictcomp::comp::{Kind, State};
+use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Wording;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
@@ -19,7 +18,7 @@ use crate::bars::{Stretch, bar};
 use crate::dropped::Dropped;
 use crate::lines::Lines;
 use crate::refusal::Refusal;
-use crate::rows::MOST_ROWS;
+use crate::rows::{MOST_ROWS, Moment};
 use crate::timeline::Timeline;
 use crate::wording::page;
 
@@ -93,6 +92,8 @@ struct AxisOverview<'a> {
     listed: bool,
     changes: u64,
     changed_by: Vec<ChangedAt<'a>>,
+    /// What is possible at the end where that is unknown because ways differ.
+    possible: Option<String>,
     /// The feed moves without compensation, to stand after the name.
     uncompensated: Option<String>,
     bar: Vec<Stretch>,
@@ -125,12 +126,22 @@ struct MachineOverview<'a> {
     said: &'a [Diagnostic],
 }
 
+/// The states at a line of the timeline.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct States {
+    states: Vec<StateWord>,
+    /// What is possible for axes, by their positions, where their states are unknown because ways differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    possible: Vec<(usize, String)>,
+}
+
 /// One line of the timeline.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub(crate) enum Item<'a> {
     Start {
-        states: Vec<StateWord>,
+        #[serde(flatten)]
+        states: States,
     },
     Block {
         block: usize,
@@ -139,7 +150,8 @@ pub(crate) enum Item<'a> {
         line: u32,
         level: u8,
         text: String,
-        states: Vec<StateWord>,
+        #[serde(flatten)]
+        states: States,
         changes: Vec<usize>,
     },
     Message {
@@ -147,7 +159,8 @@ pub(crate) enum Item<'a> {
         at: usize,
     },
     End {
-        states: Vec<StateWord>,
+        #[serde(flatten)]
+        states: States,
     },
 }
 
@@ -270,6 +283,16 @@ impl Sources for Texts {
     }
 }
 
+impl States {
+    /// Those of a moment, as seen from a file.
+    fn seen(moment: Option<&Moment>, file: &str) -> Self {
+        moment.map_or_else(Self::default, |moment| Self {
+            states: moment.states.iter().map(|state| state.as_str()).collect(),
+            possible: moment.possible(file),
+        })
+    }
+}
+
 impl Shown {
     fn overview<'a>(&'a self, loaded: &'a LoadedMachine) -> Overview<'a> {
         let timeline = &self.timeline;
@@ -311,6 +334,7 @@ impl Shown {
 
     fn axes(&self) -> Vec<AxisOverview<'_>> {
         let timeline = &self.timeline;
+        let mut possible = States::seen(timeline.rows.current(), &self.program).possible;
         let axes = timeline.axes.iter().enumerate();
         axes.map(|(at, axis)| {
             let mut summaries = timeline.summaries.iter();
@@ -334,6 +358,10 @@ impl Shown {
                         number: block.number,
                     })
                     .collect(),
+                possible: possible
+                    .iter_mut()
+                    .find(|(axis, _)| *axis == at)
+                    .map(|(_, words)| std::mem::take(words)),
                 uncompensated: summary
                     .and_then(|summary| feed_moves_text(&summary.feed_moves, axis.axis_type)),
                 bar: bar(&timeline.rows, at),
@@ -444,11 +472,11 @@ impl Shown {
 
     fn item(&self, view: View, at: usize) -> Item<'_> {
         let rows = &self.timeline.rows;
-        let words = |states: &[State]| states.iter().map(|state| state.as_str()).collect();
+        let seen = |moment| States::seen(moment, &self.program);
         let Some(row) = self.row_at(view, at) else {
             if at == 0 {
                 return Item::Start {
-                    states: words(rows.states(None)),
+                    states: seen(rows.moment(None)),
                 };
             }
             let message = self.messages_before(view, at);
@@ -456,7 +484,7 @@ impl Shown {
                 return Item::Message { at: message };
             }
             return Item::End {
-                states: words(rows.current()),
+                states: seen(rows.current()),
             };
         };
         let kept = rows.kept[row];
@@ -468,8 +496,56 @@ impl Shown {
             line: kept.line,
             level: kept.level,
             text: lines.map_or_else(String::new, |it| it.shown(kept.line, kept.lines)),
-            states: words(rows.states(Some(row))),
+            states: States::seen(rows.moment(Some(row)), file),
             changes: rows.changes(row),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PROGRAM: &[u8] = b"\
+N10 $IF V.E.MATERIAL == 2
+N20 X[COMP OFF FRICT]
+N30 $ENDIF
+N40 G1 X1 F100
+N50 M30
+";
+
+    #[test]
+    fn an_unknown_state_says_when_it_is_which() {
+        // R14.2
+        let mut dropped = Dropped::default();
+        dropped.put("a.nc", PROGRAM.to_vec(), true);
+        let settings = RunSettings {
+            enable: vec!["X".to_owned()],
+            ..RunSettings::default()
+        };
+        let (mut shown, overview) = run(&mut dropped, "a.nc", &settings).expect("it runs");
+        let read = |bytes: &[u8]| -> serde_json::Value {
+            serde_json::from_slice(bytes).expect("it is JSON")
+        };
+        let words = "inactive if V.E.MATERIAL == 2 (line 1), else active";
+        let overview = read(&overview);
+        assert_eq!(overview["axes"][0]["end"], "unknown");
+        assert_eq!(overview["axes"][0]["possible"], words);
+        let items = read(&shown.items(View::All, 0, 100));
+        let items = items.as_array().expect("a list");
+        let at = |line: u32| items.iter().find(|it| it["line"] == line).expect("a block");
+        assert_eq!(at(1).get("possible"), None);
+        assert_eq!(at(2).get("possible"), None);
+        assert_eq!(at(2)["changes"], serde_json::json!([0]));
+        for line in [3, 4, 5] {
+            assert_eq!(at(line)["states"][0], "unknown");
+            assert_eq!(at(line)["possible"], serde_json::json!([[0, words]]));
+            assert_eq!(at(line)["changes"], serde_json::json!([]));
+        }
+        let end = items.last().expect("the end");
+        assert_eq!(end["possible"], serde_json::json!([[0, words]]));
+        let notable = read(&shown.items(View::Notable, 0, 100));
+        let notable = notable.as_array().expect("a list");
+        assert!(notable.iter().any(|it| it["line"] == 3), "{notable:?}");
     }
 }

@@ -5,7 +5,7 @@ import { isMissing, missing, sentence, verdict } from "../page/verdict";
 
 const axis: Axis = {
   name: "X", startUp: "active", start: "active", end: "active", listed: true, changes: 0,
-  changedBy: [], uncompensated: null, bar: [[1, 2, "active"], [3, 9, "inactive"]],
+  changedBy: [], possible: null, uncompensated: null, bar: [[1, 2, "active"], [3, 9, "inactive"]],
 };
 
 const overview: Overview = {
@@ -42,6 +42,14 @@ describe("the verdict", () => {
       expect(weights(changed), JSON.stringify(changed)).not.toContain("good");
     }
     expect(verdict(overview, { ...given, enable: ["X"] }).map(({ weight }) => weight)).not.toContain("good");
+  });
+
+  it("says when an axis ends how", () => {
+    const words = "inactive if V.E.A == 2 (line 3), else active";
+    const told = (changed: Partial<Axis>): string =>
+      verdict({ ...overview, axes: [{ ...axis, end: "unknown", ...changed }] }, given)[0]?.text ?? "";
+    expect(told({})).toContain("at the end: X. Only");
+    expect(told({ possible: words })).toContain(`at the end: X (${words}). Only`);
   });
 
   it("names what was not dropped", () => {

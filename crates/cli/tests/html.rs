@@ -197,6 +197,34 @@ fn what_is_away_from_home_looks_like_it() {
 }
 
 #[test]
+fn an_unknown_state_says_when_it_is_which() {
+    // R14.2
+    let program = "\
+N10 $IF V.E.A < 2
+N20 X[COMP OFF FRICT]
+N30 $ENDIF
+N40 G1 X1 F100
+N50 M30
+";
+    let bench = Bench::new(&[("a.nc", program)]);
+    let report = report_of(&bench, &["a.nc"]);
+    assert_sound(&report);
+    let words = "inactive if V.E.A &lt; 2 (line 1), else active";
+    let left = section(&report, "left");
+    assert!(left.contains(&format!("</span>: {words}</td>")), "{left}");
+    let states = section(&report, "states");
+    let title = format!("X unknown from N30, a.nc:3, executed block 3: {words}");
+    assert!(states.contains(&title), "{states}");
+    let source = section(&report, "source");
+    let line = format!("<strong>X</strong> <span class=\"state unknown\">unknown</span>: {words}");
+    assert_eq!(source.matches(&line).count(), 1, "{source}");
+    let (_, below) = source
+        .split_once("id=\"f0l3\"")
+        .expect("the line where ways meet");
+    assert!(below.contains(&line), "{source}");
+}
+
+#[test]
 fn a_report_says_nothing_twice() {
     // R9.50
     let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);

@@ -14,7 +14,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
 const MAX_NAMED: usize = 4;
 
 /// The states of a kind on an axis that is unknown, each with the ways that lead to it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct PossibleStates {
     /// The axis.
@@ -26,7 +26,7 @@ pub struct PossibleStates {
 }
 
 /// A state that is possible.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct PossibleState {
     /// The state.
@@ -39,7 +39,7 @@ pub struct PossibleState {
 }
 
 /// A condition of a way.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum WayCondition {
@@ -65,7 +65,7 @@ pub enum WayCondition {
 }
 
 /// What is asked in a block.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub struct Asked {
     /// The file.

@@ -169,6 +169,59 @@ fn hints_stand_where_a_state_changes_and_at_the_end() {
     client.drop_all();
 }
 
+const WAYS: &str = "\
+N10 G1 X1 F100
+N20 $IF V.E.MATERIAL == 2
+N30 X[COMP OFF FRICT]
+N40 $ELSE
+N50 G1 X2
+N60 $ENDIF
+N70 G1 X3
+N80 M30
+";
+
+#[test]
+fn an_unknown_state_says_when_it_is_which() {
+    // R14.2
+    let (_bench, mut client, uri) = opened(WAYS);
+    let escaped = r"unknown \(inactive if V\.E\.MATERIAL \=\= 2 \(line 2\)\, else active\)";
+    for line in [6, 7] {
+        let text = hover(&mut client, &uri, line);
+        let row = format!("| X | {escaped} | {escaped} |");
+        assert!(text.contains(&row), "{text}");
+    }
+    let text = hover(&mut client, &uri, 2);
+    assert!(text.contains("| X | active | inactive |"), "{text}");
+    let text = hover(&mut client, &uri, 4);
+    assert!(text.contains("| X | active | active |"), "{text}");
+
+    let words = "X unknown (inactive if V.E.MATERIAL == 2 (line 2), else active)";
+    let all = json!({
+        "textDocument": { "uri": uri },
+        "range": { "start": { "line": 0, "character": 0 }, "end": { "line": 99, "character": 0 } },
+    });
+    let hints = client.ask("textDocument/inlayHint", &all);
+    let hints = hints.as_array().expect("a list").iter();
+    let shown: Vec<_> = hints
+        .map(|it| (it["position"]["line"].as_u64(), it["label"].as_str()))
+        .collect();
+    let met = words.replacen("X unknown", "X: unknown", 1);
+    let left = format!("leaves {words}");
+    assert_eq!(
+        shown,
+        [
+            (Some(6), Some(met.as_str())),
+            (Some(2), Some("X: active \u{2192} inactive")),
+            (Some(7), Some(left.as_str())),
+        ]
+    );
+    let text = json!({ "textDocument": { "uri": uri } });
+    let lenses = client.ask("textDocument/codeLens", &text);
+    let mut lenses = lenses.as_array().expect("a list").iter();
+    assert!(lenses.any(|it| it["command"]["title"] == left.as_str()));
+    client.drop_all();
+}
+
 #[test]
 fn lenses_say_what_a_program_leaves() {
     // R12.4

@@ -74,6 +74,8 @@ pub(super) struct Run {
 /// An axis when a program has ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AxisEnd {
+    /// Its position in the machine.
+    pub(super) at: usize,
     /// Its name.
     pub(super) axis: String,
     /// The state at the end.
@@ -265,13 +267,15 @@ impl Sink for Survey {
                 self.blocks = summary.blocks;
                 let axes = summary.axes.iter();
                 let ends = axes.map(|axis| AxisEnd {
+                    at: axis.axis.get(),
                     axis: summary.state.name(axis.axis).to_owned(),
                     end: axis.end,
                     start_up: axis.start_up,
                 });
                 self.ends = ends.collect();
             }
-            Record::Machine(_) | Record::Join(_) => {}
+            Record::Join(join) => self.states.join(join),
+            Record::Machine(_) => {}
         }
         self.findings.record(record)
     }

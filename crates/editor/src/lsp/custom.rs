@@ -114,7 +114,6 @@ pub(super) fn states(view: &View, params: &StatesParams) -> Option<States> {
     let (_, run, name) = view.runs(document).into_iter().next()?;
     let line = run.states.executed_up_to(&name, wanted)?;
     let passes = run.states.passes(&name, line);
-    let of = |set: &StateSet, at: usize| set.get(at).copied().flatten();
     let axes = run
         .states
         .axes()
@@ -127,8 +126,8 @@ pub(super) fn states(view: &View, params: &StatesParams) -> Option<States> {
                 after: Vec::new(),
             };
             for pass in &passes {
-                add(&mut states.before, of(pass.before, at));
-                add(&mut states.after, of(pass.after, at));
+                add(&mut states.before, pass.before.state(at));
+                add(&mut states.after, pass.after.state(at));
             }
             (!states.after.is_empty()).then_some(states)
         });
@@ -181,7 +180,7 @@ pub(super) fn timeline(view: &View, params: &TimelineParams) -> Option<Timeline>
             let states = |of: for<'p> fn(&Pass<'p>) -> &'p StateSet| {
                 let mut states = Vec::new();
                 for pass in &passes {
-                    add(&mut states, of(pass).get(at).copied().flatten());
+                    add(&mut states, of(pass).state(at));
                 }
                 states
             };

@@ -19,12 +19,14 @@ pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<I
     let lines = params.range.start.line..=params.range.end.line;
     let mut hints = Vec::new();
     let name = shown_path(&document.path);
-    for (line, passes) in run.states.switching(&name) {
-        if lines.contains(&(line - 1)) {
-            hints.push(hint(view, document, line, &changes(run, &passes)));
+    let changes = run.states.switching(&name);
+    let changes = changes.map(|(line, passes)| (line, changes_of(run, &passes, &name)));
+    for (line, words) in run.states.meeting(&name).chain(changes) {
+        if !words.is_empty() && lines.contains(&(line - 1)) {
+            hints.push(hint(view, document, line, &words));
         }
     }
-    if let (Some(left), Some(line)) = (left(run), run.states.at_end().1)
+    if let (Some(left), Some(line)) = (left(run, &name), run.states.last())
         && lines.contains(&(line - 1))
     {
         hints.push(hint(view, document, line, &left));
@@ -55,15 +57,15 @@ fn hint(view: &View, document: &Document, line: u32, label: &str) -> InlayHint {
 }
 
 /// What a block changes: `X: active → inactive`. Where it does so in some passes only, `(2 of 5)`.
-fn changes(run: &Run, passes: &[Pass<'_>]) -> String {
+fn changes_of(run: &Run, passes: &[Pass<'_>], file: &str) -> String {
     let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
     let mut words: Vec<(String, u64)> = Vec::new();
     for (at, axis) in run.states.axes().iter().enumerate() {
         for pass in passes {
-            let (Some(from), Some(to)) = (pass.before[at], pass.after[at]) else {
+            let (Some(from), Some(to)) = (pass.before.state(at), pass.after.told(at, file)) else {
                 continue;
             };
-            if from == to {
+            if pass.after.state(at) == Some(from) {
                 continue;
             }
             let change = format!("{axis}: {from} \u{2192} {to}");
@@ -83,11 +85,17 @@ fn changes(run: &Run, passes: &[Pass<'_>]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What the program leaves away from the states at the start of the control: `leaves X inactive`.
-pub(super) fn left(run: &Run) -> Option<String> {
+/// What the program leaves away from the states at the start of the control, as seen from a file:
+/// `leaves X inactive`.
+pub(super) fn left(run: &Run, file: &str) -> Option<String> {
     let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
+    let left = run.states.at_end();
     let away: Vec<String> = away
-        .map(|axis| format!("{} {}", axis.axis, axis.end))
+        .map(|axis| {
+            let told = left.told(axis.at, file);
+            let end = told.unwrap_or_else(|| axis.end.to_string());
+            format!("{} {end}", axis.axis)
+        })
         .collect();
     (!away.is_empty()).then(|| format!("leaves {}", away.join(", ")))
 }

@@ -11,7 +11,7 @@ use super::moving::{AxisMoves, moves};
 use super::parameters::page_of;
 use super::states::{Pass, StateBook};
 use super::view::View;
-use frictcomp::comp::{CompCommand, Selection, State};
+use frictcomp::comp::{CompCommand, Selection};
 use frictcomp::syntax::ast::Item;
 use frictcomp::syntax::parse_block;
 use frictcomp::text::shown_path;
@@ -48,7 +48,7 @@ fn program(view: &View, document: &Document, position: Position) -> Option<Strin
             let caller = code(&shown_path(&main.path));
             let _ = writeln!(text, "\nCalled from {caller}:\n");
         }
-        text += &table(&run.states, &passes);
+        text += &table(&run.states, &passes, &name);
         if main.uri == document.uri {
             for moves in moves(view, document, line) {
                 let _ = writeln!(text, "\n{}", moving(&moves));
@@ -125,12 +125,12 @@ fn moving(moves: &AxisMoves) -> String {
 }
 
 /// The states of each axis before and after a block, in all passes.
-fn table(states: &StateBook, passes: &[Pass<'_>]) -> String {
+fn table(states: &StateBook, passes: &[Pass<'_>], file: &str) -> String {
     let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
     let mut text = String::from("| axis | before | after |\n|---|---|---|\n");
     for (at, axis) in states.axes().iter().enumerate() {
-        let before = of_all(passes, |pass| pass.before[at]);
-        let after = of_all(passes, |pass| pass.after[at]);
+        let before = of_all(passes, |pass| pass.before.told(at, file));
+        let after = of_all(passes, |pass| pass.after.told(at, file));
         if after.is_empty() {
             continue;
         }
@@ -146,9 +146,9 @@ fn table(states: &StateBook, passes: &[Pass<'_>]) -> String {
 /// Each state with how often it occurs, the first one first.
 fn of_all<'a>(
     passes: &[Pass<'a>],
-    state: impl Fn(&Pass<'a>) -> Option<State>,
-) -> Vec<(State, u64)> {
-    let mut found: Vec<(State, u64)> = Vec::new();
+    state: impl Fn(&Pass<'a>) -> Option<String>,
+) -> Vec<(String, u64)> {
+    let mut found: Vec<(String, u64)> = Vec::new();
     for pass in passes {
         let Some(state) = state(pass) else { continue };
         let times = u64::from(pass.times);
@@ -160,10 +160,11 @@ fn of_all<'a>(
     found
 }
 
-fn words(states: &[(State, u64)], total: u64) -> String {
+fn words(states: &[(String, u64)], total: u64) -> String {
     let words = states.iter().map(|(state, times)| {
+        let state = plain(state);
         if *times == total {
-            state.to_string()
+            state
         } else {
             format!("{state} ({times} of {total})")
         }

@@ -10,6 +10,7 @@ use super::encoding::whole_line;
 use super::hints::left;
 use super::view::View;
 use frictcomp::session::Options;
+use frictcomp::text::shown_path;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, Input, Ledger, MachineOptions, Machines};
 
 /// The lenses over a text.
@@ -29,7 +30,9 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
     };
     let mut lenses = Vec::new();
     lenses.extend(run.remark.clone().map(said));
-    let left = left(run).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
+    let name = shown_path(&document.path);
+    let left =
+        left(run, &name).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
     lenses.push(said(left));
     lenses.extend(inherited(view, document).map(said));
     lenses.push(CodeLens {

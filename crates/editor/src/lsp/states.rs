@@ -1,16 +1,73 @@
 //! The states before and after each block of a run, in every pass through it (R12.3).
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use frictcomp::comp::{Kind, State};
-use frictcomp::timeline::{Row, StateView};
+use frictcomp::interpreter::PossibleStates;
+use frictcomp::timeline::{Join, Row, StateView};
 
 /// Passes through one block that differ in their states; further ones are counted with the last.
 const MOST_PASSES: u32 = 64;
 
-/// The state of friction compensation of each axis of the machine; `None` where it is not listed.
-pub(super) type StateSet = [Option<State>];
+/// Friction compensation of each axis of the machine at a moment.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) struct StateSet {
+    /// The states; `None` where the axis is not listed.
+    states: Vec<Option<State>>,
+    /// What is possible where a state is unknown because ways differ (R14.2).
+    possible: Vec<PossibleStates>,
+}
+
+static NOTHING: StateSet = StateSet {
+    states: Vec::new(),
+    possible: Vec::new(),
+};
+
+impl StateSet {
+    fn of(state: StateView<'_>) -> Self {
+        let mut states = vec![None; state.machine.axes.len()];
+        for (axis, _) in state.axes() {
+            states[axis.get()] = Some(state.state(axis, Kind::Frict));
+        }
+        let possible = state.possible.iter();
+        let possible = possible.filter(|it| it.kind == Kind::Frict).cloned();
+        Self {
+            states,
+            possible: possible.collect(),
+        }
+    }
+
+    /// The states before a block that leaves these.
+    fn before(&self, row: &Row<'_>) -> Self {
+        let mut found = self.clone();
+        let changes = row.changes.iter().rev();
+        for change in changes.filter(|it| it.kind == Kind::Frict) {
+            found.states[change.axis.get()] = Some(change.from);
+            found.possible.retain(|it| it.axis != change.axis);
+        }
+        found
+    }
+
+    /// The state of an axis; `None` where it is not listed.
+    pub(super) fn state(&self, axis: usize) -> Option<State> {
+        self.states.get(axis).copied().flatten()
+    }
+
+    fn possible(&self, axis: usize) -> Option<&PossibleStates> {
+        self.possible.iter().find(|it| it.axis.get() == axis)
+    }
+
+    /// The state of an axis in words, as seen from a file: `active`, or `unknown (inactive if V.E.A == 2
+    /// (line 12), else active)`.
+    pub(super) fn told(&self, axis: usize, file: &str) -> Option<String> {
+        let state = self.state(axis)?;
+        Some(match self.possible(axis) {
+            Some(possible) => format!("{state} ({})", possible.in_words(file)),
+            None => state.to_string(),
+        })
+    }
+}
 
 /// A number for a set of states.
 type SetIndex = u32;
@@ -42,6 +99,8 @@ struct FileVisits {
     name: Arc<str>,
     lines: Vec<Visit>,
     further: Vec<Visit>,
+    /// Blocks before which ways meet: the states on the last of them, and those that all may leave.
+    met: BTreeMap<u32, Vec<(SetIndex, SetIndex)>>,
 }
 
 /// Passes through a block with the same states.
@@ -59,8 +118,8 @@ pub(super) struct Pass<'a> {
 #[derive(Debug, Default)]
 pub(super) struct StateBook {
     axes: Vec<String>,
-    sets: Vec<Box<StateSet>>,
-    numbers: HashMap<Box<StateSet>, SetIndex>,
+    sets: Vec<Arc<StateSet>>,
+    numbers: HashMap<Arc<StateSet>, SetIndex>,
     /// The states now, and the version of the view that they were taken from.
     now: SetIndex,
     version: Option<u64>,
@@ -79,32 +138,69 @@ impl StateBook {
             let axes = state.machine.axes.iter();
             self.axes = axes.map(|axis| axis.name.clone()).collect();
         }
-        self.now = self.number(state);
-        self.version = Some(state.version);
+        self.see(state);
     }
 
     /// Takes a block.
     #[inline]
     pub(super) fn block(&mut self, row: &Row<'_>) {
-        let before = self.now;
+        let mut before = self.now;
         if self.version != Some(row.state.version) {
-            self.version = Some(row.state.version);
-            self.now = self.number(row.state);
+            self.see(row.state);
+            if row.branch.is_some() {
+                before = self.before(row, before);
+            }
         }
-        let known = self.files.get(self.file).map(|it| &*it.name) == Some(row.file);
-        if !known {
-            self.file = self.file_of(row.file);
-        }
+        self.enter(row.file);
         self.files[self.file].visit(row.line, (before, self.now));
         if row.level.is_none() {
             self.last = Some(row.line);
         }
     }
 
+    /// Takes a place where ways meet.
+    #[cold]
+    pub(super) fn join(&mut self, join: &Join<'_>) {
+        let before = self.now;
+        self.see(join.state);
+        if before == self.now {
+            return;
+        }
+        self.enter(join.file);
+        let met = self.files[self.file].met.entry(join.line).or_default();
+        if met.len() < MOST_PASSES as usize && !met.contains(&(before, self.now)) {
+            met.push((before, self.now));
+        }
+    }
+
     /// The states when the program has ended.
     pub(super) fn end(&mut self, state: StateView<'_>) {
-        self.now = self.number(state);
+        self.see(state);
+    }
+
+    fn see(&mut self, state: StateView<'_>) {
+        self.now = self.number(StateSet::of(state));
         self.version = Some(state.version);
+    }
+
+    /// The states before a block of a branch, whose first block does not follow the block that was
+    /// executed before it.
+    #[cold]
+    fn before(&mut self, row: &Row<'_>, last: SetIndex) -> SetIndex {
+        let found = self.set(self.now).before(row);
+        if found.states == self.set(last).states {
+            last
+        } else {
+            self.number(found)
+        }
+    }
+
+    #[inline]
+    fn enter(&mut self, file: &str) {
+        let known = self.files.get(self.file).map(|it| &*it.name) == Some(file);
+        if !known {
+            self.file = self.file_of(file);
+        }
     }
 
     #[cold]
@@ -118,21 +214,19 @@ impl StateBook {
             name,
             lines: Vec::new(),
             further: Vec::new(),
+            met: BTreeMap::new(),
         });
         self.files.len() - 1
     }
 
     #[cold]
-    fn number(&mut self, state: StateView<'_>) -> SetIndex {
-        let mut set: Box<StateSet> = vec![None; self.axes.len()].into();
-        for (axis, _) in state.axes() {
-            set[axis.get()] = Some(state.state(axis, Kind::Frict));
-        }
+    fn number(&mut self, set: StateSet) -> SetIndex {
         if let Some(number) = self.numbers.get(&set) {
             return *number;
         }
         let number = index(self.sets.len());
-        self.sets.push(set.clone());
+        let set = Arc::new(set);
+        self.sets.push(Arc::clone(&set));
         self.numbers.insert(set, number);
         number
     }
@@ -140,8 +234,7 @@ impl StateBook {
     fn set(&self, number: SetIndex) -> &StateSet {
         self.sets
             .get(number as usize)
-            .map(AsRef::as_ref)
-            .unwrap_or_default()
+            .map_or(&NOTHING, AsRef::as_ref)
     }
 
     /// The axes of the machine, in the order of a set.
@@ -196,6 +289,35 @@ impl StateBook {
         })
     }
 
+    /// The lines of the blocks of a file before which ways meet, from 1, each with what becomes unknown
+    /// there, in words.
+    pub(super) fn meeting(&self, file: &str) -> impl Iterator<Item = (u32, String)> {
+        let met = self.by_name.get(file).map(|at| &self.files[*at].met);
+        let met = met.into_iter().flatten();
+        met.filter_map(move |(line, passes)| {
+            let axes = self.axes.iter().enumerate();
+            let told = axes.filter_map(|(at, axis)| Some((axis, self.meets(at, passes, file)?)));
+            let told: Vec<String> = told.map(|(axis, told)| format!("{axis}: {told}")).collect();
+            (!told.is_empty()).then(|| (*line, told.join(", ")))
+        })
+    }
+
+    /// What becomes possible for an axis where ways meet; only that it is unknown where passes differ.
+    fn meets(&self, axis: usize, passes: &[(SetIndex, SetIndex)], file: &str) -> Option<String> {
+        let joined = passes.iter().filter_map(|(before, after)| {
+            let (before, after) = (self.set(*before), self.set(*after));
+            let possible = after.possible(axis)?;
+            (before.possible(axis) != Some(possible)).then(|| after.told(axis, file))?
+        });
+        let mut joined: Vec<String> = joined.collect();
+        joined.dedup();
+        match joined.as_slice() {
+            [] => None,
+            [told] => Some(told.clone()),
+            _ => Some(State::Unknown.to_string()),
+        }
+    }
+
     fn pass(&self, visit: Visit) -> Pass<'_> {
         Pass {
             before: self.set(visit.before),
@@ -204,9 +326,14 @@ impl StateBook {
         }
     }
 
-    /// The states at the end, and the last line of the main program, from 1.
-    pub(super) fn at_end(&self) -> (&StateSet, Option<u32>) {
-        (self.set(self.now), self.last)
+    /// The states at the end.
+    pub(super) fn at_end(&self) -> &StateSet {
+        self.set(self.now)
+    }
+
+    /// The last line of the main program that was reached, from 1.
+    pub(super) fn last(&self) -> Option<u32> {
+        self.last
     }
 }
 

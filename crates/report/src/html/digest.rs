@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::track::{Spot, Track};
+use super::ways::{Ways, WaysIndex};
 use crate::svg::Standing;
 use frictcomp::comp::{AxisIndex, Change, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
@@ -12,7 +13,7 @@ use frictcomp::lists::AxisType;
 use frictcomp::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use frictcomp::text::{Place, Position};
 use frictcomp::timeline::{
-    AxisSummary, End, EndedBy, Footing, Record, Row, Sink, StateView, Summary,
+    AxisSummary, End, EndedBy, Footing, Join, Record, Row, Sink, StateView, Summary,
 };
 
 /// How many characters of a source line are shown.
@@ -52,6 +53,9 @@ pub struct RunDigest {
     /// Lines with something to say beyond [`MAX_EVENT_LINES`].
     pub(super) more_events: u64,
     pub(super) summary: Option<SummaryDigest>,
+    pub(super) ways: Ways,
+    /// Where ways met after the last block, and what differs there.
+    met: Option<(SourceLine, Vec<Met>)>,
     by_name: HashMap<String, usize>,
     by_place: HashMap<(Code, Arc<str>, Position, String), usize>,
     /// The file of the last block.
@@ -116,10 +120,20 @@ pub(super) struct LineDigest {
     /// The block as it was executed.
     pub(super) text: String,
     pub(super) changes: Vec<(Change, u64)>,
+    /// What differs where ways meet before it.
+    pub(super) met: Vec<Met>,
     /// Different changes beyond [`MAX_CHANGES`].
     pub(super) more_changes: u64,
     /// By their numbers in the report.
     pub(super) messages: Vec<usize>,
+}
+
+/// What is possible for an axis where ways meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Met {
+    pub(super) axis: AxisIndex,
+    pub(super) kind: Kind,
+    pub(super) ways: WaysIndex,
 }
 
 /// A diagnostic and how often it was said.
@@ -154,6 +168,8 @@ pub(super) struct SummaryDigest {
     pub(super) opaque: BTreeMap<String, u64>,
     pub(super) axes: Vec<AxisSummary>,
     pub(super) footing: Footing,
+    /// What is possible at the end where FRICT of an axis is unknown.
+    pub(super) ways: Vec<(AxisIndex, WaysIndex)>,
 }
 
 impl RunDigest {
@@ -203,7 +219,7 @@ impl RunDigest {
     }
 
     fn program(&mut self, number: u32, file: &str, name: Option<&str>, state: StateView<'_>) {
-        let file = self.file(file);
+        let (path, file) = (file, self.file(file));
         if self.programs.len() >= MAX_PROGRAMS {
             self.more_programs += 1;
         }
@@ -214,7 +230,8 @@ impl RunDigest {
             let kinds = Kind::ALL.into_iter();
             for kind in kinds.filter(|&kind| self.kinds.contains(kind)) {
                 let start_up = start.state(axis, kind);
-                tracks.push(Track::new(axis, kind, state.state(axis, kind), start_up));
+                let now = self.ways.find(state, (axis, kind), path);
+                tracks.push(Track::new(axis, kind, now, start_up));
             }
         }
         self.version = Some(state.version);
@@ -254,6 +271,7 @@ impl RunDigest {
         }
         let file = self.last_file;
         self.count(file, row.line);
+        self.show_met(row.text);
         if self.version != Some(row.state.version) {
             self.version = Some(row.state.version);
             let spot = Spot {
@@ -262,8 +280,10 @@ impl RunDigest {
                 number: row.number,
             };
             if let Some(program) = self.programs.last_mut() {
+                let path = &self.files[program.file].name;
                 for track in &mut program.tracks {
-                    track.push(row.seq, row.state.state(track.axis, track.kind), spot);
+                    let now = self.ways.find(row.state, (track.axis, track.kind), path);
+                    track.push(row.seq, now, spot);
                 }
             }
             for (axis, listed) in self.axes.iter_mut().zip(row.state.listed) {
@@ -281,6 +301,50 @@ impl RunDigest {
         }
         for diagnostic in row.diagnostics {
             self.message(diagnostic, Some((file, row.line, row.text)));
+        }
+    }
+
+    /// Keeps what becomes possible where ways meet, for the line of the block that comes next.
+    fn join(&mut self, join: &Join<'_>) {
+        self.show_met("");
+        let file = self.file(join.file);
+        let Some(program) = self.programs.last() else {
+            return;
+        };
+        let path = &self.files[program.file].name;
+        let mut met = Vec::new();
+        for track in &program.tracks {
+            let place = (track.axis, track.kind);
+            if self.ways.find(join.state, place, path) != track.now
+                && let Some(ways) = self.ways.find(join.state, place, join.file).ways
+            {
+                let (axis, kind) = place;
+                met.push(Met { axis, kind, ways });
+            }
+        }
+        if !met.is_empty() {
+            let line = join.line;
+            self.met = Some((SourceLine { file, line }, met));
+        }
+    }
+
+    /// Keeps what waits since ways met with the line of a text.
+    #[inline]
+    fn show_met(&mut self, text: &str) {
+        if let Some((place, met)) = self.met.take() {
+            let Some(line) = self.line(place, text) else {
+                return;
+            };
+            for met in met {
+                if line.met.contains(&met) {
+                    continue;
+                }
+                if line.met.len() < MAX_CHANGES {
+                    line.met.push(met);
+                } else {
+                    line.more_changes += 1;
+                }
+            }
         }
     }
 
@@ -378,6 +442,7 @@ impl RunDigest {
     }
 
     fn end(&mut self, end: &End<'_>) {
+        self.show_met("");
         for note in end.notes {
             let place = &note.diagnostic.place;
             let file = self.file(&place.file);
@@ -404,6 +469,15 @@ impl RunDigest {
     }
 
     fn summary(&mut self, summary: &Summary<'_>) {
+        let last = self.programs.last();
+        let path = last.map_or("", |program| &self.files[program.file].name);
+        let ways = summary.axes.iter().filter_map(|axis| {
+            let found = self
+                .ways
+                .find(summary.state, (axis.axis, Kind::Frict), path);
+            Some((axis.axis, found.ways?))
+        });
+        let ways = ways.collect();
         self.summary = Some(SummaryDigest {
             programs: summary.programs,
             blocks: summary.blocks,
@@ -411,6 +485,7 @@ impl RunDigest {
             opaque: summary.opaque.clone(),
             axes: summary.axes.clone(),
             footing: summary.footing,
+            ways,
         });
         for axis in &summary.axes {
             self.axes[axis.axis.get()].listed = true;
@@ -430,7 +505,7 @@ impl Sink for RunDigest {
                 state,
             } => self.program(program, file, name, state),
             Record::Block(ref row) => self.block(row),
-            Record::Join(_) => {}
+            Record::Join(ref join) => self.join(join),
             Record::End(ref end) => self.end(end),
             Record::Summary(summary) => self.summary(summary),
         }

@@ -23,6 +23,7 @@ mod source;
 mod states;
 mod track;
 mod versions;
+mod ways;
 
 pub use audit::render_audit;
 pub use circle::render_circle;

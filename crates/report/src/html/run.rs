@@ -124,7 +124,12 @@ fn left(digest: &RunDigest) -> Markup {
         let standing = |state| digest.standing(axis.axis, Kind::Frict, state);
         let state = |state| state_word(state, standing(state));
         let changed = changed_by(digest, &axis.changed_by, axis.changes);
-        let cells = [state(axis.start), state(axis.end), changed];
+        let ways = summary.ways.iter().find(|(at, _)| *at == axis.axis);
+        let end = html! {
+            (state(axis.end))
+            @if let Some((_, ways)) = ways { ": " (digest.ways.text(*ways)) }
+        };
+        let cells = [state(axis.start), end, changed];
         Row::new(digest.axis_name(axis.axis), cells)
     });
     html! {

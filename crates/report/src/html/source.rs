@@ -6,11 +6,12 @@ use std::{io, iter};
 
 use maud::{Escaper, Markup, Render, html};
 
-use super::digest::{FileDigest, LINE_ROOM, LineDigest, RunDigest};
+use super::digest::{FileDigest, LINE_ROOM, LineDigest, Met, RunDigest};
 use super::messages::item;
 use super::page::Page;
 use super::parts::{line_id, state_word, times};
-use frictcomp::comp::{Change, Kind};
+use crate::svg::Standing;
+use frictcomp::comp::{AxisIndex, Change, Kind, State};
 use frictcomp::text::LineSource;
 
 /// Gives the lines of a program once more, after it has run.
@@ -228,6 +229,10 @@ impl Listing<'_, '_> {
             div.ev id=(line_id(self.file, line)) tabindex="-1" {
                 pre { (gutter) (self.marked(line, text, event)) "\n" }
                 ul {
+                    @for &met in &event.met {
+                        li { (self.met(met)) }
+                        "\n"
+                    }
                     @for (change, count) in &event.changes {
                         li { (self.change(*change)) (times(*count)) }
                         "\n"
@@ -248,11 +253,24 @@ impl Listing<'_, '_> {
         let standing = |state| self.digest.standing(change.axis, change.kind, state);
         let word = |state| state_word(state, standing(state));
         html! {
+            (self.named(change.axis, change.kind)) " " (word(change.from)) " \u{2192} " (word(change.to))
+        }
+    }
+
+    /// What is possible where ways meet before the line (R14.2).
+    fn met(&self, met: Met) -> Markup {
+        html! {
+            (self.named(met.axis, met.kind)) " " (state_word(State::Unknown, Standing::StartUp)) ": "
+            (self.digest.ways.text(met.ways))
+        }
+    }
+
+    fn named(&self, axis: AxisIndex, kind: Kind) -> Markup {
+        html! {
             strong {
-                (self.digest.axis_name(change.axis))
-                @if change.kind != Kind::Frict { " " (change.kind.as_str()) }
+                (self.digest.axis_name(axis))
+                @if kind != Kind::Frict { " " (kind.as_str()) }
             }
-            " " (word(change.from)) " \u{2192} " (word(change.to))
         }
     }
 

@@ -107,13 +107,17 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
 /// A bar in words.
 fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
     let word = stretch.state.as_str();
+    let ways = stretch
+        .ways
+        .map(|ways| format!(": {}", digest.ways.text(ways)));
+    let ways = ways.unwrap_or_default();
     match stretch.spot {
-        None => format!("{label} {word} at program start"),
+        None => format!("{label} {word} at program start{ways}"),
         Some(spot) => {
             let number = spot.number.map(|n| format!("N{n}, ")).unwrap_or_default();
             let file = &digest.files[spot.file].name;
             format!(
-                "{label} {word} from {number}{file}:{}, executed block {}",
+                "{label} {word} from {number}{file}:{}, executed block {}{ways}",
                 spot.line, stretch.from
             )
         }

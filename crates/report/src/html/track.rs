@@ -1,5 +1,6 @@
 //! The states of one kind on one axis over the blocks of a program, in bounded memory.
 
+use super::ways::{Found, WaysIndex};
 use crate::svg::{BandState, Standing};
 use frictcomp::comp::{AxisIndex, Kind, State};
 
@@ -21,6 +22,8 @@ pub(super) struct Stretch {
     pub(super) from: u64,
     /// The state that the band shows.
     pub(super) state: BandState,
+    /// What is possible where ways differ.
+    pub(super) ways: Option<WaysIndex>,
     /// The block that made it so; `None` at program start.
     pub(super) spot: Option<Spot>,
 }
@@ -34,7 +37,7 @@ pub(super) struct Track {
     pub(super) start_up: State,
     pub(super) stretches: Vec<Stretch>,
     /// The state of the moment.
-    state: State,
+    pub(super) now: Found,
     /// Shorter stretches have been joined.
     grain: u64,
 }
@@ -44,30 +47,32 @@ const MAX_STRETCHES: usize = 2048;
 
 impl Track {
     /// A track that begins with a state.
-    pub(super) fn new(axis: AxisIndex, kind: Kind, state: State, start_up: State) -> Self {
+    pub(super) fn new(axis: AxisIndex, kind: Kind, now: Found, start_up: State) -> Self {
         Self {
             axis,
             kind,
             start_up,
             stretches: vec![Stretch {
                 from: 0,
-                state: BandState::One(state),
+                state: BandState::One(now.state),
+                ways: now.ways,
                 spot: None,
             }],
-            state,
+            now,
             grain: 1,
         }
     }
 
     /// Takes the state after a block.
-    pub(super) fn push(&mut self, seq: u64, state: State, spot: Spot) {
-        if state == self.state {
+    pub(super) fn push(&mut self, seq: u64, now: Found, spot: Spot) {
+        if now == self.now {
             return;
         }
-        self.state = state;
+        self.now = now;
         self.stretches.push(Stretch {
             from: seq,
-            state: BandState::One(state),
+            state: BandState::One(now.state),
+            ways: now.ways,
             spot: Some(spot),
         });
         while self.stretches.len() > MAX_STRETCHES {
@@ -110,6 +115,7 @@ impl Track {
                     } else {
                         stretch.state
                     },
+                    ways: stretch.ways.filter(|_| !short),
                     ..*stretch
                 }),
             }
@@ -128,14 +134,16 @@ mod tests {
     };
 
     fn track(blocks: u64) -> Track {
-        let mut track = Track::new(AxisIndex::new(0), Kind::Frict, State::Active, State::Active);
+        let found = |state| Found { state, ways: None };
+        let now = found(State::Active);
+        let mut track = Track::new(AxisIndex::new(0), Kind::Frict, now, State::Active);
         for seq in 1..=blocks {
             let state = if seq % 2 == 0 {
                 State::Active
             } else {
                 State::Inactive
             };
-            track.push(seq, state, SPOT);
+            track.push(seq, found(state), SPOT);
         }
         track
     }

@@ -295,11 +295,7 @@ fn what_does_not_exist_is_refused_with_its_place() {
             "2:11",
             "write `stable = [\"V.E.PART\"]`",
         ),
-        (
-            "[variables]\nstable = 3\n",
-            "2:10",
-            "write `stable = [\"V.E.PART\"]`",
-        ),
+        ("[variables]\nstable = 3\n", "2:10", ""),
         ("[lint]\nFC4O2 = \"off\"\n", "2:1", "did you mean `FC402`?"),
         ("[lint]\nFC402 = \"of\"\n", "2:9", "did you mean `off`?"),
         (

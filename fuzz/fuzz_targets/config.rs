@@ -3,10 +3,10 @@
 
 use frictcomp::comp::KindSet;
 use frictcomp::machine::Configuration;
-use frictcomp_report::{Ndjson, View};
 use frictcomp::session::{Program, Session};
 use frictcomp::text::SourceFile;
 use frictcomp_fuzz::{Bench, Files, POLICIES};
+use frictcomp_report::{Ndjson, View};
 use libfuzzer_sys::fuzz_target;
 
 const PROGRAM: &str = "X[COMP OFF FRICT]\nG1 X1 Y=V.E.A\nY[COMP ON FRICT LEAD]\nM6\nT1\nM30\n";

@@ -2,8 +2,8 @@
 #![no_main]
 
 use frictcomp::machine::{Configuration, check_list};
-use frictcomp_report::lists::render_parameters;
 use frictcomp_fuzz::Files;
+use frictcomp_report::lists::render_parameters;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|input: &str| {

@@ -4,10 +4,10 @@
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp_report::{Listing, ListingFormat, Look, Paint, render};
 use frictcomp::session::{Session, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_fuzz::{Bench, Files, Theme, machine, text_of};
+use frictcomp_report::{Listing, ListingFormat, Look, Paint, render};
 use libfuzzer_sys::fuzz_target;
 
 struct Places<'a>(Files<'a>);

@@ -1,9 +1,9 @@
 //! State files: any text is refused, or a session goes on from it and saves what it read back.
 #![no_main]
 
-use frictcomp_report::{Ndjson, View};
 use frictcomp::session::{SavedState, Session};
 use frictcomp_fuzz::{Bench, Files, POLICIES, machine};
+use frictcomp_report::{Ndjson, View};
 use libfuzzer_sys::fuzz_target;
 
 const PROGRAM: &str = "V.S.A = V.S.A + 1\nV.S.B = V.S.B\nX[COMP OFF FRICT]\nX=V.S.A Y1 Z2\nM30\n";

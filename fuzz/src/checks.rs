@@ -2,8 +2,8 @@
 
 use std::io::sink;
 
-use frictcomp_report::{Csv, Ndjson, Positions, Report, Text, TextOptions, View};
 use frictcomp::session::{SavedState, Session};
+use frictcomp_report::{Csv, Ndjson, Positions, Report, Text, TextOptions, View};
 
 use crate::{Bench, Files, POLICIES, machine};
 

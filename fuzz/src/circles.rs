@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
     Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES, Method,
 };
 use frictcomp_physics::current::Reading;
-use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::simulation::{FrictionModel, Plant, STEP_S, plant_list};
-use frictcomp::text::SourceFile;
 
 use crate::Dice;
 

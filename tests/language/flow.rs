@@ -283,3 +283,12 @@ fn budgets_name_the_loop_that_used_them_up() {
       2:1: in this loop
     ");
 }
+
+#[test]
+fn a_loop_without_its_end_is_left_by_nothing() {
+    // R2.40 R2.84: `$BREAK` and `$CONTINUE` in it lead nowhere, and nothing is repeated.
+    for word in ["$BREAK", "$CONTINUE"] {
+        let ran = lines(&format!("$FOR P1=1,3,1\n{word}\nX1\nM30"));
+        assert!(ran.ends_with("2 3 4 FC208 1:1-14"), "{ran}");
+    }
+}

@@ -218,7 +218,15 @@ pub(in crate::interpreter) fn shown(
             decided.state(*axis, *kind)
         };
         let Split { on, off } = split;
-        let [on, off] = [on, off].map(|ways| ways.within(reach).beyond(reach));
+        // Sets that were widened until they overlap say of no way which state it leaves.
+        let overlap = !on.and(off).and(reach).is_never();
+        let [on, off] = [on, off].map(|ways| {
+            if overlap {
+                WaySet::always()
+            } else {
+                ways.within(reach).beyond(reach)
+            }
+        });
         let size = |ways: &WaySet| ways.conditions().count();
         let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
         let states = if size(&off) <= size(&on) {

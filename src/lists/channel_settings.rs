@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use super::entry::Entry;
 use super::line::Entries;
 use super::parameter::Parameter;
@@ -53,7 +55,7 @@ pub struct ChannelSettings {
 }
 
 /// The profile of the acceleration, P-CHAN-00071.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum SlopeProfile {
     /// Steps of the acceleration, with the values of the stages.
@@ -64,6 +66,17 @@ pub enum SlopeProfile {
     Sin2,
     /// Ramps with the longest of the four ramp times.
     Hsc,
+}
+
+impl SlopeProfile {
+    /// The profile with a number of P-CHAN-00071.
+    pub(crate) fn numbered(number: f64) -> Option<Self> {
+        let all = [Self::Step, Self::Trapez, Self::Sin2, Self::Hsc];
+        (0_u8..)
+            .zip(all)
+            .find(|(at, _)| f64::from(*at) == number)
+            .map(|(_, profile)| profile)
+    }
 }
 
 /// The groups of G functions that have a default at the start of a program, with the functions that
@@ -126,7 +139,9 @@ impl ChannelDraft {
             }
             ("prog_start.slope.profile", []) => {
                 let given = number(entry, diagnostics);
-                let profile = given.as_ref().and_then(|given| slope_of(given.value));
+                let profile = given
+                    .as_ref()
+                    .and_then(|given| SlopeProfile::numbered(given.value.to_f64()));
                 if given.is_some() && profile.is_none() {
                     diagnostics.push(odd(entry, "`0` to `3` are STEP, TRAPEZ, SIN2 and HSC"));
                 }
@@ -279,16 +294,6 @@ fn unit_of(factor: &Given<Number>) -> FeedUnit {
     } else {
         FeedUnit::Unknown
     }
-}
-
-fn slope_of(number: Number) -> Option<SlopeProfile> {
-    Some(match whole(number)? {
-        0 => SlopeProfile::Step,
-        1 => SlopeProfile::Trapez,
-        2 => SlopeProfile::Sin2,
-        3 => SlopeProfile::Hsc,
-        _ => return None,
-    })
 }
 
 /// FC132 for a factor that the control warns about, or whose meaning is not documented.

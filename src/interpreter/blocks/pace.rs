@@ -4,6 +4,7 @@
 use crate::interpreter::coordinates::contouring::ContouringCommand;
 use crate::interpreter::coordinates::pace::Factors;
 use crate::interpreter::coordinates::simplified::{self, Holds, Simplification};
+use crate::interpreter::coordinates::slope::SlopeSelection;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
@@ -69,7 +70,11 @@ impl Interpreter {
                     let next = command.parameters(before, rest, |value| self.number_in(value, at));
                     *self.state.control.modal.contouring_of(command) = next;
                 }
-                if let Some((what, holds)) = simplified::of_command(name) {
+                if let Some(selected) =
+                    SlopeSelection::of(name, rest, |value| self.number_in(value, at))
+                {
+                    self.state.control.modal.select_slope(selected);
+                } else if let Some((what, holds)) = simplified::of_command(name) {
                     self.simplify(what, holds);
                 }
             }

@@ -159,6 +159,7 @@ impl Interpreter {
                 BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
             contouring: modal.contouring(geometry.simplified),
+            slope: modal.slope(),
             end_feed_per_min: self.end_feed(geometry),
             simplified: modal.simplified.union(geometry.simplified),
         }))

@@ -169,7 +169,7 @@ impl Contouring {
 }
 
 /// The word after a keyword and its `=`.
-fn value_after<'a>(key: &str, text: &'a str, upper: &str) -> Option<&'a str> {
+pub(super) fn value_after<'a>(key: &str, text: &'a str, upper: &str) -> Option<&'a str> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut from = 0;
     loop {

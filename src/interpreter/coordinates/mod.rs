@@ -11,3 +11,4 @@ pub(super) mod motion;
 pub(super) mod moving;
 pub(super) mod pace;
 pub(super) mod simplified;
+pub(super) mod slope;

@@ -11,8 +11,9 @@ use super::group::{Group, GroupSet};
 use super::motion::BlockEnd;
 use super::pace::{Pace, ProgrammedFeed};
 use super::simplified::{self, Holds, Simplification, Simplifications};
+use super::slope::SlopeSelection;
 use crate::comp::AxisIndex;
-use crate::machine::ChannelSettings;
+use crate::machine::{ChannelSettings, SlopeProfile};
 
 /// Whether a position is one of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -93,6 +94,9 @@ pub struct Modal {
     contour: Contouring,
     /// The parameters of `#HSC`.
     high_speed: Contouring,
+    /// The profile of the acceleration, where the program selects one (`#SLOPE`).
+    #[serde(default)]
+    slope: Option<SlopeProfile>,
     /// What makes of F the velocity of the path.
     pub(in crate::interpreter) pace: Pace,
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
@@ -146,6 +150,7 @@ impl Modal {
             simplified: Simplifications::default(),
             contour: Contouring::default(),
             high_speed: Contouring::high_speed(),
+            slope: None,
             pace: Pace::new(Some(1.0)),
             skewed: false,
             origin_moved: false,
@@ -289,12 +294,29 @@ impl Modal {
         (holds.contains(Simplification::Contouring)).then_some(self.contour)
     }
 
+    /// The profile of the acceleration; `None` is that of the channel.
+    pub(in crate::interpreter) fn slope(&self) -> Option<SlopeProfile> {
+        self.slope
+    }
+
+    /// Puts a profile of the acceleration into force.
+    pub(in crate::interpreter) fn select_slope(&mut self, selection: SlopeSelection) {
+        let (slope, holds) = match selection {
+            SlopeSelection::Channel => (None, Holds::Off),
+            SlopeSelection::Program(profile) => (Some(profile), Holds::Off),
+            SlopeSelection::Unknown => (None, Holds::On),
+        };
+        self.slope = slope;
+        self.simplify(Simplification::Slope, holds);
+    }
+
     /// Something may or may not have been put into force: what it would round is not known.
     pub(in crate::interpreter) fn perhaps_simplify(&mut self, what: Simplification) {
         self.simplify(what, Holds::On);
         match what {
             Simplification::Contouring => self.contour = self.contour.unknown(),
             Simplification::HighSpeed => self.high_speed = self.high_speed.unknown(),
+            Simplification::Slope => self.slope = None,
             _ => {}
         }
     }
@@ -522,6 +544,9 @@ impl Modal {
             self.high_speed = self.high_speed.unknown();
         }
         self.simplified = self.simplified.union(other.simplified);
+        if self.slope != other.slope {
+            self.perhaps_simplify(Simplification::Slope);
+        }
         self.skewed &= other.skewed;
         self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::contouring::Contouring;
 use super::simplified::Simplifications;
 use crate::comp::AxisIndex;
+use crate::machine::SlopeProfile;
 
 /// Whether blocks say what they move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -45,6 +46,8 @@ pub struct Travel {
     pub end: BlockEnd,
     /// How the transition to the next block is rounded, where it is (R11.21).
     pub contouring: Option<Contouring>,
+    /// The profile of the acceleration, where the program selects one; else that of the channel.
+    pub slope: Option<SlopeProfile>,
     /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
     pub end_feed_per_min: Option<f64>,
     /// What the control does to the path or its velocity and a commanded trace does not.

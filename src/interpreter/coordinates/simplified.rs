@@ -15,7 +15,7 @@ pub enum Simplification {
     Contouring,
     /// `#HSC`: short blocks are joined to a smooth path.
     HighSpeed,
-    /// `#SLOPE`: the profile of the acceleration.
+    /// `#SLOPE`: a profile of the acceleration that is not known.
     Slope,
     /// G127, G128: the highest velocity is weighted (PM/206573067).
     VelocityWeight,
@@ -100,7 +100,9 @@ impl Simplification {
             Self::HighSpeed => {
                 "joins short blocks within their tolerance by a curve of its own, where the control has another one (`#HSC`)"
             }
-            Self::Slope => "keeps its jerk-limited profile, whatever `#SLOPE` selects",
+            Self::Slope => {
+                "keeps the acceleration profile of the channel list, where the program selects one that is not known here (`#SLOPE`)"
+            }
             Self::VelocityWeight => {
                 "keeps the velocity limits of the axes, which the program weights (`G127`, `G128`)"
             }

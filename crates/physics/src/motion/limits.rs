@@ -86,8 +86,8 @@ impl AxisLimits {
         Self::with(axis, SlopeProfile::Trapez, 0.0)
     }
 
-    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071), in CNC cycles
-    /// of so many seconds: steps of the acceleration take one.
+    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071, `#SLOPE`), in
+    /// CNC cycles of so many seconds: steps of the acceleration take one.
     fn with(axis: &Axis, slope: SlopeProfile, cycle_s: f64) -> Self {
         let unit = unit(axis.axis_type);
         let listed = &axis.listed;
@@ -149,9 +149,18 @@ impl AxisLimits {
     }
 }
 
-/// The bounds of all axes.
+/// The bounds of all axes, under each profile of the acceleration.
 #[derive(Debug, Clone)]
 pub(super) struct MachineLimits {
+    /// The profile where a program selects none: P-CHAN-00071, else ramps of constant jerk.
+    channel: SlopeProfile,
+    steps: ByMovement,
+    ramps: ByMovement,
+}
+
+/// The bounds of all axes in feed and in rapid motions.
+#[derive(Debug, Clone)]
+struct ByMovement {
     feed: Vec<AxisLimits>,
     rapid: Vec<AxisLimits>,
 }
@@ -159,26 +168,37 @@ pub(super) struct MachineLimits {
 impl MachineLimits {
     /// The bounds of the axes of a machine, in CNC cycles of so many seconds.
     pub(super) fn of(machine: &Machine, cycle_s: f64) -> Self {
-        let slope = machine.channel.slope.unwrap_or(SlopeProfile::Trapez);
-        let axes = machine.axes.iter();
-        let feed: Vec<_> = axes
-            .map(|axis| AxisLimits::with(axis, slope, cycle_s))
-            .collect();
-        let both = machine.axes.iter().zip(&feed);
+        let under = |slope| {
+            let axes = machine.axes.iter();
+            let both = axes.map(|axis| {
+                let at_feed = AxisLimits::with(axis, slope, cycle_s);
+                (at_feed, AxisLimits::rapid(axis, at_feed))
+            });
+            let (feed, rapid) = both.unzip();
+            ByMovement { feed, rapid }
+        };
         Self {
-            rapid: both
-                .map(|(axis, at_feed)| AxisLimits::rapid(axis, *at_feed))
-                .collect(),
-            feed,
+            channel: machine.channel.slope.unwrap_or(SlopeProfile::Trapez),
+            steps: under(SlopeProfile::Step),
+            ramps: under(SlopeProfile::Trapez),
         }
     }
 
-    /// Those of a movement.
-    pub(super) fn during(&self, movement: Movement) -> &[AxisLimits] {
+    /// The bounds in a movement, under the profile that the program selects.
+    pub(super) fn during(&self, movement: Movement, slope: Option<SlopeProfile>) -> &[AxisLimits] {
+        let by_movement = match self.profile(slope) {
+            SlopeProfile::Step => &self.steps,
+            _ => &self.ramps,
+        };
         match movement {
-            Movement::Rapid => &self.rapid,
-            _ => &self.feed,
+            Movement::Rapid => &by_movement.rapid,
+            _ => &by_movement.feed,
         }
+    }
+
+    /// The profile that a program selects, or else that of the channel.
+    pub(super) fn profile(&self, slope: Option<SlopeProfile>) -> SlopeProfile {
+        slope.unwrap_or(self.channel)
     }
 }
 

@@ -6,11 +6,13 @@ use std::ops::ControlFlow;
 use super::junction::Junction;
 use super::limits::{AxisLimits, MachineLimits};
 use super::plan::{Stage, Stretch, plan};
+use super::profile::{Bounds, RampForm};
 use super::sampler::Sampler;
 use super::segment::Segment;
 use super::share::Share;
 use super::trace::{Dwell, Movement, TraceSink};
 use frictcomp::interpreter::BlockEnd;
+use frictcomp::machine::SlopeProfile;
 
 /// How many segments are looked at together. The path is planned to a stop after the last one;
 /// half of the plan is kept, the rest is planned anew when more segments are known.
@@ -56,7 +58,14 @@ impl LookAhead {
     }
 
     fn limits_of(&self, segment: &Segment) -> &[AxisLimits] {
-        self.limits.during(segment.cause.movement)
+        self.limits.during(segment.cause.movement, segment.slope)
+    }
+
+    fn ramps_of(&self, segment: &Segment) -> RampForm {
+        match self.limits.profile(segment.slope) {
+            SlopeProfile::Sin2 => RampForm::SineSquared,
+            _ => RampForm::Linear,
+        }
     }
 
     /// The sampled seconds.
@@ -75,7 +84,13 @@ impl LookAhead {
         let entry = match self.queue.back() {
             Some(last) => {
                 let limits = self.limits_of(&segment);
-                Junction::between(&last.segment, &segment, limits, cycle)
+                let junction = Junction::between(&last.segment, &segment, limits, cycle);
+                // Each stretch of the path has one form of ramps.
+                if self.ramps_of(&last.segment) == self.ramps_of(&segment) {
+                    junction
+                } else {
+                    junction.fixed()
+                }
             }
             None => Junction::Stop,
         };
@@ -195,11 +210,13 @@ impl LookAhead {
     }
 
     fn stage(&self, queued: &Queued) -> Stage {
+        let segment = &queued.segment;
         Stage {
-            length: queued.segment.length,
-            bounds: queued
-                .segment
-                .bounds(self.limits_of(&queued.segment), queued.share),
+            length: segment.length,
+            bounds: Bounds {
+                ramps: self.ramps_of(segment),
+                ..segment.bounds(self.limits_of(segment), queued.share)
+            },
             entry: queued.entry,
         }
     }

@@ -302,6 +302,7 @@ impl Interval {
                 acceleration: f64::INFINITY,
                 jerk: f64::INFINITY,
                 curve_jerk: f64::INFINITY,
+                ramps: stages[from].bounds.ramps,
             },
             start: velocities[from],
             end: velocities[to],

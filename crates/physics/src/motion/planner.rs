@@ -360,6 +360,7 @@ impl TrajectoryPlanner {
             PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
         };
         segment.end = travel.end;
+        segment.slope = travel.slope;
         if let Some(feed) = travel.end_feed_per_min {
             segment.end_velocity = feed / 60.0;
         }

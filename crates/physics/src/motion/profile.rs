@@ -1,4 +1,4 @@
-//! Motion along the path in time: seven phases of constant jerk at most.
+//! Motion along the path in time: seven phases at most.
 //!
 //! A ramp leads from one velocity to another, without acceleration at both ends: the acceleration
 //! rises with the jerk, stays at its bound, and falls again (Biagiotti, Melchiorri: *Trajectory
@@ -19,6 +19,19 @@ pub(super) struct Bounds {
     pub(super) jerk: f64,
     /// The greatest jerk that the curvature of the path may take.
     pub(super) curve_jerk: f64,
+    /// The form of the ramps of the acceleration.
+    pub(super) ramps: RampForm,
+}
+
+/// How the acceleration rises and falls. In the same ramp time both forms change the velocity by as
+/// much, and on a symmetrical change of velocity they take the same way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum RampForm {
+    /// With a constant jerk.
+    #[default]
+    Linear,
+    /// Like the square of a sine.
+    SineSquared,
 }
 
 /// The state along the path at one time.
@@ -93,14 +106,17 @@ pub(super) fn fits(from: f64, to: f64, length: f64, bounds: &Bounds) -> bool {
     Ramp::new(from, to, bounds).way <= length * (1.0 + 1e-9)
 }
 
-/// One phase: a constant jerk.
+/// One phase: a ramp of the acceleration, or a constant one.
 #[derive(Debug, Clone, Copy, Default)]
 struct Phase {
     start: f64,
+    seconds: f64,
     way: f64,
     velocity: f64,
     acceleration: f64,
+    /// The mean jerk.
     jerk: f64,
+    form: RampForm,
 }
 
 /// The motion along a length of the path.
@@ -145,7 +161,11 @@ impl VelocityProfile {
         let (rise, fall) = (sign(peak - start), sign(end - peak));
         let jerk = bounds.jerk;
         profile.lay(
-            start,
+            Phase {
+                velocity: start,
+                form: bounds.ramps,
+                ..Phase::default()
+            },
             [
                 (up.jerking, rise * jerk),
                 (up.steady, 0.0),
@@ -163,13 +183,10 @@ impl VelocityProfile {
     }
 
     /// Lays the phases one after the other: their seconds and jerks.
-    fn lay(&mut self, start: f64, phases: [(f64, f64); 7]) {
-        let mut state = Phase {
-            velocity: start,
-            ..Phase::default()
-        };
+    fn lay(&mut self, mut state: Phase, phases: [(f64, f64); 7]) {
         for (place, (seconds, jerk)) in self.phases.iter_mut().zip(phases) {
             state.jerk = jerk;
+            state.seconds = seconds;
             if seconds <= 0.0 {
                 // Nothing happens in it, and nobody looks at it.
                 *place = state;
@@ -182,7 +199,7 @@ impl VelocityProfile {
                 way,
                 velocity,
                 acceleration,
-                jerk: 0.0,
+                ..state
             };
         }
         self.duration = state.start;
@@ -252,14 +269,37 @@ impl Phase {
             way,
             velocity,
             acceleration,
-            jerk,
             ..
         } = *self;
+        let [more_way, more_velocity, more_acceleration] = self.ramped(seconds);
         (
-            way + seconds * (velocity + seconds * (acceleration / 2.0 + seconds * jerk / 6.0)),
-            velocity + seconds * (acceleration + seconds * jerk / 2.0),
-            acceleration + seconds * jerk,
+            way + seconds * (velocity + seconds * acceleration / 2.0) + more_way,
+            velocity + seconds * acceleration + more_velocity,
+            acceleration + more_acceleration,
         )
+    }
+
+    /// The way, velocity and acceleration that the ramp adds some time into the phase.
+    fn ramped(&self, seconds: f64) -> [f64; 3] {
+        let square = seconds * seconds;
+        match self.form {
+            RampForm::SineSquared if self.jerk != 0.0 && self.seconds > 0.0 => {
+                // a = j·T·sin²(πt / 2T), integrated once and twice.
+                let half = self.jerk * self.seconds / 2.0;
+                let per_angle = self.seconds / std::f64::consts::PI;
+                let (sine, cosine) = (seconds / per_angle).sin_cos();
+                [
+                    half * (square / 2.0 - per_angle * per_angle * (1.0 - cosine)),
+                    half * (seconds - per_angle * sine),
+                    half * (1.0 - cosine),
+                ]
+            }
+            _ => [
+                square * seconds * self.jerk / 6.0,
+                square * self.jerk / 2.0,
+                seconds * self.jerk,
+            ],
+        }
     }
 }
 
@@ -288,6 +328,7 @@ mod tests {
                 acceleration: bounds.acceleration * unit,
                 jerk: bounds.jerk * unit,
                 curve_jerk: bounds.curve_jerk * unit,
+                ramps: bounds.ramps,
             };
             reference_in_one_unit(start * unit, end * unit, length * unit, &bounds)
         });
@@ -332,7 +373,7 @@ mod tests {
             room in 1e-2_f64..1000.0,
         ) {
             // R5.2
-            let bounds = Bounds { velocity, acceleration, jerk, curve_jerk: jerk };
+            let bounds = Bounds { velocity, acceleration, jerk, curve_jerk: jerk, ramps: RampForm::default() };
             let (start, end) = (start * velocity, end * velocity);
             // More than the change of velocity needs, at the lowest acceleration that it can have.
             let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();

@@ -4,10 +4,11 @@ use std::sync::Arc as Shared;
 
 use super::curve::Curve;
 use super::limits::AxisLimits;
-use super::profile::Bounds;
+use super::profile::{Bounds, RampForm};
 use super::share::Share;
 use super::trace::Cause;
 use frictcomp::interpreter::{BlockEnd, CircularArc, SAME_PLACE};
+use frictcomp::machine::SlopeProfile;
 
 /// How much of the acceleration a circle may take for its own: the rest speeds up and slows down.
 const CIRCLE_ACCELERATION: f64 = 0.9;
@@ -30,6 +31,8 @@ pub(super) struct Segment {
     /// The highest path velocity that the program asks for.
     pub(super) feed: f64,
     pub(super) end: BlockEnd,
+    /// The profile of the acceleration, where the program selects one.
+    pub(super) slope: Option<SlopeProfile>,
     /// The highest path velocity at its end.
     pub(super) end_velocity: f64,
     pub(super) cause: Shared<Cause>,
@@ -138,6 +141,7 @@ impl Segment {
         Self {
             feed: block.feed,
             end: block.end,
+            slope: block.slope,
             end_velocity: block.end_velocity,
             ..self
         }
@@ -164,6 +168,7 @@ impl Segment {
             length,
             feed: f64::INFINITY,
             end: BlockEnd::Through,
+            slope: None,
             end_velocity: f64::INFINITY,
             cause,
         }
@@ -279,6 +284,7 @@ impl Segment {
             acceleration: f64::INFINITY,
             jerk: f64::INFINITY,
             curve_jerk: f64::INFINITY,
+            ramps: RampForm::default(),
         };
         if let Shape::Curve(curve) = &self.shape {
             curve.restrict(&mut bounds, (limits, share));
@@ -303,6 +309,7 @@ impl Segment {
                 acceleration: one.acceleration.min(two.acceleration),
                 jerk: one.jerk.min(two.jerk),
                 curve_jerk: one.curve_jerk.min(two.curve_jerk),
+                ramps: RampForm::default(),
             };
             circle.restrict(&mut bounds, plane, self.length);
         }

@@ -1,7 +1,7 @@
 //! How much of what an axis can do a piece of the path may use.
 
 use super::limits::AxisLimits;
-use super::profile::Bounds;
+use super::profile::{Bounds, RampForm};
 
 /// How much of the limits a piece of the path may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +28,7 @@ impl Share {
             acceleration: limits.acceleration_per_s2 * acceleration,
             jerk: limits.jerk_per_s3 * jerk,
             curve_jerk: limits.curve_jerk_per_s3 * jerk,
+            ramps: RampForm::default(),
         }
     }
 }

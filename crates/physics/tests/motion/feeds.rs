@@ -262,7 +262,7 @@ fn what_is_not_modelled_is_shown_per_block() {
     for (words, once) in [
         ("#CONTOUR MODE ON [DEV PATH_DEV=1]", false),
         ("#HSC ON", false),
-        ("#SLOPE [TYPE=STEP]", false),
+        ("#SLOPE [TYPE=STEP NO_OPT=0]", false),
         ("G131=50", false),
         ("G130 X50", false),
         ("G127 X50", false),
@@ -283,6 +283,7 @@ fn what_is_not_modelled_is_shown_per_block() {
     // What is modelled, and what only sets parameters, is not said.
     for words in [
         "#CONTOUR MODE [DEV PATH_DEV=1]",
+        "#SLOPE [TYPE=STEP]",
         "G900",
         "G08",
         "G09",

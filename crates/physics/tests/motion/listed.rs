@@ -7,7 +7,7 @@ use frictcomp::machine::{Configuration, ListFiles, NoList};
 use frictcomp::text::SourceFile;
 use frictcomp_physics::motion::{AssumedLimits, AxisLimits, PlannerOptions};
 
-use super::follow;
+use super::{Trace, follow};
 
 /// Lists by their names.
 struct Lists(BTreeMap<&'static str, String>);
@@ -71,14 +71,19 @@ fn limits_are_those_of_the_axis_list() {
     assert!(found.programs.iter().any(|it| it.number == "P-CHAN-00071"));
 }
 
-/// The seconds of a program on X, and its top speed.
-fn timed(found: Configuration, program: &str) -> (f64, f64) {
-    let trace = follow(
+/// The trace of a program on X.
+fn traced(found: Configuration, program: &str) -> Trace {
+    follow(
         found.machine,
         program,
         (&["X"], &[("X", 0.0)]),
         PlannerOptions::default(),
-    );
+    )
+}
+
+/// The seconds of a program on X, and its top speed.
+fn timed(found: Configuration, program: &str) -> (f64, f64) {
+    let trace = traced(found, program);
     (trace.seconds(), trace.top_speed(0))
 }
 
@@ -97,6 +102,45 @@ fn the_trace_keeps_the_limits_of_the_lists() {
     let (seconds, _) = timed(steps, "G01 X400 F6000\nM30\n");
     let expected = 4.0 + 100.0 / 700.0;
     assert!((seconds - expected).abs() < 0.004, "{seconds} {expected}");
+}
+
+#[test]
+fn a_program_selects_the_profile() {
+    // R11.20: steps of 0.7 m/s² from line 1 on; from line 3 on the ramps of the list again.
+    let program = "#SLOPE [TYPE=STEP]\nG01 X100 F6000\n#SLOPE DEFAULT\nG60 X300\nX400\nM30\n";
+    let trace = traced(machine(AXIS, "prog_start.slope.profile 1"), program);
+    assert!(trace.said.is_empty(), "{:?}", trace.said);
+    let ramp = 2.0 * (100.0_f64 / 20_000.0).sqrt();
+    let expected = 1.0 + 100.0 / 700.0 / 2.0 + 2.0 + ramp / 2.0 + 1.0 + ramp;
+    let seconds = trace.seconds();
+    assert!((seconds - expected).abs() < 0.004, "{seconds} {expected}");
+}
+
+#[test]
+fn ramps_may_be_squared_sines() {
+    // R11.20: a·sin²(πt / 2tr) with 2 m/s² and 100 ms; ways and times are those of constant jerk.
+    let channel = "prog_start.slope.profile 2";
+    let program = "G01 X400 F15000\nM30\n";
+    let squared = traced(machine(AXIS, channel), program);
+    let linear = traced(machine(AXIS, "prog_start.slope.profile 1"), program);
+    assert_eq!(squared.positions.len(), linear.positions.len());
+    assert_eq!(squared.end(), [400.0]);
+    let ramp = 0.1;
+    for cycle in (0..100_u8).map(usize::from) {
+        let time = f64::from(u8::try_from(cycle).expect("a cycle")) * 0.001;
+        let angle = std::f64::consts::PI * time / ramp;
+        let expected = 1000.0 * (time - time / angle.max(1e-9) * angle.sin());
+        let found = squared.velocities[cycle][0];
+        assert!(
+            (found - expected).abs() < 1e-6,
+            "{time} s: {found} {expected}"
+        );
+    }
+    let gentler = (1..50).all(|cycle| squared.velocities[cycle][0] < linear.velocities[cycle][0]);
+    assert!(gentler, "a squared sine begins more gently");
+    let selected = "#SLOPE [TYPE=SIN2]\nG01 X400 F15000\nM30\n";
+    let by_program = traced(machine(AXIS, ""), selected);
+    assert_eq!(by_program.positions, squared.positions);
 }
 
 #[test]

@@ -72,9 +72,10 @@ impl SlopeProfile {
     /// The profile with a number of P-CHAN-00071.
     pub(crate) fn numbered(number: f64) -> Option<Self> {
         let all = [Self::Step, Self::Trapez, Self::Sin2, Self::Hsc];
-        (0_u8..)
+        let is_it = |at: &u8| f64::from(*at).total_cmp(&number).is_eq();
+        (0..)
             .zip(all)
-            .find(|(at, _)| f64::from(*at) == number)
+            .find(|(at, _)| is_it(at))
             .map(|(_, profile)| profile)
     }
 }

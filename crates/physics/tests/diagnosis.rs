@@ -89,6 +89,27 @@ const FAULTS: [(&str, Deviation, &[Finding]); 9] = [
     ),
 ];
 
+/// What is recorded in each direction.
+#[derive(Clone, Copy)]
+struct Turns {
+    count: f64,
+    /// The shift of X from turn to turn.
+    drift_um: f64,
+}
+
+const ONE_TURN: Turns = Turns {
+    count: 1.05,
+    drift_um: 0.0,
+};
+const TWO_TURNS: Turns = Turns {
+    count: 2.05,
+    drift_um: 0.0,
+};
+const SHIFTING: Turns = Turns {
+    drift_um: 6.0,
+    ..TWO_TURNS
+};
+
 /// Faults that occur together.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (2, 3), (0, 5), (1, 3), (0, 7)];
 
@@ -96,19 +117,20 @@ const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (2, 3), (0, 5), (1, 3), (0, 
 const NOISES: [f64; 3] = [0.0, 0.3, 1.0];
 
 /// The figures of both directions with some faults and noise.
-fn figures(faults: &[Deviation], noise_um: f64) -> Figures {
+fn figures(faults: &[Deviation], noise_um: f64, turns: Turns) -> Figures {
     let deviation = |direction: Direction, angle: f64| {
         faults.iter().map(|it| it(direction, angle)).sum::<f64>()
     };
     let recorder = Recorder {
         feed: FEED,
         noise: Noise::of_um(noise_um * 3.0_f64.sqrt()),
+        drift_um: [turns.drift_um, 0.0],
         ..Recorder::new(RADIUS)
     };
     let trace = recorder
-        .turns(Direction::Ccw, 1.05, &deviation)
+        .turns(Direction::Ccw, turns.count, &deviation)
         .standstill(0.3)
-        .turns(Direction::Cw, 1.05, &deviation)
+        .turns(Direction::Cw, turns.count, &deviation)
         .trace();
     let circles = RecordedCircle::find(&trace, None).expect("circles");
     let recording = Recording::new(circles, CommandedCircle::default(), PathCentre::Common);
@@ -116,8 +138,8 @@ fn figures(faults: &[Deviation], noise_um: f64) -> Figures {
 }
 
 /// What is said, each once.
-fn said(faults: &[Deviation], noise_um: f64) -> Vec<Finding> {
-    let figures = figures(faults, noise_um);
+fn said(faults: &[Deviation], noise_um: f64, turns: Turns) -> Vec<Finding> {
+    let figures = figures(faults, noise_um, turns);
     let mut found: Vec<Finding> = diagnose(&figures, None)
         .iter()
         .map(|it| it.finding)
@@ -138,6 +160,7 @@ fn names(findings: &[Finding]) -> String {
 /// A row of the table: the faults, what is to be said, and them.
 struct Row {
     name: String,
+    turns: Turns,
     faults: Vec<Deviation>,
     wanted: Vec<Finding>,
 }
@@ -147,6 +170,7 @@ fn rows() -> Vec<Row> {
     let mut rows: Vec<Row> = alone
         .map(|(name, fault, wanted)| Row {
             name: name.to_owned(),
+            turns: ONE_TURN,
             faults: vec![fault],
             wanted: wanted.to_vec(),
         })
@@ -158,11 +182,52 @@ fn rows() -> Vec<Row> {
         wanted.dedup();
         rows.push(Row {
             name: format!("{}; {}", one.0, other.0),
+            turns: ONE_TURN,
             faults: vec![one.1, other.1],
             wanted,
         });
     }
+    let over_two_turns = std::iter::once(NOTHING).chain(FAULTS[..5].iter().copied());
+    rows.extend(over_two_turns.map(|(name, fault, wanted)| {
+        let mut wanted = [wanted, &[Finding::Drift]].concat();
+        wanted.sort_unstable();
+        Row {
+            name: format!("two turns, X shifts by 6 µm a turn; {name}"),
+            turns: SHIFTING,
+            faults: vec![fault],
+            wanted,
+        }
+    }));
     rows
+}
+
+#[test]
+fn two_turns_without_a_shift_show_none() {
+    // R5.28
+    for (name, fault, _) in std::iter::once(NOTHING).chain(FAULTS) {
+        for noise in NOISES {
+            let said = said(&[fault], noise, TWO_TURNS);
+            assert!(
+                !said.contains(&Finding::Drift),
+                "{name}, {noise} µm: {said:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_shift_is_as_large_as_it_was_made() {
+    // R5.28
+    let figures = figures(&[FAULTS[0].1], 0.3, SHIFTING);
+    let found = diagnose(&figures, None);
+    let drift = found.iter().find(|it| it.finding == Finding::Drift);
+    let drift = drift.expect("a shift");
+    let error = drift.grounds.error_um.expect("its error");
+    assert!(
+        (drift.size_um - 6.0).abs() < 4.0 * error.max(0.01),
+        "{drift:?}"
+    );
+    assert!(error < 0.2, "{drift:?}");
 }
 
 #[test]
@@ -173,7 +238,7 @@ fn every_fault_is_named_and_no_other_and_the_document_says_so() {
     );
     let mut wrong = Vec::new();
     for row in rows() {
-        let said = NOISES.map(|noise| said(&row.faults, noise));
+        let said = NOISES.map(|noise| said(&row.faults, noise, row.turns));
         wrong.extend(
             said.iter()
                 .zip(NOISES)

@@ -65,6 +65,8 @@ pub enum Finding {
     Vibration,
     /// Several swings after a reversal: the axis sticks and slips.
     StickSlip,
+    /// The circle shifts from turn to turn: temperature.
+    Drift,
     /// A shape that is none of these.
     OtherShape,
 }
@@ -270,6 +272,7 @@ fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
             ShapeTerm::Gain => (FoundAt::Whole, Finding::GainMismatch),
             ShapeTerm::Squareness => (FoundAt::Whole, Finding::Squareness),
             ShapeTerm::Scale => (FoundAt::Whole, Finding::ScaleMismatch),
+            ShapeTerm::Drift(axis) => (FoundAt::Axis(axis), Finding::Drift),
         };
         Diagnosis {
             place,

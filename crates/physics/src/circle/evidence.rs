@@ -8,6 +8,7 @@ use super::direction::Direction;
 use super::evidence_shape::OtherShape;
 use super::linear::Normal;
 use super::profile::{Quality, RadialProfile};
+use super::recorded::Drift;
 use super::residual::{Series, other_shape};
 use super::swings::stick_slip;
 use super::turning::Turning;
@@ -71,6 +72,8 @@ pub enum ShapeTerm {
     Squareness,
     /// An ellipse along the axes.
     Scale,
+    /// A shift of an axis from turn to turn.
+    Drift(PlaneAxis),
 }
 
 impl Term {
@@ -120,12 +123,19 @@ impl CircleEvidence {
         );
         let stick_slip_um =
             PlaneAxis::ALL.map(|axis| stick_slip(&paths, axis, noise_um).filter(|_| !is_explained));
+        let mut terms = shapes.terms;
+        terms.extend(
+            paths
+                .iter()
+                .filter_map(|(_, path)| path.quality()?.drift)
+                .flat_map(drifts),
+        );
         Some(Self {
-            stick_slip_um,
             noise_um,
-            terms: shapes.terms,
+            terms,
             rest_um,
             other,
+            stick_slip_um,
         })
     }
 
@@ -202,6 +212,21 @@ impl Shapes {
             left,
         })
     }
+}
+
+/// The shift of each axis in µm a turn.
+fn drifts(drift: Drift) -> [Term; 2] {
+    const UM_PER_MM: f64 = 1000.0;
+    let sizes = drift.per_turn_mm.into_iter().zip(drift.error_mm);
+    let mut terms = PlaneAxis::ALL
+        .into_iter()
+        .zip(sizes)
+        .map(|(axis, (size, error))| Term {
+            shape: ShapeTerm::Drift(axis),
+            size_um: size * UM_PER_MM,
+            error_um: error * UM_PER_MM,
+        });
+    std::array::from_fn(|_| terms.next().expect("two axes"))
 }
 
 /// Steps where X and Y reverse: half of them against the direction of the axis.

@@ -95,6 +95,7 @@ impl Paths {
             noise_um: one.noise_um.max(other.noise_um),
             step_um: one.step_um.max(other.step_um),
             samples: one.samples.min(other.samples),
+            drift: None,
         })
     }
 

@@ -11,6 +11,7 @@ use std::ops::RangeInclusive;
 
 use super::crossing::Crossing;
 use super::direction::Direction;
+use super::recorded::Drift;
 
 /// Micrometres in a metre.
 pub const UM_PER_M: f64 = 1e6;
@@ -66,6 +67,8 @@ pub(super) struct Quality {
     pub(super) step_um: f64,
     /// Samples of a turn.
     pub(super) samples: usize,
+    /// The shift from turn to turn, where there are several.
+    pub(super) drift: Option<Drift>,
 }
 
 /// The radial deviations of one turn.

@@ -31,5 +31,6 @@ pub(super) fn quality(points: &[[f64; 2]], centre: [f64; 2]) -> Quality {
         noise_um: NORMAL * median / 20.0_f64.sqrt(),
         step_um: if step.is_finite() { step } else { 0.0 },
         samples: points.len(),
+        drift: None,
     }
 }

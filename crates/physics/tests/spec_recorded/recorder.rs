@@ -46,6 +46,8 @@ pub(crate) struct Recorder {
     /// The angle on the circle where the axes stand.
     pub(crate) angle: f64,
     pub(crate) samples: Vec<[f64; 2]>,
+    /// How far the machine shifts in a turn, in µm.
+    pub(crate) drift_um: [f64; 2],
 }
 
 impl Recorder {
@@ -60,6 +62,7 @@ impl Recorder {
             noise: Noise::of_um(0.0),
             angle: f64::NAN,
             samples: Vec::new(),
+            drift_um: [0.0; 2],
         }
     }
 
@@ -108,7 +111,8 @@ impl Recorder {
         while way <= whole {
             let angle = start + direction.sign() * way;
             let radius = self.radius + deviation(direction, angle.rem_euclid(TAU)) / 1000.0;
-            self.take([radius * angle.cos(), radius * angle.sin()]);
+            let [x, y] = self.drift_um.map(|um| um / 1000.0 * way / TAU);
+            self.take([radius * angle.cos() + x, radius * angle.sin() + y]);
             way += turning;
         }
         self.angle = start + direction.sign() * whole;

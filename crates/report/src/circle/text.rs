@@ -531,6 +531,9 @@ pub fn words(finding: Finding) -> &'static str {
             "an oscillation in time: look for its source, compensation does not end it"
         }
         Finding::StickSlip => "swings after the reversal: the axis sticks and slips",
+        Finding::Drift => {
+            "a turn: the circle shifts while it is driven, warm the machine up and record again"
+        }
         Finding::OtherShape => {
             "another shape than those of friction, backlash and axes that do not match; nothing is said \
              about the timing of compensation"

@@ -4,13 +4,14 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::cut::{Run, runs};
+use super::drift::Drift;
 use super::error::RecordedError;
 use super::fit::Fit;
 use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use super::search::search;
 use super::trace::RecordedTrace;
 use crate::circle::direction::Direction;
-use crate::circle::profile::{Gap, Gatherer, RadialProfile};
+use crate::circle::profile::{Gap, Gatherer, Quality, RadialProfile};
 use crate::circle::quality::quality;
 use crate::circle::zone::{least_squares, zone_about};
 
@@ -116,12 +117,20 @@ impl RecordedCircle {
                 found_mm: fit.radius,
             });
         }
+        let drift = Drift::over(run, &fit, points);
+        let turned = match &drift {
+            Some(drift) => drift.removed(&points[turn.clone()], run.angles_of(&turn)),
+            None => points[turn.clone()].to_vec(),
+        };
+        if drift.is_some() {
+            fit = Fit::of(&turned)?;
+        }
         let duration_s = trace.duration_s(turn.start, turn.end - 1);
         let turn_s = duration_s.map(|duration| duration * TAU / run.between(&turn));
         let commanded = commanded_mm.unwrap_or(fit.radius) / MM_PER_M;
         let about = |centre: [f64; 2]| {
             let mut gatherer = Gatherer::new(commanded, WIDEST_GAP_DEG);
-            for [x, y] in &points[turn.clone()] {
+            for [x, y] in &turned {
                 gatherer.take((x - centre[0]) / MM_PER_M, (y - centre[1]) / MM_PER_M);
             }
             let gaps = |gap: Gap| RecordedError::Gaps(gap.missing);
@@ -155,7 +164,10 @@ impl RecordedCircle {
             },
             profile: profile
                 .at(centre.map(|mm| mm / MM_PER_M))
-                .with_quality(quality(&points[turn], centre)),
+                .with_quality(Quality {
+                    drift,
+                    ..quality(&turned, centre)
+                }),
         })
     }
 

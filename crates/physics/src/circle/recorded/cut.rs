@@ -118,6 +118,16 @@ impl Run {
         self.angles.last().copied().unwrap_or_default()
     }
 
+    /// The angle of each point since the first one, in the direction of travel, in radians.
+    pub(super) fn angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.angles.iter().copied()
+    }
+
+    /// The same of some of the points.
+    pub(super) fn angles_of(&self, points: &Range<usize>) -> &[f64] {
+        &self.angles[points.start - self.points.start..points.end - self.points.start]
+    }
+
     /// The angle from one point to another, in radians.
     pub(super) fn between(&self, turn: &Range<usize>) -> f64 {
         let at = |point: usize| self.angles[point - self.points.start];
@@ -166,7 +176,7 @@ impl Run {
     }
 
     /// What a turn may lack at its ends: a degree, or a few points.
-    fn lacking(&self) -> f64 {
+    pub(super) fn lacking(&self) -> f64 {
         LACKING.max(self.step())
     }
 

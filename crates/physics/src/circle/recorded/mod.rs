@@ -6,6 +6,7 @@
 
 mod circle;
 mod cut;
+mod drift;
 mod error;
 mod fit;
 mod limits;
@@ -14,6 +15,7 @@ mod search;
 mod trace;
 
 pub use circle::{LeftOut, RecordedCircle};
+pub(super) use drift::Drift;
 pub use error::RecordedError;
 pub use limits::MIN_POINTS;
 pub use recording::{CommandedCircle, Recording};

@@ -45,8 +45,10 @@ impl Interpreter {
     #[inline]
     fn begin_block(&mut self, finder: &mut dyn Finder) {
         self.work.clear();
-        self.work.diagnostics.append(&mut self.met);
-        self.work.aside.withheld.append(&mut self.met_withheld);
+        if !(self.met.is_empty() && self.met_withheld.is_empty()) {
+            self.work.diagnostics.append(&mut self.met);
+            self.work.aside.withheld.append(&mut self.met_withheld);
+        }
         self.state.seq += 1;
         self.state.blocks += 1;
         if self.state.track.ways.has_targets() {
@@ -98,7 +100,9 @@ impl Interpreter {
             self.replace_possible();
         }
         self.remember_last(at);
-        self.work.aside.asked.append(self.work.asked.get_mut());
+        if !self.work.asked.get_mut().is_empty() {
+            self.work.aside.asked.append(self.work.asked.get_mut());
+        }
         let step = if is_over || self.work.too_deep {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {

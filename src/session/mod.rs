@@ -26,10 +26,10 @@ pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, MAX_MESSAGES, Severity, Wording};
-use crate::interpreter::{Event, Interpreter, RunOutcome, Value, set_name};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, Options, StopPolicy,
 };
+use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
 pub use crate::lint::Maker;
 use crate::lint::{History, Linter, Told};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
@@ -352,10 +352,9 @@ impl Session {
             doubtful: false,
             version: 0,
         };
-        let mut listen = |event: Event<'_>| recorder.event(&event);
         let outcome = match program {
-            Program::Lines(lines) => self.interpreter.stream(file, lines, finder, &mut listen),
-            Program::Whole(source) => self.interpreter.program(source, finder, &mut listen),
+            Program::Lines(lines) => self.interpreter.stream(file, lines, finder, &mut recorder),
+            Program::Whole(source) => self.interpreter.program(source, finder, &mut recorder),
         };
         match outcome {
             RunOutcome::Ended(by) if !recorder.broken => {

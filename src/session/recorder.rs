@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
-use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, WayCondition, branch_in_words};
+use crate::interpreter::{
+    Ended, Event, Executed, Note, NoteKind, Observer, WayCondition, branch_in_words,
+};
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
 use crate::syntax::Comments;
@@ -96,9 +98,9 @@ pub(super) struct Recorder<'a> {
     pub(super) version: u64,
 }
 
-impl Recorder<'_> {
-    pub(super) fn event(&mut self, event: &Event<'_>) -> ControlFlow<()> {
-        let flow = match event {
+impl Observer for Recorder<'_> {
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        let flow = match &event {
             &Event::Started {
                 name,
                 compensation,
@@ -143,7 +145,9 @@ impl Recorder<'_> {
         self.broken |= flow.is_break();
         flow
     }
+}
 
+impl Recorder<'_> {
     fn executed(&mut self, executed: &Executed<'_>) -> ControlFlow<()> {
         self.tally.blocks += 1;
         self.tally.feed_moves.block(executed);

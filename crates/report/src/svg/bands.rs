@@ -1,6 +1,6 @@
 //! States along an axis as rows of bars, in shapes that need no colour.
 
-use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width};
+use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width, widest_text};
 use super::frame::Frame;
 use super::scale::{ChartAxis, Ends, Scale, Spacing};
 use frictcomp::comp::State;
@@ -312,8 +312,7 @@ pub(super) fn draw_legend(
         };
         draw_shape(canvas, *state, swatch);
         canvas.text("", (x + 28.0, y + 13.0), Anchor::Start, &word);
-        // Letters are larger on narrow screens.
-        x += 28.0 + text_width(&word) * 1.25 + 14.0;
+        x += 28.0 + widest_text(&word) + 14.0;
     }
     if states.is_empty() { 0.0 } else { 20.0 }
 }

@@ -227,6 +227,11 @@ pub(super) fn text_width(text: &str) -> f64 {
     f64::from(u32::try_from(text.width()).unwrap_or(u32::MAX)) * 6.5
 }
 
+/// The same with the larger letters of narrow screens, in a wide font.
+pub(super) fn widest_text(text: &str) -> f64 {
+    text_width(text) * 1.45
+}
+
 /// A length with at most one decimal.
 pub(super) fn px(length: f64) -> String {
     let mut text = format!("{length:.1}");
@@ -268,7 +273,7 @@ impl Legend<'_> {
     pub(super) fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64)) -> f64 {
         let (mut x, mut y) = (left, top);
         for &LegendItem { look, name, drawn } in &self.items {
-            let width = 34.0 + text_width(name) + 22.0;
+            let width = 34.0 + widest_text(name) + 8.0;
             if x > left && x + width > WIDTH - 10.0 {
                 x = left;
                 y += LEGEND_ROW;

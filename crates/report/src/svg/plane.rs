@@ -1,6 +1,6 @@
 //! A path in a plane with a magnified deviation, and marks on it.
 
-use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH};
+use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width, widest_text};
 use super::frame::Frame;
 use super::line::LineChart;
 use super::scale::{label, round_step};
@@ -276,7 +276,7 @@ impl PlaneChart {
                 continue;
             };
             let (x, y) = fit.place(mark.place);
-            let width = super::canvas::text_width(text);
+            let width = text_width(text);
             let beside = |(far, turn): (f64, f64)| {
                 let (sine, cosine) = turn.sin_cos();
                 let middle = (
@@ -318,7 +318,6 @@ impl PlaneChart {
 
     /// The legend in rows with room for larger letters of narrow windows, and the scales below it.
     fn draw_legend(&self, canvas: &mut Canvas, fit: &Fit) -> f64 {
-        const LARGER: f64 = 1.3;
         let mut y = ROOM.bottom() + 20.0;
         let mut x = 16.0;
         let lines = [
@@ -334,10 +333,10 @@ impl PlaneChart {
         for (class, text) in lines.into_iter().chain(left_out) {
             canvas.path(class, [(x, y), (x + 26.0, y)]);
             canvas.text("", (x + 32.0, y + 4.0), Anchor::Start, text);
-            x += 48.0 + LARGER * super::canvas::text_width(text);
+            x += 48.0 + widest_text(text);
         }
         let text = "reversal without compensation";
-        if x + 16.0 + LARGER * super::canvas::text_width(text) > WIDTH {
+        if x + 16.0 + widest_text(text) > WIDTH {
             (x, y) = (16.0, y + 22.0);
         }
         canvas.circle("fc-outline", (x + 6.0, y), 4.5);
@@ -359,7 +358,7 @@ impl PlaneChart {
             }
             let text = format!("{} {unit}", label(step, step));
             canvas.text("", (right + 8.0, y + 4.0), Anchor::Start, &text);
-            x = right + 40.0 + LARGER * super::canvas::text_width(&text);
+            x = right + 40.0 + widest_text(&text);
         }
         y
     }

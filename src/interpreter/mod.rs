@@ -38,7 +38,7 @@ pub use run::event::{
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub(crate) use run::possible_state::branch_in_words;
+pub(crate) use run::possible_state::ways_in_words;
 pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayCondition};
 pub(crate) use run::untouched::Found;
 pub use values::carried::{ArrayShape, Carried};

@@ -35,4 +35,4 @@ def test_the_stubs_and_the_module_say_the_same() -> None:
         if text and not name.rsplit(".", 1)[-1].startswith("__"):
             assert inspect.getdoc(said) == text, name
             count += 1
-    assert count > 80
+    assert count >= 80

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::cure::Cure;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
@@ -48,7 +48,7 @@ pub struct AxisAudit {
     pub by: Option<Site>,
     /// The states that it leaves an axis in that it found in its start-up state, each with the ways to it,
     /// where it may leave it away from that (R14.6).
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "states")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub possible: Option<PossibleStates>,
     /// Why the effect is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -116,14 +116,6 @@ impl AxisAudit {
         let way = if self.on_at_start_up { "ON" } else { "OFF" };
         format!("{}[COMP {way} {}]", self.axis, self.kind.as_str())
     }
-}
-
-pub(super) fn states<S: Serializer>(
-    possible: &Option<PossibleStates>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    let states = possible.as_ref().map(|possible| &possible.states);
-    states.serialize(serializer)
 }
 
 /// What a program does, found by its runs.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
 use super::observation::{Deed, Observation};
-use super::program::{Auditor, states};
+use super::program::Auditor;
 use super::scope::Selected;
 use crate::comp::Kind;
 use crate::interpreter::{EndedBy, Event, Interpreter, Observer, PossibleStates};
@@ -48,7 +48,7 @@ pub struct StepAxis {
     /// The selection at its end.
     pub end: Selected,
     /// The states that are possible at its end, each with the ways to it, where ways differ.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "states")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub possible: Option<PossibleStates>,
     /// Whether it is selected at the start of the control.
     #[serde(skip)]

@@ -100,6 +100,13 @@ impl Serialize for PossibleState {
     }
 }
 
+impl Serialize for PossibleStates {
+    /// The states; what they are of stands outside.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.states.serialize(serializer)
+    }
+}
+
 fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(text)
 }

@@ -14,6 +14,7 @@ mod code_page;
 mod codes;
 mod completions;
 mod config;
+mod conformance;
 mod console;
 mod contour;
 mod current;
@@ -109,6 +110,7 @@ enum Command {
     Contour(contour::ContourArgs),
     Tune(tune::TuneArgs),
     Stiction(stiction::StictionArgs),
+    Conformance(conformance::ConformanceArgs),
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
@@ -237,6 +239,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Conformance(args) => conformance::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

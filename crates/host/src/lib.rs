@@ -25,6 +25,7 @@ mod assumed;
 mod audits;
 mod axes_ahead;
 mod both_versions;
+pub mod conformance;
 mod contours;
 mod cures;
 mod decode;

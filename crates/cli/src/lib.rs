@@ -6,6 +6,7 @@
 //! assert_eq!(frictcomp_cli::status(["frictcomp", "explain", "no such word"].map(Into::into)), 2);
 //! ```
 
+mod ask;
 mod audit;
 mod channels;
 mod check;
@@ -110,6 +111,7 @@ enum Command {
     Contour(contour::ContourArgs),
     Tune(tune::TuneArgs),
     Stiction(stiction::StictionArgs),
+    Ask(ask::AskArgs),
     Conformance(conformance::ConformanceArgs),
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
@@ -239,6 +241,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Ask(args) => ask::run(args, console),
         Command::Conformance(args) => conformance::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),

@@ -21,6 +21,7 @@
 //! ```
 
 mod agreed;
+pub mod ask;
 mod assumed;
 mod audits;
 mod axes_ahead;

@@ -114,7 +114,9 @@ impl AskArgs {
         let axis = self.axis(&loaded.machine)?;
         let folder = &self.output;
         fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
-        let files = Question::ALL.into_iter().flat_map(|question| ask(question, &axis));
+        let files = Question::ALL
+            .into_iter()
+            .flat_map(|question| ask(question, &axis));
         for file in files {
             let mut target = outputs.file("--output", &folder.join(&file.name))?;
             write_text(&mut target, &file.text)?;
@@ -174,14 +176,20 @@ impl AskArgs {
         }
         if answers.is_empty() {
             let names: Vec<String> = self.read.iter().map(|path| shown(path)).collect();
-            return Err(Failure::new(format!("there is no answer in {}", names.join(", ")))
-                .with_help("answers are lines that begin with `frictcomp-ask`, as in `message.txt`"));
+            return Err(
+                Failure::new(format!("there is no answer in {}", names.join(", "))).with_help(
+                    "answers are lines that begin with `frictcomp-ask`, as in `message.txt`",
+                ),
+            );
         }
         let contradictions = contradictions(&answers);
         if let Some(question) = contradictions.first() {
             let rule = question.facts().rule;
-            return Err(Failure::new(format!("the answers to {rule} contradict each other"))
-                .with_help("give the files of one control, and one at a time to see which it is"));
+            return Err(
+                Failure::new(format!("the answers to {rule} contradict each other")).with_help(
+                    "give the files of one control, and one at a time to see which it is",
+                ),
+            );
         }
         console.print(&console.fitted(&told(&answers)))?;
         let path = configuration(loaded);
@@ -190,7 +198,9 @@ impl AskArgs {
             console.remark(&format!("wrote `{}`", shown_path(&path)));
         }
         if findings.iter().any(|finding| finding.build.is_none()) {
-            Console::talk("no build is known, so that nothing is confirmed: name it with `--build`");
+            Console::talk(
+                "no build is known, so that nothing is confirmed: name it with `--build`",
+            );
         }
         Ok(exit::CLEAN)
     }
@@ -208,7 +218,11 @@ fn remember(path: &Path, findings: &[Finding]) -> Result<(), Failure> {
         return Ok(());
     }
     let is_new = !path.exists();
-    let before = if is_new { String::new() } else { read_text(path)? };
+    let before = if is_new {
+        String::new()
+    } else {
+        read_text(path)?
+    };
     let after = with_findings(&before, findings)
         .map_err(|error| Failure::new(format!("{}: {error}", shown_path(path))))?;
     if is_new {

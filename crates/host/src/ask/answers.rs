@@ -134,7 +134,8 @@ fn judge(question: Question, values: &Values) -> Result<(Alternative, String), S
                 return refused(question, number);
             }
             let answer = value("answer").map_err(|_| {
-                "the program did not come to its answer; write down the error of the control".to_owned()
+                "the program did not come to its answer; write down the error of the control"
+                    .to_owned()
             })?;
             if question == Question::LowerCase && answer {
                 return Err("the command was taken and had no effect".to_owned());
@@ -142,7 +143,10 @@ fn judge(question: Question, values: &Values) -> Result<(Alternative, String), S
             if question == Question::OnWithoutList && answer {
                 return Err("the axis became active, so it has a value list".to_owned());
             }
-            Ok((Alternative::First, "the program went on after the command".to_owned()))
+            Ok((
+                Alternative::First,
+                "the program went on after the command".to_owned(),
+            ))
         }
         Question::OrderInBlock => {
             is("start", true, starts)?;
@@ -153,22 +157,42 @@ fn judge(question: Question, values: &Values) -> Result<(Alternative, String), S
                     if answer { "on" } else { "off" }
                 ));
             }
-            Ok((first_if(answer), format!("off and on leaves {}", u8::from(answer))))
+            Ok((
+                first_if(answer),
+                format!("off and on leaves {}", u8::from(answer)),
+            ))
         }
         Question::ManualActivation => {
-            is("init", true, "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation")?;
+            is(
+                "init",
+                true,
+                "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation",
+            )?;
             let answer = value("answer")?;
-            Ok((first_if(!answer), format!("LEAD is {} at the start", u8::from(answer))))
+            Ok((
+                first_if(!answer),
+                format!("LEAD is {} at the start", u8::from(answer)),
+            ))
         }
         Question::SkipLevel => {
             let answer = value("answer")?;
             let what = if answer { "executed" } else { "skipped" };
-            Ok((first_if(!answer), format!("the marked block was {what} after the level was turned on")))
+            Ok((
+                first_if(!answer),
+                format!("the marked block was {what} after the level was turned on"),
+            ))
         }
         Question::BlockSearch => {
-            is("searched", true, "it is not noted that a block search started the program")?;
+            is(
+                "searched",
+                true,
+                "it is not noted that a block search started the program",
+            )?;
             let answer = value("answer")?;
-            Ok((first_if(!answer), format!("the state after the search is {}", u8::from(answer))))
+            Ok((
+                first_if(!answer),
+                format!("the state after the search is {}", u8::from(answer)),
+            ))
         }
         _ => {
             is("start", true, starts)?;
@@ -190,5 +214,8 @@ fn refused(question: Question, number: &str) -> Result<(Alternative, String), St
     if number.is_empty() || !number.bytes().all(|byte| byte.is_ascii_digit()) {
         return Err("the error is noted without its number".to_owned());
     }
-    Ok((Alternative::Second, format!("the control showed error {number}")))
+    Ok((
+        Alternative::Second,
+        format!("the control showed error {number}"),
+    ))
 }

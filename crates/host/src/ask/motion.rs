@@ -20,7 +20,11 @@ pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
             format!("{begin}N20 @{half}\nN30 G04 1\nN40 @{half}\nN50 G04 1\nN60 @-{travel}\n")
         }
         Question::Delay => format!("{begin}N20 @{half}\nN30 F200 @{half}\nN40 F1000 @-{travel}\n"),
-        Question::Below => format!("N10 G91 G01 F1\nN20 @{}\nN30 @-{}\n", travel / 100.0, travel / 100.0),
+        Question::Below => format!(
+            "N10 G91 G01 F1\nN20 @{}\nN30 @-{}\n",
+            travel / 100.0,
+            travel / 100.0
+        ),
         // Decay, standstill
         _ => format!("{begin}N20 @{travel}\nN30 @-{travel}\nN40 G04 1\n"),
     };

@@ -103,7 +103,10 @@ fn head(question: Question, script: &Script, (part, parts): (usize, usize)) -> S
         format!("Before: {}", script.before),
     ];
     if parts > 1 {
-        lines.push(format!("Part {part} of {parts}. Between them: {}", script.between));
+        lines.push(format!(
+            "Part {part} of {parts}. Between them: {}",
+            script.between
+        ));
     }
     lines.push(format!("After: {}", script.read));
     let mut text = String::new();
@@ -233,14 +236,17 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
         Question::ManualActivation => by_itself(
             "the axis has leadscrew compensation with its table, and P-COMP-00028 = 1; the control was \
              restarted, and this is the first program",
-            ">begin\n>init V.A.LEAD_COMP_INIT.@\n>answer V.A.LEAD_COMP_ACTIVE.@\nN99 M30\n".to_owned(),
+            ">begin\n>init V.A.LEAD_COMP_INIT.@\n>answer V.A.LEAD_COMP_ACTIVE.@\nN99 M30\n"
+                .to_owned(),
             READ,
         ),
         Question::AxisExchange => {
             let (number, index) = (axis.number?, axis.index);
             by_itself(
                 ACTIVE,
-                off_and_on(&format!("N20 #PUT AX [@]\nN30 #CALL AX [@, {number}, {index}]\n")),
+                off_and_on(&format!(
+                    "N20 #PUT AX [@]\nN30 #CALL AX [@, {number}, {index}]\n"
+                )),
                 READ,
             )
         }
@@ -301,7 +307,11 @@ pub fn readme(axis: &AskedAxis) -> String {
                 meaning.replace('`', "")
             );
         }
-        let _ = writeln!(text, "    What answers it: {}\n", facts.how.replace('`', ""));
+        let _ = writeln!(
+            text,
+            "    What answers it: {}\n",
+            facts.how.replace('`', "")
+        );
     }
     if axis.number.is_none() {
         text.push_str(

@@ -39,7 +39,8 @@ pub fn with_findings(text: &str, findings: &[Finding]) -> Result<String, TomlErr
             }
             // An older answer says nothing about this one.
             None => {
-                if let Some(confirmed) = document.get_mut("confirmed").and_then(Item::as_table_mut) {
+                if let Some(confirmed) = document.get_mut("confirmed").and_then(Item::as_table_mut)
+                {
                     confirmed.remove(rule);
                 }
             }
@@ -56,7 +57,9 @@ fn table<'a>(document: &'a mut DocumentMut, name: &str) -> &'a mut Item {
 
 /// The date of a moment in universal time, `2026-01-31`.
 pub fn date_of(moment: SystemTime) -> String {
-    let seconds = moment.duration_since(UNIX_EPOCH).map_or(0, |it| it.as_secs());
+    let seconds = moment
+        .duration_since(UNIX_EPOCH)
+        .map_or(0, |it| it.as_secs());
     // Days to a date of the Gregorian calendar, in eras of 400 years that begin with March.
     let days = seconds / 86_400 + 719_468;
     let (era, day_of_era) = (days / 146_097, days % 146_097);

@@ -122,7 +122,9 @@ impl Answers {
                     match refused {
                         Some(numbers) if numbers.iter().any(is_it) => None,
                         Some(numbers) => Some(numbers.join(", ")),
-                        None if self.has_states(case) => Some("no error was written down".to_owned()),
+                        None if self.has_states(case) => {
+                            Some("no error was written down".to_owned())
+                        }
                         None => None,
                     }
                 }

@@ -265,10 +265,7 @@ fn name_of(file: &Path) -> String {
     format!("{chapter}/{}", part(file.file_stem()))
 }
 
-fn expectations(
-    written: Vec<WrittenExpectation>,
-    last: &str,
-) -> Result<Vec<Expectation>, String> {
+fn expectations(written: Vec<WrittenExpectation>, last: &str) -> Result<Vec<Expectation>, String> {
     written.into_iter().map(|it| it.lower(last)).collect()
 }
 
@@ -349,7 +346,11 @@ impl fmt::Display for Expectation {
                 axis,
                 kind,
                 state,
-            } => write!(f, "{axis} {kind} {} after {program}:{after}", state.as_str()),
+            } => write!(
+                f,
+                "{axis} {kind} {} after {program}:{after}",
+                state.as_str()
+            ),
             Self::Refusal { code, at: None } => write!(f, "refused with {code}"),
             Self::Refusal {
                 code,

@@ -122,7 +122,11 @@ fn instructions(case: &Case) -> String {
         }
         None => text.push_str("No document says so.\n"),
     }
-    let _ = writeln!(text, "\nThe machine, as a frictcomp.toml:\n\n{}", case.machine);
+    let _ = writeln!(
+        text,
+        "\nThe machine, as a frictcomp.toml:\n\n{}",
+        case.machine
+    );
     text.push_str("Restart the control. Then run, with message.txt empty before:\n");
     for step in &case.run {
         let _ = match step.as_str() {

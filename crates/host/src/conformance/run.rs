@@ -84,7 +84,11 @@ fn judge(case: &Case, reading: Option<Alternative>, expected: &[Expectation]) ->
         })
         .collect();
     let wanted = |it: &Expectation| matches!(it, Expectation::Refusal { .. });
-    if let Some(refused) = run.refusals.first().filter(|_| !expected.iter().any(wanted)) {
+    if let Some(refused) = run
+        .refusals
+        .first()
+        .filter(|_| !expected.iter().any(wanted))
+    {
         missed.push(mismatch("no refusal".to_owned(), said(refused)));
     }
     missed

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use frictcomp::comp::{CncBuild, Kind, State};
-use frictcomp::readings::{Question, Standing};
+use frictcomp::readings::{Basis, Question};
 use frictcomp::session::{NoFiles, Program, SessionOptions};
 use frictcomp::{Code, Machine, Record, Session, SourceFile};
 
@@ -264,11 +264,8 @@ fn a_confirmation_is_read() {
         \"R1.28\" = { build = \"V3.1.3081.5\", date = \"2026-01-31\" }\n";
     let readings = Machine::from_toml(text).expect("a configuration").readings;
     let build: CncBuild = "3.1.3081.5".parse().expect("a build");
-    let standing = readings.standing(Question::Reset, Some(build));
-    assert!(matches!(standing, Standing::Confirmed(it) if it.date == "2026-01-31"));
-    assert_eq!(readings.standing(Question::Reset, None), Standing::Selected);
-    assert_eq!(
-        readings.standing(Question::Restart, None),
-        Standing::Assumed
-    );
+    let standing = readings.basis(Question::Reset, Some(build));
+    assert!(matches!(standing, Basis::Confirmed(it) if it.date == "2026-01-31"));
+    assert_eq!(readings.basis(Question::Reset, None), Basis::Selected);
+    assert_eq!(readings.basis(Question::Restart, None), Basis::Assumed);
 }

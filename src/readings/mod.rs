@@ -11,4 +11,4 @@ mod selected;
 pub use alternative::Alternative;
 pub use facts::{QuestionFacts, Way};
 pub use question::Question;
-pub use selected::{Confirmation, Readings, Standing};
+pub use selected::{Basis, Confirmation, Readings};

@@ -17,7 +17,7 @@ pub struct Confirmation {
 
 /// What a reading rests on (R15.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standing<'a> {
+pub enum Basis<'a> {
     /// Nobody asked.
     Assumed,
     /// The configuration selects it, without an answer of this build.
@@ -68,12 +68,12 @@ impl Readings {
 
     /// What the reading in force rests on, on a machine of this build. An answer holds for the build
     /// that gave it only (R15.2).
-    pub fn standing(&self, question: Question, build: Option<CncBuild>) -> Standing<'_> {
+    pub fn basis(&self, question: Question, build: Option<CncBuild>) -> Basis<'_> {
         let confirmed = self.confirmed.get(&question);
         match confirmed.filter(|it| Some(it.build) == build) {
-            Some(confirmation) if self.of(question).is_some() => Standing::Confirmed(confirmation),
-            _ if self.selected.contains_key(&question) => Standing::Selected,
-            _ => Standing::Assumed,
+            Some(confirmation) if self.of(question).is_some() => Basis::Confirmed(confirmation),
+            _ if self.selected.contains_key(&question) => Basis::Selected,
+            _ => Basis::Assumed,
         }
     }
 }
@@ -105,9 +105,9 @@ mod tests {
             date: "2026-01-31".to_owned(),
         };
         readings.confirm(Question::Reset, confirmation.clone());
-        let standing = |build| readings.standing(Question::Reset, build);
-        assert_eq!(standing(Some(own)), Standing::Confirmed(&confirmation));
-        assert_eq!(standing(Some(other)), Standing::Assumed);
-        assert_eq!(standing(None), Standing::Assumed);
+        let standing = |build| readings.basis(Question::Reset, build);
+        assert_eq!(standing(Some(own)), Basis::Confirmed(&confirmation));
+        assert_eq!(standing(Some(other)), Basis::Assumed);
+        assert_eq!(standing(None), Basis::Assumed);
     }
 }

@@ -16,10 +16,11 @@ use super::result::Format;
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::Severity;
 use frictcomp::machine::Machine;
-use frictcomp::readings::{Question, Standing};
+use frictcomp::readings::{Basis, Question};
 use frictcomp::text::shown_path;
 use frictcomp_host::ask::{
-    Answer, AskedAxis, Finding, Verdict, ask, date_of, read_answers, readme, with_findings,
+    Answer, AnswerVerdict, AnsweredReading, AskedAxis, ask, date_of, read_answers, readme,
+    with_findings,
 };
 use frictcomp_host::{
     CONFIG_NAME, HostError, Ledger, LoadedMachine, MendedFile, read_text, write_mended, write_new,
@@ -163,8 +164,8 @@ impl AskArgs {
             let changed = fs::metadata(path).and_then(|it| it.modified());
             let date = date_of(changed.map_err(|error| HostError::read(path, error))?);
             for answer in read_answers(&text, |name| self.asked(name, &loaded.machine)) {
-                if let Verdict::Reading(reading) = answer.verdict {
-                    findings.push(Finding {
+                if let AnswerVerdict::Reading(reading) = answer.verdict {
+                    findings.push(AnsweredReading {
                         question: answer.question,
                         reading,
                         build: self.build.or(answer.build).or(loaded.machine.build),
@@ -213,7 +214,7 @@ fn configuration(loaded: &LoadedMachine) -> PathBuf {
     own.map_or_else(|| PathBuf::from(CONFIG_NAME), Path::to_owned)
 }
 
-fn remember(path: &Path, findings: &[Finding]) -> Result<(), Failure> {
+fn remember(path: &Path, findings: &[AnsweredReading]) -> Result<(), Failure> {
     if findings.is_empty() {
         return Ok(());
     }
@@ -239,7 +240,7 @@ fn remember(path: &Path, findings: &[Finding]) -> Result<(), Failure> {
 
 /// The questions that were answered in both ways.
 fn contradictions(answers: &[Answer]) -> Vec<Question> {
-    let decided = |answer: &&Answer| answer.verdict != Verdict::Undecidable;
+    let decided = |answer: &&Answer| answer.verdict != AnswerVerdict::Undecidable;
     let mut found = Vec::new();
     for answer in answers.iter().filter(decided) {
         let mut others = answers.iter().filter(decided);
@@ -256,8 +257,8 @@ fn told(answers: &[Answer]) -> String {
         let question = answer.question;
         let facts = question.facts();
         let reading = match answer.verdict {
-            Verdict::Reading(reading) => format!(": {}", question.name_of(reading)),
-            Verdict::Undecidable => String::new(),
+            AnswerVerdict::Reading(reading) => format!(": {}", question.name_of(reading)),
+            AnswerVerdict::Undecidable => String::new(),
         };
         let build = answer.build.map_or(String::new(), |it| format!(" on {it}"));
         let _ = writeln!(text, "{} {}{reading}", facts.rule, answer.word());
@@ -267,14 +268,14 @@ fn told(answers: &[Answer]) -> String {
 }
 
 /// What the reading in force rests on, in words.
-fn standing(question: Question, machine: &Machine, build: Option<CncBuild>) -> String {
+fn basis(question: Question, machine: &Machine, build: Option<CncBuild>) -> String {
     let readings = &machine.readings;
     let name = readings.name(question);
-    match readings.standing(question, build) {
-        Standing::Confirmed(it) => format!("{name}, confirmed on {} ({})", it.build, it.date),
-        Standing::Selected => format!("{name}, selected, not confirmed on this build"),
-        Standing::Assumed if readings.of(question).is_none() => "open, taken as unknown".to_owned(),
-        Standing::Assumed => format!("{name}, assumed"),
+    match readings.basis(question, build) {
+        Basis::Confirmed(it) => format!("{name}, confirmed on {} ({})", it.build, it.date),
+        Basis::Selected => format!("{name}, selected, not confirmed on this build"),
+        Basis::Assumed if readings.of(question).is_none() => "open, taken as unknown".to_owned(),
+        Basis::Assumed => format!("{name}, assumed"),
     }
 }
 
@@ -283,7 +284,7 @@ fn listed(machine: &Machine, build: Option<CncBuild>) -> String {
     for question in Question::ALL {
         let facts = question.facts();
         let _ = writeln!(text, "{} {}", facts.rule, facts.question);
-        let _ = writeln!(text, "  reading: {}", standing(question, machine, build));
+        let _ = writeln!(text, "  reading: {}", basis(question, machine, build));
         let _ = writeln!(text, "  depends on it: {}", facts.depends);
         let _ = writeln!(text, "  asked by {}: {}", facts.way.as_str(), facts.how);
     }

@@ -229,6 +229,32 @@ fn an_answer_without_a_build_confirms_nothing() {
     assert!(!written.contains("[confirmed]"), "{written}");
 }
 
+/// R15.3: a report says of an assumption which reading is selected, and on which build it was confirmed.
+#[test]
+fn a_report_says_what_was_confirmed() {
+    let bench = bench();
+    let confirmed = "[reading]\n\"R1.29\" = \"start-up\"\n[confirmed]\n\
+        \"R1.29\" = { build = \"3.1.3081.5\", date = \"2026-01-31\" }\n";
+    bench.write("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+    bench.stdout(&["run", "--html", "plain.html", "a.nc"]);
+    assert!(!bench.read("plain.html").contains("confirmed on"));
+    bench.write("frictcomp.toml", &format!("{MACHINE}{confirmed}"));
+    bench.stdout(&["run", "--html", "report.html", "a.nc"]);
+    let report = bench.read("report.html");
+    assert!(
+        report.contains("confirmed on") && report.contains("2026-01-31"),
+        "{report}"
+    );
+    let other = format!("{MACHINE}{confirmed}").replacen("3081.5", "3132.0", 1);
+    bench.write("frictcomp.toml", &other);
+    bench.stdout(&["run", "--html", "other.html", "a.nc"]);
+    assert!(
+        bench
+            .read("other.html")
+            .contains("not confirmed on this build")
+    );
+}
+
 /// R15.1, R15.3: the list says each question, both readings, and what the one in force rests on.
 #[test]
 fn the_list_says_what_is_answered() {

@@ -16,14 +16,14 @@ pub struct Answer {
     /// The build that the programs were written for.
     pub build: Option<CncBuild>,
     /// What follows from it.
-    pub verdict: Verdict,
+    pub verdict: AnswerVerdict,
     /// What it was concluded from, or why nothing is.
     pub evidence: String,
 }
 
 /// What follows from an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum AnswerVerdict {
     /// The control follows the reading.
     Reading(Alternative),
     /// It cannot be told from this.
@@ -34,10 +34,10 @@ impl Answer {
     /// `confirmed`, `refuted`, `answered` where nothing was assumed, or `not decidable`.
     pub fn word(&self) -> &'static str {
         match (self.verdict, self.question.facts().assumed) {
-            (Verdict::Undecidable, _) => "not decidable",
-            (Verdict::Reading(_), None) => "answered",
-            (Verdict::Reading(found), Some(assumed)) if found == assumed => "confirmed",
-            (Verdict::Reading(_), Some(_)) => "refuted",
+            (AnswerVerdict::Undecidable, _) => "not decidable",
+            (AnswerVerdict::Reading(_), None) => "answered",
+            (AnswerVerdict::Reading(found), Some(assumed)) if found == assumed => "confirmed",
+            (AnswerVerdict::Reading(_), Some(_)) => "refuted",
         }
     }
 }
@@ -78,8 +78,8 @@ pub fn read_answers(text: &str, axis: impl Fn(&str) -> AskedAxis) -> Vec<Answer>
             ))
         };
         let (verdict, evidence) = match judged {
-            Ok((reading, evidence)) => (Verdict::Reading(reading), evidence),
-            Err(reason) => (Verdict::Undecidable, reason),
+            Ok((reading, evidence)) => (AnswerVerdict::Reading(reading), evidence),
+            Err(reason) => (AnswerVerdict::Undecidable, reason),
         };
         Answer {
             question,

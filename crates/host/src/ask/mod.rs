@@ -10,6 +10,6 @@ mod motion;
 mod programs;
 mod written;
 
-pub use answers::{Answer, Verdict, read_answers};
+pub use answers::{Answer, AnswerVerdict, read_answers};
 pub use programs::{AskedAxis, AskedFile, ask, readme};
-pub use written::{Finding, date_of, with_findings};
+pub use written::{AnsweredReading, date_of, with_findings};

@@ -9,7 +9,7 @@ use frictcomp::readings::{Alternative, Question};
 
 /// An answer that the configuration remembers.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct AnsweredReading {
     /// The question.
     pub question: Question,
     /// The reading that the control follows.
@@ -24,7 +24,7 @@ pub struct Finding {
 ///
 /// # Errors
 /// The text is no TOML.
-pub fn with_findings(text: &str, findings: &[Finding]) -> Result<String, TomlError> {
+pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     for finding in findings {
         let rule = finding.question.facts().rule;
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn answers_take_their_place_in_the_configuration() {
         let before = "# the mill\n[machine]\ncnc_build = \"3.1.3132.0\" # ours\n";
-        let finding = |reading, build| Finding {
+        let finding = |reading, build| AnsweredReading {
             question: Question::Reset,
             reading,
             build,

@@ -26,7 +26,7 @@ pub struct CaseError {
 /// A program or list of a case.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Given {
+pub struct CaseFile {
     /// Its name, by which it is called or named.
     pub name: String,
     /// Its text.
@@ -99,7 +99,7 @@ pub struct Case {
     /// What it shows, in one sentence.
     pub about: String,
     /// Programs and lists.
-    pub files: Vec<Given>,
+    pub files: Vec<CaseFile>,
     /// What runs, in this order: names of programs, `reset` and `restart`.
     pub run: Vec<String>,
     /// The machine as a `frictcomp.toml`.
@@ -125,7 +125,7 @@ struct Written {
     assumed: bool,
     about: String,
     #[serde(default)]
-    file: Vec<Given>,
+    file: Vec<CaseFile>,
     #[serde(default)]
     run: Vec<String>,
     #[serde(default)]

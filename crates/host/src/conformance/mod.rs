@@ -8,7 +8,7 @@ mod outcome;
 mod run;
 
 pub use answers::{Answers, Compared};
-pub use case::{Case, CaseError, Expectation, Given, Moment, find_cases};
+pub use case::{Case, CaseError, CaseFile, Expectation, Moment, find_cases};
 pub use export::{Exported, export};
-pub use outcome::{Mismatch, Outcome, Totals};
+pub use outcome::{CaseOutcome, Mismatch, Totals};
 pub use run::run_case;

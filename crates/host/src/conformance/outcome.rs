@@ -15,7 +15,7 @@ pub struct Mismatch {
 
 /// What came out of a case.
 #[derive(Debug, Clone, Default)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// Whether the documents leave it open.
     pub is_undecided: bool,
     /// What does not hold; nothing where the case holds.
@@ -37,7 +37,7 @@ pub struct Totals {
 
 impl Totals {
     /// Counts an outcome.
-    pub fn add(&mut self, outcome: Outcome) {
+    pub fn add(&mut self, outcome: CaseOutcome) {
         self.cases += 1;
         self.held += usize::from(outcome.failed.is_empty());
         self.undecided += usize::from(outcome.is_undecided);

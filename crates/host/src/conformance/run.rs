@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::case::{Case, Expectation, Moment, is_between};
-use super::outcome::{Mismatch, Outcome};
+use super::outcome::{CaseOutcome, Mismatch};
 use frictcomp::comp::{Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::machine::{Configuration, ListFiles, Machine, NoList, Parameterisation};
@@ -42,8 +42,8 @@ struct Run {
 }
 
 /// Runs a case, one that is undecided under both readings.
-pub fn run_case(case: &Case) -> Outcome {
-    let mut outcome = Outcome {
+pub fn run_case(case: &Case) -> CaseOutcome {
+    let mut outcome = CaseOutcome {
         is_undecided: !case.readings.is_empty(),
         failed: Vec::new(),
     };

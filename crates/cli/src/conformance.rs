@@ -59,7 +59,9 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     let totals = match &args.compare {
         None => {
             let mut totals = Totals::default();
-            cases.iter().for_each(|case| totals.add(run_case(case)));
+            for case in &cases {
+                totals.add(run_case(case));
+            }
             totals
         }
         Some(folder) => {

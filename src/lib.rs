@@ -94,6 +94,7 @@ pub mod interpreter;
 mod lint;
 pub mod lists;
 pub mod machine;
+pub mod readings;
 pub mod session;
 pub mod syntax;
 pub mod text;

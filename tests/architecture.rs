@@ -9,20 +9,25 @@ use std::path::{Path, PathBuf};
 
 /// What each room may import of the other rooms of its package. Rooms stand in the order of the data; an
 /// import never goes down. What one package may use of another is in its `Cargo.toml`.
-const ROOMS: [(&str, &[&str]); 24] = [
+const ROOMS: [(&str, &[&str]); 25] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
+    ("readings", &["comp"]),
     ("syntax", &["text", "diagnostic", "comp"]),
     ("lists", &["text", "diagnostic", "comp", "syntax"]),
     ("drive_interface", &["text", "diagnostic", "lists"]),
-    ("config", &["text", "diagnostic", "comp", "syntax", "lists"]),
+    (
+        "config",
+        &["text", "diagnostic", "comp", "readings", "syntax", "lists"],
+    ),
     (
         "machine",
         &[
             "text",
             "diagnostic",
             "comp",
+            "readings",
             "syntax",
             "lists",
             "drive_interface",
@@ -31,7 +36,15 @@ const ROOMS: [(&str, &[&str]); 24] = [
     ),
     (
         "interpreter",
-        &["text", "diagnostic", "comp", "syntax", "lists", "machine"],
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "readings",
+            "syntax",
+            "lists",
+            "machine",
+        ],
     ),
     (
         "audit",
@@ -50,6 +63,7 @@ const ROOMS: [(&str, &[&str]); 24] = [
             "text",
             "diagnostic",
             "comp",
+            "readings",
             "syntax",
             "machine",
             "interpreter",
@@ -73,6 +87,7 @@ const ROOMS: [(&str, &[&str]); 24] = [
             "text",
             "diagnostic",
             "comp",
+            "readings",
             "syntax",
             "lists",
             "machine",

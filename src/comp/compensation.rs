@@ -219,6 +219,30 @@ impl Compensation {
         self.program_end()
     }
 
+    /// Gives kinds of an axis the selection that they have in another state of the same axes, and
+    /// appends what changed.
+    pub(crate) fn return_to(
+        &mut self,
+        other: &Self,
+        (axis, kinds): (AxisIndex, KindSet),
+        changes: &mut Vec<Change>,
+    ) {
+        let theirs = other.axes[axis.get()];
+        let state = &mut self.axes[axis.get()];
+        for kind in kinds.intersection(state.configured).iter() {
+            let selected = theirs.selected.contains(kind);
+            let selected = if selected {
+                Membership::In
+            } else {
+                Membership::Out
+            };
+            changes.extend(state.change(axis, kind, |state| {
+                state.selected.assign(kind, selected);
+                state.unknown.remove(kind);
+            }));
+        }
+    }
+
     /// Makes kinds of an axis unknown, because a command that decides them depends on a value that
     /// only the machine knows (R2.51), and appends what changed.
     pub fn forget(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {

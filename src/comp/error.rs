@@ -34,6 +34,17 @@ pub enum CompensationError {
         /// The axis of the command.
         axis: String,
     },
+    /// A command that the documents do not settle, and that the configuration reads as refused
+    /// (R15.2).
+    #[error("the control is read as refusing {what} of axis `{axis}` ({rule})")]
+    ReadAsRefused {
+        /// The axis of the command.
+        axis: String,
+        /// What is refused.
+        what: &'static str,
+        /// The rule of the question.
+        rule: &'static str,
+    },
     /// `S[COMP ON FRICT]`.
     #[error("`{axis}` is a spindle; spindles have no COMP")]
     Spindle {
@@ -49,6 +60,7 @@ impl CompensationError {
             Self::NotConfigured { kind, .. } => kind.facts().refusal,
             Self::UnknownAxis { .. } => Code::PErr21947,
             Self::Coupled { .. } => Code::PErr21403,
+            Self::ReadAsRefused { .. } => Code::Fc306,
             Self::Spindle { .. } => Code::Fc302,
         }
     }
@@ -59,6 +71,7 @@ impl CompensationError {
             Self::NotConfigured { axis, .. }
             | Self::UnknownAxis { axis }
             | Self::Coupled { axis }
+            | Self::ReadAsRefused { axis, .. }
             | Self::Spindle { axis } => axis,
         }
     }

@@ -41,7 +41,7 @@ pub fn example(key: &str) -> Option<&'static str> {
 }
 
 /// A row a key.
-const EXAMPLES: [(&str, &str); 23] = [
+const EXAMPLES: [(&str, &str); 25] = [
     ("machine", "write `[machine]`, in single brackets"),
     (
         "axis",
@@ -49,6 +49,8 @@ const EXAMPLES: [(&str, &str); 23] = [
     ),
     ("variables", "write `[variables]`, in single brackets"),
     ("lint", "write `[lint]`, in single brackets"),
+    ("reading", "write `[reading]`, in single brackets"),
+    ("confirmed", "write `[confirmed]`, in single brackets"),
     ("programs", "write `[machine.programs]`, in single brackets"),
     (
         "value",

@@ -9,9 +9,11 @@ use super::axis::AxisTable;
 use super::error::ConfigError;
 use super::machine::MachineTable;
 use super::one_more_axis::one_more_axis;
+use super::readings;
 use super::section::{Section, Shape};
 use crate::diagnostic::{Code, Levels, NamedFix, Severity};
 use crate::lists::{Given, Written};
+use crate::readings::Readings;
 use crate::text::SourceFile;
 
 /// What `frictcomp.toml` says.
@@ -31,6 +33,8 @@ pub(crate) struct ConfigFile {
     pub(crate) levels: Levels,
     /// The extensions of programs in `[check]`, in lower case and without a dot.
     pub(crate) extensions: Vec<String>,
+    /// `[reading]` and `[confirmed]`.
+    pub(crate) readings: Readings,
 }
 
 /// The value of a variable.
@@ -45,7 +49,15 @@ pub(crate) enum Variable {
 /// The whole file.
 pub(super) const ROOT: Shape = Shape {
     name: "frictcomp.toml",
-    keys: Some(&["machine", "axis", "variables", "lint", "check"]),
+    keys: Some(&[
+        "machine",
+        "axis",
+        "variables",
+        "lint",
+        "check",
+        "reading",
+        "confirmed",
+    ]),
 };
 
 /// The key of `[variables]` that is no variable.
@@ -78,6 +90,7 @@ impl ConfigFile {
             stable: stable(&root)?,
             levels: levels(&root)?,
             extensions: extensions(&root)?,
+            readings: readings::read(&root)?,
             axes: AxisTable::read_all(&root)?,
             one_more_axis: one_more_axis(&root),
         })

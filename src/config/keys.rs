@@ -3,10 +3,11 @@
 use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};
 use super::machine::{EXTERNAL_KEEPS, MACHINE, WORDS};
+use super::readings::{CONFIRMED, READING};
 use super::section::Shape;
 
 /// Every table, by its header; the file itself has none.
-const TABLES: [(&str, &Shape); 9] = [
+const TABLES: [(&str, &Shape); 11] = [
     ("", &ROOT),
     (AXIS.name, &AXIS),
     (VALUE.name, &VALUE),
@@ -16,6 +17,8 @@ const TABLES: [(&str, &Shape); 9] = [
     (VARIABLES.name, &VARIABLES),
     (LINT.name, &LINT),
     (CHECK.name, &CHECK),
+    (READING.name, &READING),
+    (CONFIRMED.name, &CONFIRMED),
 ];
 
 /// The keys of the table of a header, `[[axis]]`; `None` where the user chooses them, or there is no

@@ -12,6 +12,7 @@ mod file;
 mod keys;
 mod machine;
 mod one_more_axis;
+mod readings;
 mod section;
 
 #[cfg(feature = "unstable")]

@@ -99,6 +99,7 @@ codes! {
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
     Fc305 "FC305" Warning "compensation kind newer than the CNC build";
+    Fc306 "FC306" Error "command that the selected reading refuses";
     Fc310 "FC310" Warning "program without M30";
     Fc311 "FC311" Error "parameter read before it was written";
     Fc312 "FC312" Error "expression cannot be computed";

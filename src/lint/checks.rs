@@ -5,6 +5,7 @@ use super::memory;
 use super::{left_away, moved_before, repeated, shared_block, undescribed};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Ended, EndedBy, Executed};
+use crate::readings::Question;
 use crate::text::Span;
 
 /// The lints on a command, before it is remembered; the first that has something to say wins, so
@@ -62,13 +63,16 @@ impl Linter<'_> {
 
     /// Looks at the state that an ended program leaves, and remembers who made it. A program that
     /// an error or a budget stopped is not blamed for what it did not come to.
-    /// One that a loop keeps for ever is ended by a reset, which keeps the state (R1.28).
+    /// One that a loop keeps for ever is ended by a reset, which keeps the state unless the machine is
+    /// read otherwise (R1.28).
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
         let left = ended.compensation;
         self.history
             .program_ended(&self.program, &self.memory, left);
         match ended.by {
-            EndedBy::Budget if ended.endless => {
+            EndedBy::Budget
+                if ended.endless && !self.machine.readings.takes_second(Question::Reset) =>
+            {
                 left_away::lint(self, ended, "the reset that ends it")
             }
             EndedBy::Error | EndedBy::Budget => Vec::new(),

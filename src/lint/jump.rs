@@ -5,11 +5,16 @@ use super::memory::{Jump, place};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{AxisWord, BlockEnd, Executed, Form, Group, PositionFrame, Travel};
+use crate::readings::Question;
 
 impl Linter<'_> {
     /// Notes changes of an axis that moves, and says which of them are followed by a move in the same
     /// direction.
     pub(super) fn jump(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        // R1.57: where the command itself stops the path there is no jump.
+        if self.machine.readings.takes_second(Question::LookAhead) {
+            return;
+        }
         if executed.rests && executed.moved.is_empty() {
             self.jumps.clear();
             return;

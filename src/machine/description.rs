@@ -3,9 +3,10 @@
 use super::axis::Axis;
 use super::harmless::HarmlessWords;
 use super::programs::ConfiguredPrograms;
-use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation};
+use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation, KindSet};
 use crate::diagnostic::NamedFix;
 use crate::lists::{ChannelSettings, Origin};
+use crate::readings::{Question, Readings};
 use crate::syntax::SkipLevels;
 
 /// Where the axes of a machine come from.
@@ -50,6 +51,8 @@ pub struct Machine {
     pub stable: Vec<String>,
     /// What the channel list says about motion.
     pub channel: ChannelSettings,
+    /// How the open questions are read.
+    pub readings: Readings,
 }
 
 /// An axis that follows another one in the position controller, P-AXIS-00070 (R1.43).
@@ -120,7 +123,13 @@ impl Machine {
 
     /// The state of all compensations after a start of the control.
     pub fn compensation(&self) -> Compensation {
-        Compensation::at_startup(self.axis_setups())
+        let mut compensation = Compensation::at_startup(self.axis_setups());
+        if self.readings.takes_second(Question::ManualActivation) {
+            for (at, axis) in self.axes.iter().enumerate() {
+                compensation.restore(AxisIndex::new(at), axis.configured, KindSet::NONE);
+            }
+        }
+        compensation
     }
 
     /// The axes as the compensation sees them.

@@ -182,6 +182,8 @@ impl Session {
         for (name, position) in &options.start {
             interpreter.place(name, *position);
         }
+        interpreter.doubt_start();
+        let start = interpreter.compensation().clone();
         let axes = machine.axes.len();
         Self {
             remark: undescribed(&machine, &options.switched)
@@ -190,9 +192,9 @@ impl Session {
             machine,
             interpreter,
             levels: options.levels,
-            history: History::new(compensation.clone()),
+            history: History::new(compensation),
             given,
-            start: compensation,
+            start,
             programs: 0,
             stopped: false,
             tally: Tally {
@@ -363,6 +365,18 @@ impl Session {
             }
             _ => ControlFlow::Break(()),
         }
+    }
+
+    /// A reset of the channel between two programs (R1.28).
+    pub fn reset(&mut self) {
+        self.interpreter.reset();
+        self.stopped = false;
+    }
+
+    /// A restart of the control between two programs (R1.29).
+    pub fn restart(&mut self) {
+        self.interpreter.restart();
+        self.stopped = false;
     }
 
     /// Whether an error stopped the session, so that no further program may run (R9.20).

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 24] = [
+static EXAMPLES: [Examples; 26] = [
     examples(
         &["run"],
         [
@@ -116,6 +116,20 @@ static EXAMPLES: [Examples; 24] = [
         [
             "frictcomp verify friction.csv --value-list comp_x.lis",
             "frictcomp verify friction.csv --value-list comp_x.lis --format json",
+        ],
+    ),
+    examples(
+        &["ask"],
+        [
+            "frictcomp ask --axis X -o questions",
+            "frictcomp ask --list",
+        ],
+    ),
+    examples(
+        &["conformance"],
+        [
+            "frictcomp conformance conformance",
+            "frictcomp conformance --export cases conformance",
         ],
     ),
     examples(

@@ -6,6 +6,7 @@
 //! assert_eq!(frictcomp_cli::status(["frictcomp", "explain", "no such word"].map(Into::into)), 2);
 //! ```
 
+mod ask;
 mod audit;
 mod channels;
 mod check;
@@ -14,6 +15,7 @@ mod code_page;
 mod codes;
 mod completions;
 mod config;
+mod conformance;
 mod console;
 mod contour;
 mod current;
@@ -109,6 +111,8 @@ enum Command {
     Contour(contour::ContourArgs),
     Tune(tune::TuneArgs),
     Stiction(stiction::StictionArgs),
+    Ask(ask::AskArgs),
+    Conformance(conformance::ConformanceArgs),
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
@@ -237,6 +241,8 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Ask(args) => ask::run(args, console),
+        Command::Conformance(args) => conformance::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

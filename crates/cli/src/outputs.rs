@@ -132,6 +132,11 @@ impl Outputs {
         Ok(self.files.check()?)
     }
 
+    /// Everything is written: every file takes its place, too many to be named.
+    pub(super) fn finish_quietly(self) -> Result<(), Failure> {
+        Ok(self.files.finish(|_| ())?)
+    }
+
     /// Everything is written: every file takes its place, and is named on stderr.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let console = self.console;

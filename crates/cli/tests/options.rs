@@ -463,6 +463,8 @@ fn every_help_ends_with_two_examples_that_work() {
         "contour",
         "tune",
         "stiction",
+        "ask",
+        "conformance",
         "trace",
         "identify",
         "verify",
@@ -548,6 +550,9 @@ fn example_folder() -> Bench {
         fs::create_dir(bench.folder().join(folder)).expect("a folder");
     }
     bench.write("programs/a.nc", LEAVE_OFF);
+    fs::create_dir_all(bench.folder().join("conformance/1")).expect("a folder");
+    let case = fs::read_to_string(root().join("conformance/1/off.toml"));
+    bench.write("conformance/1/off.toml", &case.expect("a case"));
     for (name, turn) in [("ccw.csv", 1.0), ("cw.csv", -1.0)] {
         let mut text = "x,y\n".to_owned();
         for step in 0..1440 {

@@ -16,7 +16,8 @@ use workspace::root;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 26] = [
+const ELSEWHERE: [(&str, &str); 27] = [
+    ("FC306", "depends on `[reading]`; tests/readings.rs has it"),
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
     (
         "FC506",

@@ -16,6 +16,7 @@ use frictcomp::timeline::{Record, Sink};
 use frictcomp_physics::contour::{
     ContourOptions, ContourSink, MovingAxes, NoContour, ProgramContour, parameterise,
 };
+use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
 use frictcomp_physics::simulation::{FrictionModel, Plant};
 
@@ -97,7 +98,8 @@ pub fn drive_contour<S: ContourSink>(
     parameterise(&mut loaded.machine, &axes);
     let options = ContourOptions::new(axes)
         .with_planner(setup.planner)
-        .with_model(setup.model);
+        .with_model(setup.model)
+        .with_reading(Reading::from(&loaded.machine.readings));
     let sink = sink(&options);
     let mut contour = ProgramContour::new(&loaded.machine, options, sink);
     let mut watched = WatchedContour {

@@ -21,10 +21,12 @@
 //! ```
 
 mod agreed;
+pub mod ask;
 mod assumed;
 mod audits;
 mod axes_ahead;
 mod both_versions;
+pub mod conformance;
 mod contours;
 mod cures;
 mod decode;

@@ -10,6 +10,7 @@ use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::machine::{AxisSet, Origin, Parameterisation};
+use crate::readings::Question;
 use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
 
@@ -28,12 +29,15 @@ impl Interpreter {
         };
         let result = axis.and_then(|axis| {
             self.see(axis);
-            let kinds = command.selection.kinds();
-            self.state.control.possible.replace(axis, kinds);
-            self.state
-                .control
+            if let Some(refused) = self.read_as_refused(command, axis, at) {
+                return Err(refused);
+            }
+            let selection = self.not_yet_switched(command.selection, axis);
+            let control = &mut self.state.control;
+            control.possible.replace(axis, selection.kinds());
+            control
                 .compensation
-                .switch(axis, command.selection, &mut self.work.changes)
+                .switch(axis, selection, &mut self.work.changes)
                 .map(|()| axis)
         });
         match &result {
@@ -56,6 +60,71 @@ impl Interpreter {
             result,
             changes: self.work.changes.len() - before,
         });
+    }
+
+    /// The refusal of a command that the selected readings say the control does not take (R1.8, R1.25,
+    /// R1.26).
+    fn read_as_refused(
+        &self,
+        command: &CompCommand,
+        axis: AxisIndex,
+        at: &At<'_>,
+    ) -> Option<CompensationError> {
+        let compensation = &self.state.control.compensation;
+        let kinds = command.selection.kinds();
+        let state = compensation.state(axis, Kind::Frict);
+        let is_on = matches!(command.selection, Selection::On(_));
+        let is_lower = |fault: &Fault| {
+            let within =
+                command.span.start <= fault.span.start && fault.span.end <= command.span.end;
+            fault.code == Code::Fc404 && within
+        };
+        let cases = [
+            (
+                Question::LowerCase,
+                "keywords in lower case",
+                at.block.faults.iter().any(is_lower),
+            ),
+            (
+                Question::OffUnconfigured,
+                "`COMP OFF` without P-AXIS-00522",
+                !is_on && kinds.contains(Kind::Frict) && state == State::Unconfigured,
+            ),
+            (
+                Question::OnWithoutList,
+                "`COMP ON FRICT` without an accepted value list",
+                is_on
+                    && kinds.contains(Kind::Frict)
+                    && compensation.is_configured(axis, Kind::Frict)
+                    && !compensation.is_parameterised(axis, Kind::Frict),
+            ),
+        ];
+        let readings = &self.machine.readings;
+        let mut refused = cases.into_iter();
+        let found = refused.find(|(asked, _, applies)| *applies && readings.takes_second(*asked));
+        found.map(|(question, what, _)| CompensationError::ReadAsRefused {
+            axis: command.axis.clone(),
+            what,
+            rule: question.facts().rule,
+        })
+    }
+
+    /// What a command switches where the first of a block wins (R1.31): the kinds that no earlier
+    /// command of the block named for the axis.
+    fn not_yet_switched(&self, selection: Selection, axis: AxisIndex) -> Selection {
+        if !self.machine.readings.takes_second(Question::OrderInBlock) {
+            return selection;
+        }
+        let earlier = self.work.outcomes.iter();
+        let earlier = earlier.filter(|it| it.result.as_ref().ok() == Some(&axis));
+        let named = earlier.fold(KindSet::NONE, |named, it| {
+            named.union(it.command.selection.kinds())
+        });
+        let left = selection.kinds().without(named);
+        match selection {
+            Selection::On(_) => Selection::On(left),
+            Selection::Off(_) | Selection::OffAll => Selection::Off(left),
+        }
     }
 
     /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
@@ -115,11 +184,13 @@ impl Interpreter {
         if let Some((first, kinds)) = opposite {
             let keywords: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
             let name = &command.axis;
+            let first_wins = self.machine.readings.takes_second(Question::OrderInBlock);
+            let winner = if first_wins { "the first" } else { "this" };
             let fault = Fault::new(
                 Code::Fc301,
                 command.span,
                 format!(
-                    "`{}` of axis `{name}` is switched both on and off in this block; this command wins",
+                    "`{}` of axis `{name}` is switched both on and off in this block; {winner} command wins",
                     keywords.join(" ")
                 ),
             );
@@ -244,6 +315,11 @@ impl Interpreter {
             CompensationError::Coupled { .. } => {
                 diagnostic =
                     diagnostic.with_help("release the coupling first, with `#DISABLE AX LINK`");
+            }
+            CompensationError::ReadAsRefused { rule, .. } => {
+                diagnostic = diagnostic.with_help(format!(
+                    "`[reading]` of the configuration says so under `\"{rule}\"`; the documents do not"
+                ));
             }
             CompensationError::Spindle { .. } => {}
         }

@@ -6,7 +6,7 @@ use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
-use crate::interpreter::effects::machine_data::{Written, is_machine_data, written};
+use crate::interpreter::effects::machine_data::{Written, enables, is_machine_data, written};
 use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::cycles::ModalCycles;
@@ -16,6 +16,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::values::value::Value;
+use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
 use crate::syntax::{Fault, Touches, hash_command};
 use crate::text::Span;
@@ -153,8 +154,18 @@ impl Interpreter {
             return;
         }
         let doubts = self.work.doubted.len();
+        let reading = self.machine.readings.of(Question::MachineData);
         for (axis, kinds) in lost {
-            self.doubt(axis, kinds);
+            match reading {
+                Some(Alternative::First) if !friction || enables(text) => {
+                    self.return_to_start(axis);
+                    self.doubt(axis, kinds.without(KindSet::of(Kind::Frict)));
+                }
+                Some(Alternative::Second) if !friction || enables(text) => {
+                    self.doubt(axis, kinds.without(KindSet::of(Kind::Frict)));
+                }
+                _ => self.doubt(axis, kinds),
+            }
         }
         let doubted = self.work.doubted.get(doubts..).unwrap_or_default();
         let named: Vec<String> = doubted

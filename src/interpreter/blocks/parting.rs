@@ -17,6 +17,7 @@ use crate::interpreter::values::cause::{PROBE, skip_level};
 use crate::interpreter::values::plain::{Asking, Truth, conclusions, reads, text_of};
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
+use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Flow, Item, JumpTarget, Operand};
 use crate::text::Span;
@@ -304,6 +305,7 @@ impl Interpreter {
                 .trim_start()
                 .starts_with(|it: char| it.is_ascii_digit())
         });
+        let at_start = self.machine.readings.takes_second(Open::SkipLevel);
         let cause = skip_level(level);
         self.note_unknown(&cause, &at);
         let question = Question {
@@ -311,8 +313,9 @@ impl Interpreter {
             span: Span::new(0, parsed.text.trim_end().len()),
             texts: vec![cause.clone()],
             cause: cause.clone(),
-            // The switch of blocks without a number is read when the main program begins.
-            reads: is_bare.then(|| Asking {
+            // The switch of blocks without a number is read when the main program begins, and the others
+            // where the machine is read so (R2.90).
+            reads: (is_bare || at_start).then(|| Asking {
                 reads: Vec::new(),
                 meaning: cause.to_string(),
             }),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, State};
+use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
 use crate::interpreter::coordinates::chain;
@@ -19,6 +19,7 @@ use crate::interpreter::run::intent::{Feed, Intent};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
+use crate::readings::Question;
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known};
 use crate::text::Span;
@@ -241,11 +242,14 @@ impl Interpreter {
 
     /// The axes that the block moves for sure, homing apart, and the words that move them (R1.36).
     fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
-        let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring);
+        let homing_counts = self.machine.readings.takes_second(Question::Homing);
+        let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
+            || (homing_counts && words == AxisWords::Homing);
         let of_words = self.work.moved.iter().filter(|_| is_motion);
         let of_words = of_words.map(|word| (word.axis, word.span));
         let counts = |motion: &&MovedAxis| {
-            motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
+            motion.certainty == Certainty::Certain
+                && (homing_counts || motion.kind != MotionKind::Homing)
         };
         let others = self.work.also_moved.iter().filter(counts);
         of_words
@@ -253,15 +257,25 @@ impl Interpreter {
             .collect()
     }
 
-    /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
-    /// block took effect before the motion (R1.9).
+    /// The state in which the block moves an axis (R1.9).
+    fn state_in_motion(&self, axis: AxisIndex, kind: Kind) -> State {
+        let mut changes = self.work.changes.iter();
+        let first = changes.find(|change| (change.axis, change.kind) == (axis, kind));
+        let is_after = self.machine.readings.takes_second(Question::WithMotion);
+        match first.filter(|_| is_after) {
+            Some(change) => change.from,
+            None => self.state.control.compensation.state(axis, kind),
+        }
+    }
+
+    /// P-ERR-70435: an axis moves without a compensation that it requires.
     pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
         if !self.any_required {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
         for (axis, span) in self.moved_in_automatic(words) {
-            let state = |kind| self.state.control.compensation.state(axis, kind);
+            let state = |kind| self.state_in_motion(axis, kind);
             let required = machine.axis(axis).monitored();
             let missing = required
                 .iter()

@@ -7,13 +7,14 @@
 
 use std::collections::BTreeSet;
 
-use crate::comp::{AxisIndex, CompensationError};
+use crate::comp::{AxisIndex, CompensationError, Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::value::rounded;
+use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
 
@@ -114,6 +115,12 @@ impl Interpreter {
             let number = number.and_then(|number| self.number_in(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
+            if let Some(Meaning::Axis(axis)) = meaning
+                && self.machine.readings.takes_second(Question::AxisExchange)
+                && self.was_released(axis)
+            {
+                self.return_to_start(axis);
+            }
             let names = &mut self.state.control.channel_axes.names;
             let own = self.machine.find(name);
             if own.is_some() && meaning == own.map(Meaning::Axis) {
@@ -122,6 +129,27 @@ impl Interpreter {
                 names.insert(name.to_owned(), meaning.unwrap_or(Meaning::Unknown));
             }
         }
+    }
+
+    /// Whether the channel gave an axis away and does not have it under any name.
+    fn was_released(&self, axis: AxisIndex) -> bool {
+        let names = self.state.control.channel_axes.names.values();
+        let mut names = names.copied();
+        names.any(|meaning| meaning == Meaning::Released(Some(axis)))
+    }
+
+    /// Friction compensation of an axis is that of the start of the control, where the machine is read
+    /// so.
+    pub(in crate::interpreter) fn return_to_start(&mut self, axis: AxisIndex) {
+        let start = self.machine.compensation();
+        let kinds = KindSet::of(Kind::Frict);
+        let control = &mut self.state.control;
+        control.possible.replace(axis, kinds);
+        control.untouched.switch(axis, kinds);
+        let changes = &mut self.work.changes;
+        control
+            .compensation
+            .return_to(&start, (axis, kinds), changes);
     }
 
     /// What a name means after a request with this logical axis number, if that is known. An axis

@@ -41,6 +41,15 @@ pub(in crate::interpreter) fn written(text: &str) -> Written {
     }
 }
 
+/// Whether the text of a command sets P-AXIS-00522 to 1.
+pub(in crate::interpreter) fn enables(text: &str) -> bool {
+    let text = text.to_ascii_lowercase();
+    let keys = ["p-axis-00522", "lr_param.frict_comp"];
+    let value = keys.iter().find_map(|key| Some(text.split_once(key)?.1));
+    let value = value.map(|value| number(value.trim_start_matches([' ', '\t', '='])));
+    value.is_some_and(|value| value == "1")
+}
+
 impl Interpreter {
     /// The axes whose list a command transfers again, with the kinds that NC commands have set there:
     /// all kinds where it writes a parameter of friction compensation.
@@ -173,6 +182,8 @@ mod tests {
         assert_eq!(named("[AXNR 2 a=2]"), Some(Named::Number("2")));
         assert_eq!(named("[P-CHAN-00001=0]"), None);
         assert_eq!(written("[AX=X kenngr.swe_pos=1]"), Written::Other);
+        assert!(enables("[AX=X P-AXIS-00522=1]") && enables("[AX X lr_param.frict_comp 1]"));
+        assert!(!enables("[AX=X P-AXIS-00522=0]") && !enables("[AX=X P-AXIS-00522=10]"));
         assert!(is_machine_data("#MACHINE DATA SYN") && !is_machine_data("#MACHINE DATABASE"));
     }
 }

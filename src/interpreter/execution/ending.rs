@@ -89,6 +89,10 @@ impl Interpreter {
         if !met.is_empty() {
             ends.splice(..1.min(ends.len()), met);
         }
+        // R2.84: only a reset ends a loop without an end.
+        if self.work.endless {
+            self.reset_friction();
+        }
         let mut changes = std::mem::take(&mut self.work.changes);
         changes.extend(self.state.control.compensation.program_end());
         if !changes.is_empty() {

@@ -1,7 +1,8 @@
 //! Blocks one after another: the beginning, the way and the end of a program.
 
 pub(super) mod asking;
-pub(super) mod block;
+mod between;
+mod block;
 pub(super) mod budget;
 pub(super) mod calling;
 pub(super) mod ending;

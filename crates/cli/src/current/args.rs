@@ -10,7 +10,7 @@ use super::super::execution::ExecutionArgs;
 use super::super::failure::Failure;
 use super::super::machine::MachineArgs;
 use super::super::start::StartArgs;
-use frictcomp_physics::current::{DeadBand, Reading, Resampling, TraceOptions};
+use frictcomp_physics::current::{ChosenOptions, DeadBand, Resampling, TraceOptions};
 use frictcomp_physics::motion::PlannerOptions;
 
 /// Compute the additive current of a program or a recorded trace, cycle by cycle
@@ -65,7 +65,7 @@ pub(crate) struct CurrentArgs {
         default_value = "",
         hide_default_value = true
     )]
-    pub(super) reading: Reading,
+    pub(super) reading: ChosenOptions,
     /// The format of the result
     #[arg(long, default_value = "csv")]
     pub(super) format: Format,

@@ -17,7 +17,7 @@ use frictcomp::drive_interface::TorqueScale;
 use frictcomp::machine::Parameterisation;
 use frictcomp::session::{Motions, StopPolicy};
 use frictcomp_host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
-use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, axes_to_follow};
+use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, Reading, axes_to_follow};
 use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
 use frictcomp_report::assumed_limits;
 use frictcomp_report::pictures::AxisPlot;
@@ -60,6 +60,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         watch: Arc::clone(&loaded.watch),
     };
     let table = Table::new(result.writer, table, plot);
+    let reading = reading(args, &loaded);
     let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, table);
     let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
     session.run.motions = Motions::Taken;
@@ -92,12 +93,12 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     }
     say_left_out(currents.left_out());
     say_table(&names, currents.sink());
-    Console::talk(&format!("reading: {}", args.reading));
+    Console::talk(&format!("reading: {reading}"));
     for (name, cycles) in names.iter().zip(currents.saturated()) {
         say_saturated(&format!(" of axis {name}"), cycles);
     }
     for (name, cycles) in names.iter().zip(currents.at_rest()) {
-        say_at_rest(&format!(" of axis {name}"), args.reading, cycles);
+        say_at_rest(&format!(" of axis {name}"), reading, cycles);
     }
     let lists = followed
         .iter()
@@ -114,6 +115,11 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }
 
+/// What the command line chooses over what the machine selects.
+fn reading(args: &CurrentArgs, loaded: &LoadedMachine) -> Reading {
+    args.reading.over(Reading::from(&loaded.machine.readings))
+}
+
 /// The cycle of the command line, else that of the machine.
 fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions, Failure> {
     let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
@@ -122,7 +128,7 @@ fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions,
         cycle_s: check_cycle(cycle.unwrap_or(PlannerOptions::default().cycle_s))?,
         max_cycles: args.max_cycles,
     };
-    Ok(CurrentOptions::from(planner).with_reading(args.reading))
+    Ok(CurrentOptions::from(planner).with_reading(reading(args, loaded)))
 }
 
 /// By what the outputs are multiplied on their way to the drives, where it is not 1 (R7.8).

@@ -12,7 +12,7 @@ use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use frictcomp::comp::State;
 use frictcomp_host::{Ledger, read_commanded};
-use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Switched};
+use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Reading, Switched};
 use frictcomp_report::pictures::{AxisPlot, AxisSample};
 
 /// Computes the current of a recorded trace.
@@ -34,7 +34,8 @@ pub(super) fn run(
     for remark in trace.remarks() {
         Console::talk(remark);
     }
-    let mut current = AdditiveCurrent::new(&list, args.reading);
+    let reading = args.reading.over(Reading::default());
+    let mut current = AdditiveCurrent::new(&list, reading);
     let written = write_csv(&mut writer, &trace, &mut current, plot.as_mut());
     if let Some(plot) = plot {
         plot.finish()?;
@@ -44,9 +45,9 @@ pub(super) fn run(
         written => written.map_err(Failure::output)?,
     }
     outputs.finish()?;
-    Console::talk(&format!("reading: {}", args.reading));
+    Console::talk(&format!("reading: {reading}"));
     say_saturated("", current.saturated());
-    say_at_rest("", args.reading, current.at_rest());
+    say_at_rest("", reading, current.at_rest());
     say_sign(&list);
     Ok(exit::CLEAN)
 }

@@ -79,4 +79,9 @@ impl ContourOptions {
     pub fn with_model(self, model: FrictionModel) -> Self {
         Self { model, ..self }
     }
+
+    /// The same with another reading.
+    pub fn with_reading(self, reading: Reading) -> Self {
+        Self { reading, ..self }
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::reading::{Below, Delay, Reading, Standstill, Start};
+use super::reading::{Below, Decay, Delay, Reading, Standstill, Start};
 use frictcomp::lists::{FrictionList, TablePoint};
 
 /// Whether friction compensation is on.
@@ -277,9 +277,10 @@ impl AdditiveCurrent {
         weight
     }
 
-    /// Linear over the cycles up to the next reversal (R4.2).
+    /// Linear over the cycles up to the next reversal, or none in them (R4.2).
     fn weight_before(&self, reversal: Option<usize>) -> f64 {
         match reversal {
+            Some(_) if self.reading.decay == Decay::Step => 0.0,
             #[allow(clippy::cast_precision_loss)] // at most 65535 cycles
             Some(cycles) => cycles as f64 / self.lookahead as f64,
             None => 1.0,

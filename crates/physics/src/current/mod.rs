@@ -22,7 +22,7 @@ pub use followers::{Commanded, CurrentSample, Followers};
 pub use program::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
 };
-pub use reading::{Below, Delay, Reading, Standstill, Start, UnknownReading};
+pub use reading::{Below, ChosenOptions, Decay, Delay, Reading, Standstill, Start, UnknownReading};
 pub use recorded::{CommandedRow, CommandedTrace, TraceOptions};
 pub use standstill::{DeadBand, Standstills};
 pub use units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};

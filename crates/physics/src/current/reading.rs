@@ -6,8 +6,9 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use frictcomp::diagnostic::did_you_mean;
+use frictcomp::readings::{Question, Readings};
 
-/// How the documents are read where they are silent (R4.3, R4.5 to R4.7). The default is what is assumed
+/// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is what is assumed
 /// unless the user says otherwise.
 ///
 /// It is written in reports, and can be given, as text:
@@ -30,6 +31,8 @@ pub struct Reading {
     pub delay: Delay,
     /// After which starts the current builds up.
     pub start: Start,
+    /// How the current decays before a reversal.
+    pub decay: Decay,
 }
 
 /// The value while the axis stands still (R4.6).
@@ -76,11 +79,22 @@ pub enum Start {
     Every,
 }
 
+/// How the current decays over the cycles of `reversal_lookahead` (R4.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Decay {
+    /// By the same part in each cycle.
+    #[default]
+    Linear,
+    /// To zero in the first of them.
+    Step,
+}
+
 /// Makes a choice.
 type Choose = fn(&mut Reading);
 
 /// What can be chosen; of options that exclude each other one is always in force.
-const OPTIONS: [(&str, Choose); 8] = [
+const OPTIONS: [(&str, Choose); 10] = [
     ("standstill=hold", |it| it.standstill = Standstill::Hold),
     ("standstill=zero", |it| it.standstill = Standstill::Zero),
     ("below=hold", |it| it.below = Below::Hold),
@@ -89,6 +103,17 @@ const OPTIONS: [(&str, Choose); 8] = [
     ("delay=reversal", |it| it.delay = Delay::Reversal),
     ("start=first", |it| it.start = Start::First),
     ("start=every", |it| it.start = Start::Every),
+    ("decay=linear", |it| it.decay = Decay::Linear),
+    ("decay=step", |it| it.decay = Decay::Step),
+];
+
+/// The questions that a recording answers, and the option of each.
+const QUESTIONS: [(Question, &str); 5] = [
+    (Question::Standstill, "standstill"),
+    (Question::Below, "below"),
+    (Question::Delay, "delay"),
+    (Question::Start, "start"),
+    (Question::Decay, "decay"),
 ];
 
 /// A word that is no option of a reading.
@@ -98,6 +123,35 @@ pub struct UnknownReading {
     /// What was written.
     pub word: String,
     help: String,
+}
+
+/// The options that a user chose, over those of a machine.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ChosenOptions(Vec<usize>);
+
+impl ChosenOptions {
+    /// The reading of a machine with these options in place of its own.
+    pub fn over(&self, mut reading: Reading) -> Reading {
+        for (_, choose) in self.0.iter().filter_map(|&option| OPTIONS.get(option)) {
+            choose(&mut reading);
+        }
+        reading
+    }
+}
+
+impl FromStr for ChosenOptions {
+    type Err = UnknownReading;
+
+    /// As for [`Reading`].
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let words = text.split(',').map(str::trim);
+        let words = words.filter(|word| !word.is_empty());
+        let chosen = words.map(|word| {
+            let found = OPTIONS.iter().position(|(option, _)| *option == word);
+            found.ok_or_else(|| UnknownReading::new(word))
+        });
+        chosen.collect::<Result<_, _>>().map(Self)
+    }
 }
 
 impl UnknownReading {
@@ -114,15 +168,31 @@ impl UnknownReading {
 }
 
 impl fmt::Display for Reading {
-    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`.
+    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and
+    /// `decay=step` where that is selected.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let in_force = OPTIONS.iter().filter(|(_, choose)| {
+        let in_force = OPTIONS.iter().filter(|(choice, choose)| {
             let mut chosen = *self;
             choose(&mut chosen);
-            chosen == *self
+            chosen == *self && *choice != "decay=linear"
         });
         let options: Vec<&str> = in_force.map(|(option, _)| *option).collect();
         f.pad(&options.join(","))
+    }
+}
+
+impl From<&Readings> for Reading {
+    /// What a machine selects in `[reading]` of its configuration.
+    fn from(readings: &Readings) -> Self {
+        let mut reading = Self::default();
+        for (question, key) in QUESTIONS {
+            let word = format!("{key}={}", readings.name(question));
+            let option = OPTIONS.iter().find(|(option, _)| *option == word);
+            if let Some((_, choose)) = option {
+                choose(&mut reading);
+            }
+        }
+        reading
     }
 }
 
@@ -132,15 +202,7 @@ impl FromStr for Reading {
     /// `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude
     /// each other the later one counts.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let mut reading = Self::default();
-        for word in text.split(',').map(str::trim) {
-            if word.is_empty() {
-                continue;
-            }
-            let found = OPTIONS.iter().find(|(option, _)| *option == word);
-            let (_, choose) = found.ok_or_else(|| UnknownReading::new(word))?;
-            choose(&mut reading);
-        }
-        Ok(reading)
+        let chosen: ChosenOptions = text.parse()?;
+        Ok(chosen.over(Self::default()))
     }
 }

@@ -98,6 +98,14 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[Always],
     },
     Assumption {
+        rule: "R1.30",
+        sentence: "nothing but programs switches compensation while they run: neither the PLC nor an \
+            object of the control, as temperature compensation has one (error 70253)",
+        changes: "every state after a switch from outside",
+        shows: "nothing; a dry run knows programs only",
+        when: &[Always],
+    },
+    Assumption {
         rule: "R1.31",
         sentence: "the commands in a block act from left to right",
         changes: "blocks that switch the same kind twice",

@@ -218,6 +218,22 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[Reported(Code::Fc314)],
     },
     Assumption {
+        rule: "R2.93",
+        sentence: "`#FRICTION` is not described; it may change friction compensation of the axes that it \
+            names, or of all",
+        changes: "the states after it are unknown",
+        shows: "FC902",
+        when: &[],
+    },
+    Assumption {
+        rule: "R2.96",
+        sentence: "a program begins at its first block; what a block search does to the COMP commands that \
+            it passes is open",
+        changes: "every state after a start in the middle of a program",
+        shows: "nothing; a dry run begins at the first block",
+        when: &[],
+    },
+    Assumption {
         rule: "R2.95",
         sentence: "an unknown value is not spoken of where nothing that matters here can differ",
         changes: "FC901 and FC902 are left out there",

@@ -4,6 +4,8 @@ use maud::{Markup, html};
 
 use super::parts::{Caption, Column, Row, Table, with_code};
 use crate::assumptions::{Assumption, CHAPTERS, Met};
+use frictcomp::comp::CncBuild;
+use frictcomp::readings::{Basis, Question, Readings};
 
 const COLUMNS: [Column<'_>; 4] = [
     Column::Text("rule"),
@@ -13,32 +15,52 @@ const COLUMNS: [Column<'_>; 4] = [
 ];
 
 /// The assumptions that this run made, and folded all others.
-pub(super) fn render(met: &Met) -> Markup {
+pub(super) fn render(met: &Met, readings: &(Readings, Option<CncBuild>)) -> Markup {
     let made = |assumption: &&Assumption| assumption.is_met(met);
     let all = CHAPTERS.iter().flat_map(|chapter| chapter.assumptions);
     html! {
         p {
             "The documents of the control leave things open. This run depends on or met these \
-             assumptions:"
+             assumptions. Each is assumed, unless it says that a control confirmed it:"
         }
-        (table("Assumptions of this run", all.filter(made)))
+        (table("Assumptions of this run", all.filter(made), readings))
         details {
             summary { "All other assumptions that can change a result" }
             "\n"
             @for chapter in CHAPTERS {
-                (table(chapter.title, chapter.assumptions.iter().filter(|it| !made(it))))
+                (table(chapter.title, chapter.assumptions.iter().filter(|it| !made(it)), readings))
             }
         }
     }
 }
 
-fn table(caption: &str, assumptions: impl Iterator<Item = &'static Assumption>) -> Markup {
+/// What the configuration says about an assumption: the reading that it selects, and on which build a
+/// control confirmed it (R15.3).
+fn said_of(rule: &str, (readings, build): &(Readings, Option<CncBuild>)) -> String {
+    let Some(question) = Question::of_rule(rule) else {
+        return String::new();
+    };
+    let name = readings.name(question);
+    match readings.basis(question, *build) {
+        Basis::Assumed => String::new(),
+        Basis::Selected => {
+            format!(" (read as `{name}` by the configuration, not confirmed on this build)")
+        }
+        Basis::Confirmed(it) => format!(" (`{name}`, confirmed on {}, {})", it.build, it.date),
+    }
+}
+
+fn table(
+    caption: &str,
+    assumptions: impl Iterator<Item = &'static Assumption>,
+    readings: &(Readings, Option<CncBuild>),
+) -> Markup {
     let table = Table {
         caption: Caption::Shown(caption),
         columns: &COLUMNS,
     };
     table.render(assumptions.map(|it| {
-        let texts = [it.sentence, it.changes, it.shows];
-        Row::new(it.rule, texts.map(with_code))
+        let sentence = it.sentence.to_owned() + &said_of(it.rule, readings);
+        Row::new(it.rule, [&sentence, it.changes, it.shows].map(with_code))
     }))
 }

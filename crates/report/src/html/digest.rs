@@ -7,10 +7,11 @@ use std::sync::Arc;
 use super::track::{Spot, Track};
 use super::ways::{Ways, WaysIndex};
 use crate::svg::Standing;
-use frictcomp::comp::{AxisIndex, Change, Kind, KindSet, State};
+use frictcomp::comp::{AxisIndex, Change, CncBuild, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::lists::AxisType;
 use frictcomp::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
+use frictcomp::readings::Readings;
 use frictcomp::text::{Place, Position};
 use frictcomp::timeline::{
     AxisSummary, End, EndedBy, Footing, Join, Record, Row, Sink, StateView, Summary,
@@ -40,6 +41,8 @@ pub struct RunDigest {
     kinds: KindSet,
     pub(super) axes: Vec<AxisDigest>,
     pub(super) axis_set: AxisSet,
+    /// How the machine reads the open questions, and its build.
+    pub(super) readings: (Readings, Option<CncBuild>),
     /// That no machine is described (R1.37).
     pub(super) remark: Option<String>,
     pub(super) accepted: Vec<AcceptedList>,
@@ -205,6 +208,7 @@ impl RunDigest {
         self.remark = remark.map(str::to_owned);
         let listed = state.listed.iter().copied().chain(std::iter::repeat(false));
         self.axis_set = state.machine.axis_set;
+        self.readings = (state.machine.readings.clone(), state.machine.build);
         self.accepted = AcceptedList::of(state.machine);
         self.axes = (state.machine.axes.iter().zip(listed))
             .map(|(axis, listed)| AxisDigest {

@@ -45,7 +45,10 @@ pub fn render_run(
     page.long_part(SOURCE, |page| source::render(page, digest, sources))?;
     page.part(MACHINE, &machine::render(digest, given))?;
     page.part(CURVES, &machine::render_curves(digest))?;
-    page.part(READING, &assumptions::render(&met(digest)))?;
+    page.part(
+        READING,
+        &assumptions::render(&met(digest), &digest.readings),
+    )?;
     page.close()
 }
 

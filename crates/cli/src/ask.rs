@@ -1,0 +1,308 @@
+//! `frictcomp ask`: asks the control what the documents leave open, and remembers its answers.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::console::Console;
+use super::exit;
+use super::failure::{Failure, shown};
+use super::machine::MachineArgs;
+use super::outputs::{Outputs, write_text};
+use super::result::Format;
+use frictcomp::comp::CncBuild;
+use frictcomp::diagnostic::Severity;
+use frictcomp::machine::Machine;
+use frictcomp::readings::{Basis, Question};
+use frictcomp::text::shown_path;
+use frictcomp_host::ask::{
+    Answer, AnswerVerdict, AnsweredReading, AskedAxis, ask, date_of, read_answers, readme,
+    with_findings,
+};
+use frictcomp_host::{
+    CONFIG_NAME, HostError, Ledger, LoadedMachine, MendedFile, read_text, write_mended, write_new,
+};
+
+/// Ask the control what its documents leave open: write NC programs that ask, read their answers,
+/// and remember them in `frictcomp.toml`
+///
+/// Each program says at its head what it asks, what moves, and what to do before and after. Nothing
+/// moves farther than `--travel`.
+#[derive(Debug, Args)]
+pub(super) struct AskArgs {
+    /// The axis to ask about; by default the first one with P-AXIS-00522 = 1
+    #[arg(long, value_name = "AXIS")]
+    axis: Option<String>,
+    /// Write the programs to this folder
+    #[arg(long, short, value_name = "DIR", default_value = "ask")]
+    output: PathBuf,
+    /// How far the axis may move, in mm or degrees
+    #[arg(long, value_name = "MM", default_value = "10", value_parser = parse_travel)]
+    travel: f64,
+    /// The CNC build of the control; by default that of the configuration
+    #[arg(long, value_name = "BUILD")]
+    build: Option<CncBuild>,
+    /// Show the questions, what is assumed, and what is answered
+    #[arg(long, conflicts_with_all = ["output", "read"])]
+    list: bool,
+    /// Read answers: `message.txt` of the control, and notes
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "output")]
+    read: Vec<PathBuf>,
+    /// The format of the list
+    #[arg(long, default_value = "text")]
+    format: Format,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+fn parse_travel(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(travel) if (0.1..=1000.0).contains(&travel) => Ok(travel),
+        _ => Err("give a distance from 0.1 to 1000".to_owned()),
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &AskArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    let loaded = args.machine.machines(&ledger).for_folder(Path::new("."))?;
+    let errors = loaded.diagnostics.iter();
+    if errors.filter(|it| it.severity == Severity::Error).count() > 0 {
+        let mut failure = Failure::new("the machine is not described without errors");
+        failure.diagnostics.clone_from(&loaded.diagnostics);
+        return Err(failure);
+    }
+    if args.list {
+        return args.list(&loaded.machine, console);
+    }
+    if args.read.is_empty() {
+        return args.write(&loaded, Outputs::new(&ledger, console));
+    }
+    args.read_answers(&loaded, &ledger, console)
+}
+
+impl AskArgs {
+    fn asked(&self, name: &str, machine: &Machine) -> AskedAxis {
+        let found = machine.find(name);
+        AskedAxis {
+            name: name.to_owned(),
+            number: found.and_then(|axis| machine.axis(axis).number),
+            index: found.map_or(0, frictcomp::comp::AxisIndex::get),
+            build: self.build.or(machine.build),
+            travel: self.travel,
+        }
+    }
+
+    fn axis(&self, machine: &Machine) -> Result<AskedAxis, Failure> {
+        let frict = frictcomp::comp::Kind::Frict;
+        let mut axes = machine.axes.iter();
+        let configured = axes.find(|axis| axis.configured.contains(frict));
+        let name = self.axis.as_deref();
+        let name = name.or_else(|| configured.map(|axis| axis.name.as_str()));
+        let name = name.unwrap_or("X");
+        if machine.find(name).is_none() {
+            let names: Vec<&str> = machine.axes.iter().map(|it| it.name.as_str()).collect();
+            return Err(Failure::new(format!("the machine has no axis `{name}`"))
+                .with_help(format!("its axes are {}", names.join(", "))));
+        }
+        Ok(self.asked(name, machine))
+    }
+
+    fn write(&self, loaded: &LoadedMachine, mut outputs: Outputs) -> Result<u8, Failure> {
+        let axis = self.axis(&loaded.machine)?;
+        let folder = &self.output;
+        fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
+        let files = Question::ALL
+            .into_iter()
+            .flat_map(|question| ask(question, &axis));
+        for file in files {
+            let mut target = outputs.file("--output", &folder.join(&file.name))?;
+            write_text(&mut target, &file.text)?;
+        }
+        let mut target = outputs.file("--output", &folder.join("README.txt"))?;
+        write_text(&mut target, &readme(&axis))?;
+        outputs.check()?;
+        outputs.finish()?;
+        if axis.build.is_none() {
+            Console::talk(
+                "no build is known, so that nothing will be confirmed: name it with `--build`",
+            );
+        }
+        Ok(exit::CLEAN)
+    }
+
+    fn list(&self, machine: &Machine, console: Console) -> Result<u8, Failure> {
+        let build = self.build.or(machine.build);
+        let text = match self.format {
+            Format::Text => console.fitted(&listed(machine, build)),
+            Format::Json => {
+                let questions: Vec<Value> = Question::ALL
+                    .into_iter()
+                    .map(|question| record(question, machine))
+                    .collect();
+                format!("{:#}\n", json!({ "schema": 1, "questions": questions }))
+            }
+        };
+        console.print(&text)?;
+        Ok(exit::CLEAN)
+    }
+
+    fn read_answers(
+        &self,
+        loaded: &LoadedMachine,
+        ledger: &Ledger,
+        console: Console,
+    ) -> Result<u8, Failure> {
+        let mut answers = Vec::new();
+        let mut findings = Vec::new();
+        for path in &self.read {
+            ledger.reads("answers", path);
+            let text = read_text(path)?;
+            let changed = fs::metadata(path).and_then(|it| it.modified());
+            let date = date_of(changed.map_err(|error| HostError::read(path, error))?);
+            for answer in read_answers(&text, |name| self.asked(name, &loaded.machine)) {
+                if let AnswerVerdict::Reading(reading) = answer.verdict {
+                    findings.push(AnsweredReading {
+                        question: answer.question,
+                        reading,
+                        build: self.build.or(answer.build).or(loaded.machine.build),
+                        date: date.clone(),
+                    });
+                }
+                answers.push(answer);
+            }
+        }
+        if answers.is_empty() {
+            let names: Vec<String> = self.read.iter().map(|path| shown(path)).collect();
+            return Err(
+                Failure::new(format!("there is no answer in {}", names.join(", "))).with_help(
+                    "answers are lines that begin with `frictcomp-ask`, as in `message.txt`",
+                ),
+            );
+        }
+        let contradictions = contradictions(&answers);
+        if let Some(question) = contradictions.first() {
+            let rule = question.facts().rule;
+            return Err(
+                Failure::new(format!("the answers to {rule} contradict each other")).with_help(
+                    "give the files of one control, and one at a time to see which it is",
+                ),
+            );
+        }
+        console.print(&console.fitted(&told(&answers)))?;
+        let path = configuration(loaded);
+        remember(&path, &findings)?;
+        if !findings.is_empty() {
+            console.remark(&format!("wrote `{}`", shown_path(&path)));
+        }
+        if findings.iter().any(|finding| finding.build.is_none()) {
+            Console::talk(
+                "no build is known, so that nothing is confirmed: name it with `--build`",
+            );
+        }
+        Ok(exit::CLEAN)
+    }
+}
+
+/// The configuration that the answers go into.
+fn configuration(loaded: &LoadedMachine) -> PathBuf {
+    let origin = loaded.origin.as_deref();
+    let own = origin.filter(|path| path.extension().is_some_and(|it| it == "toml"));
+    own.map_or_else(|| PathBuf::from(CONFIG_NAME), Path::to_owned)
+}
+
+fn remember(path: &Path, findings: &[AnsweredReading]) -> Result<(), Failure> {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    let is_new = !path.exists();
+    let before = if is_new {
+        String::new()
+    } else {
+        read_text(path)?
+    };
+    let after = with_findings(&before, findings)
+        .map_err(|error| Failure::new(format!("{}: {error}", shown_path(path))))?;
+    if is_new {
+        return Ok(write_new(path, &after)?);
+    }
+    Ok(write_mended([&MendedFile {
+        path: path.to_owned(),
+        bytes: after.clone().into_bytes(),
+        before,
+        after,
+        changes: findings.len(),
+    }])?)
+}
+
+/// The questions that were answered in both ways.
+fn contradictions(answers: &[Answer]) -> Vec<Question> {
+    let decided = |answer: &&Answer| answer.verdict != AnswerVerdict::Undecidable;
+    let mut found = Vec::new();
+    for answer in answers.iter().filter(decided) {
+        let mut others = answers.iter().filter(decided);
+        if others.any(|it| it.question == answer.question && it.verdict != answer.verdict) {
+            found.push(answer.question);
+        }
+    }
+    found
+}
+
+fn told(answers: &[Answer]) -> String {
+    let mut text = String::new();
+    for answer in answers {
+        let question = answer.question;
+        let facts = question.facts();
+        let reading = match answer.verdict {
+            AnswerVerdict::Reading(reading) => format!(": {}", question.name_of(reading)),
+            AnswerVerdict::Undecidable => String::new(),
+        };
+        let build = answer.build.map_or(String::new(), |it| format!(" on {it}"));
+        let _ = writeln!(text, "{} {}{reading}", facts.rule, answer.word());
+        let _ = writeln!(text, "  axis {}{build}: {}", answer.axis, answer.evidence);
+    }
+    text
+}
+
+/// What the reading in force rests on, in words.
+fn basis(question: Question, machine: &Machine, build: Option<CncBuild>) -> String {
+    let readings = &machine.readings;
+    let name = readings.name(question);
+    match readings.basis(question, build) {
+        Basis::Confirmed(it) => format!("{name}, confirmed on {} ({})", it.build, it.date),
+        Basis::Selected => format!("{name}, selected, not confirmed on this build"),
+        Basis::Assumed if readings.of(question).is_none() => "open, taken as unknown".to_owned(),
+        Basis::Assumed => format!("{name}, assumed"),
+    }
+}
+
+fn listed(machine: &Machine, build: Option<CncBuild>) -> String {
+    let mut text = String::new();
+    for question in Question::ALL {
+        let facts = question.facts();
+        let _ = writeln!(text, "{} {}", facts.rule, facts.question);
+        let _ = writeln!(text, "  reading: {}", basis(question, machine, build));
+        let _ = writeln!(text, "  depends on it: {}", facts.depends);
+        let _ = writeln!(text, "  asked by {}: {}", facts.way.as_str(), facts.how);
+    }
+    text
+}
+
+fn record(question: Question, machine: &Machine) -> Value {
+    let facts = question.facts();
+    let confirmation = machine.readings.confirmation(question);
+    json!({
+        "rule": facts.rule,
+        "question": facts.question,
+        "readings": facts.readings,
+        "assumed": facts.assumed_name(),
+        "reading": machine.readings.name(question),
+        "confirmed": confirmation.map(|it| json!({ "build": it.build.to_string(), "date": it.date })),
+        "way": facts.way.as_str(),
+        "depends": facts.depends,
+        "how": facts.how,
+    })
+}

@@ -1,0 +1,489 @@
+//! Questions to the control, and the agreed behaviour as data.
+
+#[path = "questions/control.rs"]
+mod control;
+mod folder;
+mod workspace;
+
+use std::fmt::Write as _;
+use std::fs;
+
+use control::Control;
+use folder::{Bench, json};
+use frictcomp::readings::{Question, Way};
+use frictcomp_host::conformance::{Case, find_cases};
+use frictcomp_report::assumptions::DIFFERENCES;
+use workspace::root;
+
+const MACHINE: &str = "[machine]\ncnc_build = \"3.1.3081.5\"\n\n[[axis]]\nname = \"X\"\nnumber = 1\n\
+    enable = true\n";
+
+fn bench() -> Bench {
+    let bench = Bench::new(&[]);
+    bench.write("frictcomp.toml", MACHINE);
+    bench
+}
+
+/// The programs of a question, in their order.
+fn programs(bench: &Bench, rule: &str) -> Vec<String> {
+    let names = [
+        format!("ask/ask-{rule}.nc"),
+        format!("ask/ask-{rule}-1.nc"),
+        format!("ask/ask-{rule}-2.nc"),
+    ];
+    let there = names
+        .iter()
+        .filter(|name| bench.folder().join(name).exists());
+    there.map(|name| bench.read(name)).collect()
+}
+
+/// What a control that follows a reading leaves, with what its operator writes down.
+fn answered(bench: &Bench, rule: &'static str, second: bool) -> String {
+    let mut control = Control::new(rule, second);
+    for (at, program) in programs(bench, rule).iter().enumerate() {
+        match rule {
+            "R1.28" if at > 0 => control.reset(),
+            "R1.29" if at > 0 => control.restart(),
+            _ => {}
+        }
+        let search = (rule == "R2.96").then_some("200");
+        let stopped = control.start(program, search);
+        let begin = control
+            .messages
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .to_owned();
+        if let Some(number) = stopped {
+            let note = begin.replace("begin", &format!("error {number}"));
+            writeln!(control.messages, "{note}").expect("text");
+        }
+        if search.is_some() {
+            let note = begin.replace("begin", "searched 1");
+            writeln!(control.messages, "{note}").expect("text");
+        }
+    }
+    control.messages
+}
+
+/// R15.1, R15.2, R15.4: each question that a program answers is asked of a control of either kind, and
+/// the answer is that of the control.
+#[test]
+fn a_control_of_either_kind_is_read_rightly() {
+    let asked = Question::ALL.into_iter();
+    let asked = asked.filter(|question| question.facts().way == Way::Program);
+    for question in asked {
+        let facts = question.facts();
+        for (second, name) in facts.readings.into_iter().enumerate() {
+            let bench = bench();
+            assert_eq!(bench.status(&["ask", "--axis", "X", "-o", "ask"]), Some(0));
+            let messages = answered(&bench, facts.rule, second == 1);
+            bench.write("message.txt", &messages);
+            let said = bench.stdout(&["ask", "--read", "message.txt"]);
+            let head = said.lines().next().unwrap_or_default().to_owned();
+            assert!(
+                head.starts_with(facts.rule) && head.ends_with(&format!(": {name}")),
+                "{} {name}: {said}\n{messages}",
+                facts.rule
+            );
+            let written = bench.read("frictcomp.toml");
+            assert!(written.starts_with(MACHINE), "{written}");
+            let line = format!("\"{}\" = \"{name}\"", facts.rule);
+            assert!(written.contains(&line), "{written}");
+            let readings = frictcomp::Machine::from_toml(&written)
+                .expect("TOML")
+                .readings;
+            let confirmed = readings.confirmation(question).expect("a confirmation");
+            assert_eq!(Ok(confirmed.build), "3.1.3081.5".parse());
+            assert!(confirmed.date.starts_with("20"), "{}", confirmed.date);
+            assert_eq!(bench.status(&["config", "show"]), Some(0));
+        }
+    }
+}
+
+/// R15.1, R15.2: what an operator sees is a line of a note.
+#[test]
+fn a_note_answers_what_no_program_does() {
+    let bench = bench();
+    bench.stdout(&["ask", "-o", "ask"]);
+    let readme = bench.read("ask/README.txt");
+    for question in Question::ALL {
+        let facts = question.facts();
+        if facts.way == Way::Program {
+            continue;
+        }
+        let line = |name: &str| {
+            let mut lines = readme.lines().map(str::trim);
+            let begin = format!("frictcomp-ask {} ", facts.rule);
+            let end = format!(" reading {name}");
+            let found = lines.find(|line| line.starts_with(&begin) && line.ends_with(&end));
+            found
+                .unwrap_or_else(|| panic!("{} {name}", facts.rule))
+                .to_owned()
+        };
+        for name in facts.readings {
+            bench.write("note.txt", &line(name));
+            let said = bench.stdout(&["ask", "--read", "note.txt"]);
+            assert!(said.contains(&format!(": {name}\n")), "{said}");
+        }
+    }
+}
+
+/// R15.1, R15.4: the programs pass the check, and move no farther than they say.
+#[test]
+fn the_programs_pass_the_check_under_either_reading() {
+    let bench = bench();
+    bench.stdout(&["ask", "--travel", "4", "-o", "ask"]);
+    let output = bench.call(&["check", "ask"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    for question in Question::ALL {
+        let facts = question.facts();
+        let second = format!(
+            "{MACHINE}[reading]\n\"{}\" = \"{}\"\n",
+            facts.rule, facts.readings[1]
+        );
+        bench.write("frictcomp.toml", &second);
+        let wanted = i32::from(question == Question::LowerCase);
+        assert_eq!(
+            bench.status(&["check", "ask"]),
+            Some(wanted),
+            "{}",
+            facts.rule
+        );
+        let (mut at, mut farthest) = (0.0_f64, 0.0_f64);
+        for program in programs(&bench, facts.rule) {
+            let code = program.lines().filter(|line| !line.starts_with(';'));
+            for word in code.flat_map(str::split_whitespace) {
+                if let Some(by) = word.strip_prefix('X').and_then(|it| it.parse::<f64>().ok()) {
+                    at += by;
+                    farthest = farthest.max(at);
+                    assert!(at > -1e-9, "{}", facts.rule);
+                }
+            }
+            let says_nothing = program.contains("; Moves: nothing\n");
+            assert_eq!(says_nothing, farthest == 0.0, "{}", facts.rule);
+        }
+        assert!(
+            at.abs() < 1e-9 && farthest <= 4.0,
+            "{}: {farthest}",
+            facts.rule
+        );
+    }
+}
+
+/// R15.2: nothing is concluded from answers that cannot carry it.
+#[test]
+fn what_cannot_be_told_is_not_decided() {
+    let bench = bench();
+    bench.stdout(&["ask", "-o", "ask"]);
+    let messages = answered(&bench, "R1.28", true);
+    let cases = [
+        (
+            messages.replace("start 1", "start 0"),
+            "was not active before",
+        ),
+        (messages.replace("off 0", "off 1"), "had no effect"),
+        (
+            messages.replace(" answer 1", " nothing 1"),
+            "there is no line with `answer`",
+        ),
+        (
+            messages.replace("frictcomp-ask R1.28 ", "frictcomp-ask R1.28 0"),
+            "have the fingerprint",
+        ),
+    ];
+    for (text, reason) in cases {
+        bench.write("message.txt", &text);
+        let said = bench.stdout(&["ask", "--read", "message.txt"]);
+        assert!(said.starts_with("R1.28 not decidable\n"), "{said}");
+        let joined = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(joined.contains(reason), "{said}");
+        assert_eq!(bench.read("frictcomp.toml"), MACHINE);
+    }
+    let refused = answered(&bench, "R1.26", true).replace("error 70998", "error 70495");
+    bench.write("message.txt", &refused);
+    let said = bench.stdout(&["ask", "--read", "message.txt"]);
+    assert!(said.starts_with("R1.26 not decidable\n"), "{said}");
+    bench.write("message.txt", "12:00 nothing of ours\n");
+    let output = bench.call(&["ask", "--read", "message.txt"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// R15.2: an answer without a build selects a reading and confirms nothing; files that contradict each
+/// other are refused.
+#[test]
+fn an_answer_without_a_build_confirms_nothing() {
+    let bench = bench();
+    let unbuilt = MACHINE.replace("[machine]\ncnc_build = \"3.1.3081.5\"\n\n", "");
+    bench.write("frictcomp.toml", &unbuilt);
+    bench.stdout(&["ask", "-o", "ask"]);
+    bench.write("first.txt", &answered(&bench, "R1.28", true));
+    bench.write("other.txt", &answered(&bench, "R1.28", false));
+    let output = bench.call(&["ask", "--read", "first.txt", "other.txt"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(bench.read("frictcomp.toml"), unbuilt);
+    assert_eq!(bench.status(&["ask", "--read", "first.txt"]), Some(0));
+    let written = bench.read("frictcomp.toml");
+    assert!(written.contains("\"R1.28\" = \"start-up\""), "{written}");
+    assert!(!written.contains("[confirmed]"), "{written}");
+}
+
+/// R15.3: a report says of an assumption which reading is selected, and on which build it was confirmed.
+#[test]
+fn a_report_says_what_was_confirmed() {
+    let bench = bench();
+    let confirmed = "[reading]\n\"R1.29\" = \"start-up\"\n[confirmed]\n\
+        \"R1.29\" = { build = \"3.1.3081.5\", date = \"2026-01-31\" }\n";
+    bench.write("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+    bench.stdout(&["run", "--html", "plain.html", "a.nc"]);
+    assert!(!bench.read("plain.html").contains("confirmed on"));
+    bench.write("frictcomp.toml", &format!("{MACHINE}{confirmed}"));
+    bench.stdout(&["run", "--html", "report.html", "a.nc"]);
+    let report = bench.read("report.html");
+    assert!(
+        report.contains("confirmed on") && report.contains("2026-01-31"),
+        "{report}"
+    );
+    let other = format!("{MACHINE}{confirmed}").replacen("3081.5", "3132.0", 1);
+    bench.write("frictcomp.toml", &other);
+    bench.stdout(&["run", "--html", "other.html", "a.nc"]);
+    assert!(
+        bench
+            .read("other.html")
+            .contains("not confirmed on this build")
+    );
+}
+
+/// R15.1, R15.3: the list says each question, both readings, and what the one in force rests on.
+#[test]
+fn the_list_says_what_is_answered() {
+    let bench = bench();
+    let document = json(&bench.stdout(&["ask", "--list", "--format", "json"]));
+    assert_eq!(document["schema"], 1);
+    let questions = document["questions"].as_array().expect("questions");
+    assert_eq!(questions.len(), Question::ALL.len());
+    let reset = questions
+        .iter()
+        .find(|it| it["rule"] == "R1.28")
+        .expect("R1.28");
+    assert_eq!(reset["readings"], serde_json::json!(["kept", "start-up"]));
+    assert_eq!(reset["assumed"], "kept");
+    assert_eq!(
+        (&reset["confirmed"], &reset["way"]),
+        (&serde_json::Value::Null, &"program".into())
+    );
+    let confirmed = "[reading]\n\"R1.28\" = \"start-up\"\n[confirmed]\n\
+        \"R1.28\" = { build = \"3.1.3081.5\", date = \"2026-01-31\" }\n";
+    bench.write("frictcomp.toml", &format!("{MACHINE}{confirmed}"));
+    let text = bench.stdout(&["ask", "--list"]);
+    assert!(text.contains("reading: start-up, confirmed on"), "{text}");
+    let text = bench.stdout(&["ask", "--list", "--build", "3.1.3132.0"]);
+    assert!(
+        text.contains("reading: start-up, selected, not confirmed"),
+        "{text}"
+    );
+    assert!(text.contains("open, taken as unknown"), "{text}");
+}
+
+fn cases() -> Vec<Case> {
+    let files = find_cases(&root().join("conformance")).expect("cases");
+    let read = |file: &std::path::PathBuf| Case::read(file).unwrap_or_else(|it| panic!("{it}"));
+    files.iter().map(read).collect()
+}
+
+/// R15.10, R15.11: every case holds on this engine.
+#[test]
+fn every_conformance_case_holds() {
+    let bench = bench();
+    let folder = root().join("conformance");
+    let folder = folder.to_str().expect("text");
+    let output = bench.call(&["conformance", folder]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let document = json(&bench.stdout(&["conformance", folder, "--format", "json"]));
+    let cases = document["cases"].as_u64().expect("a number");
+    assert!(cases >= 150, "{cases}");
+    assert_eq!(document["held"], cases);
+    assert_eq!(document["failed"], serde_json::json!([]));
+    assert!(document["undecided"].as_u64().expect("a number") >= 12);
+}
+
+/// R15.11: a case that does not hold is named, with what was found.
+#[test]
+fn a_case_that_does_not_hold_is_named() {
+    let bench = bench();
+    fs::create_dir_all(bench.folder().join("cases/1")).expect("a folder");
+    let case = fs::read_to_string(root().join("conformance/1/off.toml")).expect("a case");
+    bench.write("cases/1/off.toml", &case.replace("inactive", "active"));
+    let output = bench.call(&["conformance", "cases", "--format", "json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let document = json(&String::from_utf8(output.stdout).expect("text"));
+    assert_eq!(
+        (&document["cases"], &document["held"]),
+        (&1.into(), &0.into())
+    );
+    let failed = &document["failed"][0];
+    assert_eq!(failed["file"], "cases/1/off.toml");
+    assert_eq!(failed["expected"], "X FRICT active after main.nc:1");
+    assert_eq!(failed["found"], "inactive");
+    bench.write("cases/1/off.toml", &case.replace("about", "abuot"));
+    let output = bench.call(&["conformance", "cases"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("abuot"));
+}
+
+/// R15.11: cases become programs for a control, and its answers are compared.
+#[test]
+fn answers_of_a_control_are_compared() {
+    let bench = bench();
+    let folder = root().join("conformance");
+    let folder = folder.to_str().expect("text");
+    assert_eq!(
+        bench.status(&["conformance", folder, "--export", "cases"]),
+        Some(0)
+    );
+    let program = bench.read("cases/1/reset/next.nc");
+    assert!(
+        program.contains("#MSG SAVE EXCLUSIVE [\"frictcomp 1/reset next.nc 1 X FRICT %d\""),
+        "{program}"
+    );
+    let at_end = bench.read("cases/1/off/after-main.nc");
+    assert!(at_end.contains("1/off main.nc end X FRICT %d"), "{at_end}");
+    let compare = |answers: &str| {
+        bench.write("cases/message.txt", answers);
+        let output = bench.call(&[
+            "conformance",
+            folder,
+            "--compare",
+            "cases",
+            "--format",
+            "json",
+        ]);
+        let status = output.status.code();
+        (
+            status,
+            json(&String::from_utf8(output.stdout).expect("text")),
+        )
+    };
+    let (status, document) = compare(
+        "frictcomp 1/off main.nc 1 X FRICT 0\nfrictcomp 1/reset next.nc 1 X FRICT 1\n\
+         frictcomp 1/on-not-configured refused 70495\n",
+    );
+    assert_eq!(status, Some(0), "{document}");
+    assert_eq!(document["held"], 3);
+    let reading = serde_json::json!([{ "rule": "R1.28", "reading": "start-up" }]);
+    assert_eq!(document["readings"], reading);
+    let (status, document) = compare("frictcomp 1/off main.nc 1 X FRICT 1\n");
+    assert_eq!(status, Some(1));
+    assert_eq!(document["failed"][0]["found"], "active");
+    let (status, document) = compare("frictcomp 1/on-not-configured refused 12345\n");
+    assert_eq!(status, Some(1));
+    assert_eq!(document["failed"][0]["found"], "12345");
+}
+
+/// Compares a generated page with its file, or writes it with `UPDATE_DOCS=1`.
+fn agrees(name: &str, fresh: &str) {
+    let path = root().join(name);
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&path, fresh).expect("written");
+        return;
+    }
+    let old = fs::read_to_string(&path).unwrap_or_default();
+    assert!(old == fresh, "{name} is old, see CONTRIBUTING.md:\n{fresh}");
+}
+
+/// R15.10: the list of cases is that of the files.
+#[test]
+fn the_list_of_cases_is_that_of_the_files() {
+    let mut text = "# Conformance cases\n\nMade from the files in `conformance`. \
+        [conformance.md](conformance.md) says what a case is and how it is run.\n"
+        .to_owned();
+    let mut chapter = String::new();
+    for case in cases() {
+        let (of, name) = case.name.split_once('/').expect("a chapter");
+        if of != chapter {
+            chapter = of.to_owned();
+            let title = match of {
+                "1" => "The COMP command",
+                "2" => "The NC language",
+                "3" => "Lists",
+                _ => "The additive current",
+            };
+            write!(text, "\n## {of}. {title}\n\n| case | rule | what it shows | source |\n|---|---|---|---|\n")
+                .expect("text");
+        }
+        let source = match (&case.source, case.question()) {
+            (Some(source), _) => source.clone(),
+            (None, Some(_)) => "open, both readings".to_owned(),
+            (None, None) => "assumed".to_owned(),
+        };
+        writeln!(
+            text,
+            "| {name} | {} | {} | {source} |",
+            case.rule, case.about
+        )
+        .expect("text");
+    }
+    agrees("docs/conformance-cases.md", &text);
+}
+
+/// R15.12: one row a difference from the control, made from the questions, the cases and the table of
+/// what is not modelled.
+#[test]
+fn the_page_of_differences_is_that_of_the_data() {
+    let mut text = "# Compatibility with the control\n\nWhere frictcomp differs from the control on purpose, \
+        does not model it, or assumes what no document says. Made from the questions, the conformance \
+        cases and one table in the code.\n"
+        .to_owned();
+    for (kind, title) in [("purpose", "On purpose"), ("not modelled", "Not modelled")] {
+        write!(
+            text,
+            "\n## {title}\n\n| what | the control | frictcomp | rule |\n|---|---|---|---|\n"
+        )
+        .expect("text");
+        for it in DIFFERENCES.iter().filter(|it| it.kind == kind) {
+            writeln!(
+                text,
+                "| {} | {} | {} | {} |",
+                it.what, it.control, it.frictcomp, it.rule
+            )
+            .expect("text");
+        }
+    }
+    text.push_str(
+        "\n## Open questions\n\nBoth readings are there, `[reading]` selects one, and `frictcomp ask` asks the \
+         control.\n\n| rule | question | readings | taken | why | depends on it | asked by |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    for question in Question::ALL {
+        let it = question.facts();
+        let [first, second] = it.readings;
+        let cells = [
+            it.rule,
+            it.question,
+            &format!(
+                "`{first}`: {}; `{second}`: {}",
+                it.meanings[0], it.meanings[1]
+            ),
+            &format!("`{}`", it.assumed_name()),
+            it.why,
+            it.depends,
+            &format!("{}: {}", it.way.as_str(), it.how),
+        ];
+        writeln!(text, "| {} |", cells.join(" | ")).expect("text");
+    }
+    text.push_str(
+        "\n## Assumed, with a case\n\n| rule | case | what is assumed |\n|---|---|---|\n",
+    );
+    for case in cases()
+        .iter()
+        .filter(|it| it.source.is_none() && it.question().is_none())
+    {
+        writeln!(text, "| {} | {} | {} |", case.rule, case.name, case.about).expect("text");
+    }
+    text.push_str(
+        "\n[assumptions.md](assumptions.md) lists every assumption that can change a result.\n",
+    );
+    agrees("docs/compatibility.md", &text);
+}

@@ -1,0 +1,221 @@
+//! What a control answered.
+
+use std::collections::BTreeMap;
+
+use super::programs::{AskedAxis, TAG, fingerprint};
+use frictcomp::comp::CncBuild;
+use frictcomp::readings::{Alternative, Question, Way};
+
+/// The answer to one question on one axis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// The question.
+    pub question: Question,
+    /// The axis that was asked.
+    pub axis: String,
+    /// The build that the programs were written for.
+    pub build: Option<CncBuild>,
+    /// What follows from it.
+    pub verdict: AnswerVerdict,
+    /// What it was concluded from, or why nothing is.
+    pub evidence: String,
+}
+
+/// What follows from an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnswerVerdict {
+    /// The control follows the reading.
+    Reading(Alternative),
+    /// It cannot be told from this.
+    Undecidable,
+}
+
+impl Answer {
+    /// `confirmed`, `refuted`, `answered` where nothing was assumed, or `not decidable`.
+    pub fn word(&self) -> &'static str {
+        match (self.verdict, self.question.facts().assumed) {
+            (AnswerVerdict::Undecidable, _) => "not decidable",
+            (AnswerVerdict::Reading(_), None) => "answered",
+            (AnswerVerdict::Reading(found), Some(assumed)) if found == assumed => "confirmed",
+            (AnswerVerdict::Reading(_), Some(_)) => "refuted",
+        }
+    }
+}
+
+/// The values of one run, by their words; the last one of a word counts.
+type Values = BTreeMap<String, String>;
+
+/// The answers in a text, in the order of the questions. `axis` is what else is known of an axis by its
+/// name, as when the programs were written.
+pub fn read_answers(text: &str, axis: impl Fn(&str) -> AskedAxis) -> Vec<Answer> {
+    let mut runs: BTreeMap<(Question, String, String), (String, Values)> = BTreeMap::new();
+    for line in text.lines() {
+        let Some(found) = line.find(TAG) else {
+            continue;
+        };
+        let words: Vec<&str> = line[found..].split_whitespace().collect();
+        let [_, rule, print, name, build, word, rest @ ..] = words.as_slice() else {
+            continue;
+        };
+        let Some(question) = Question::of_rule(rule) else {
+            continue;
+        };
+        let key = (question, (*name).to_owned(), (*build).to_owned());
+        let (own, values) = runs.entry(key).or_default();
+        (*print).clone_into(own);
+        if *word == "begin" {
+            values.clear();
+        }
+        values.insert((*word).to_owned(), rest.join(" "));
+    }
+    let answers = runs.into_iter().map(|((question, name, build), (print, values))| {
+        let asked = fingerprint(question, &axis(&name));
+        let judged = if print == asked {
+            judge(question, &values)
+        } else {
+            Err(format!(
+                "the programs that asked have the fingerprint {print}, those of today {asked}; write them anew"
+            ))
+        };
+        let (verdict, evidence) = match judged {
+            Ok((reading, evidence)) => (AnswerVerdict::Reading(reading), evidence),
+            Err(reason) => (AnswerVerdict::Undecidable, reason),
+        };
+        Answer {
+            question,
+            axis: name,
+            build: build.parse().ok(),
+            verdict,
+            evidence,
+        }
+    });
+    answers.collect()
+}
+
+/// The reading that the values of a question show, with the evidence; else why none.
+fn judge(question: Question, values: &Values) -> Result<(Alternative, String), String> {
+    if let Some(name) = values.get("reading") {
+        let reading = question.reading(name);
+        let noted = format!("the note says `{name}`");
+        let refused = format!("{noted}, which is no reading of {}", question.facts().rule);
+        return reading.map(|reading| (reading, noted)).ok_or(refused);
+    }
+    if question.facts().way != Way::Program {
+        return Err("what was seen is not written down yet".to_owned());
+    }
+    let value = |word: &str| match values.get(word).map(String::as_str) {
+        Some("0") => Ok(false),
+        Some("1") => Ok(true),
+        Some(other) => Err(format!("`{word}` is `{other}`, neither 0 nor 1")),
+        None => Err(format!("there is no line with `{word}`")),
+    };
+    let is = |word: &str, wanted: bool, otherwise: &str| match value(word) {
+        Ok(found) if found == wanted => Ok(()),
+        Ok(_) => Err(otherwise.to_owned()),
+        Err(reason) => Err(reason),
+    };
+    let first_if = |holds: bool| {
+        if holds {
+            Alternative::First
+        } else {
+            Alternative::Second
+        }
+    };
+    let starts = "the axis was not active before; it needs P-AXIS-00522 = 1 and a value list";
+    let switches = "COMP OFF FRICT had no effect; the value list or the axis is not as it must be";
+    match question {
+        Question::LowerCase | Question::OffUnconfigured | Question::OnWithoutList => {
+            let init = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program asks";
+            match question {
+                Question::LowerCase => is("start", true, starts)?,
+                _ => is("init", false, init)?,
+            }
+            if let Some(number) = values.get("error") {
+                return refused(question, number);
+            }
+            let answer = value("answer").map_err(|_| {
+                "the program did not come to its answer; write down the error of the control"
+                    .to_owned()
+            })?;
+            if question == Question::LowerCase && answer {
+                return Err("the command was taken and had no effect".to_owned());
+            }
+            if question == Question::OnWithoutList && answer {
+                return Err("the axis became active, so it has a value list".to_owned());
+            }
+            Ok((
+                Alternative::First,
+                "the program went on after the command".to_owned(),
+            ))
+        }
+        Question::OrderInBlock => {
+            is("start", true, starts)?;
+            let (answer, other) = (value("answer")?, value("other")?);
+            if answer == other {
+                return Err(format!(
+                    "both orders leave the axis {}: neither reading holds",
+                    if answer { "on" } else { "off" }
+                ));
+            }
+            Ok((
+                first_if(answer),
+                format!("off and on leaves {}", u8::from(answer)),
+            ))
+        }
+        Question::ManualActivation => {
+            is(
+                "init",
+                true,
+                "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation",
+            )?;
+            let answer = value("answer")?;
+            Ok((
+                first_if(!answer),
+                format!("LEAD is {} at the start", u8::from(answer)),
+            ))
+        }
+        Question::SkipLevel => {
+            let answer = value("answer")?;
+            let what = if answer { "executed" } else { "skipped" };
+            Ok((
+                first_if(!answer),
+                format!("the marked block was {what} after the level was turned on"),
+            ))
+        }
+        Question::BlockSearch => {
+            is(
+                "searched",
+                true,
+                "it is not noted that a block search started the program",
+            )?;
+            let answer = value("answer")?;
+            Ok((
+                first_if(!answer),
+                format!("the state after the search is {}", u8::from(answer)),
+            ))
+        }
+        _ => {
+            is("start", true, starts)?;
+            is("off", false, switches)?;
+            let answer = value("answer")?;
+            let goes_back = matches!(question, Question::Restart | Question::MachineData);
+            let evidence = format!("switched off, the state is {} afterwards", u8::from(answer));
+            Ok((first_if(answer == goes_back), evidence))
+        }
+    }
+}
+
+/// An error of the control at the command that is asked about.
+fn refused(question: Question, number: &str) -> Result<(Alternative, String), String> {
+    let number = number.trim_start_matches("P-ERR-");
+    if number == "70495" && question == Question::OnWithoutList {
+        return Err("P-ERR-70495 says that P-AXIS-00522 of the axis is 0".to_owned());
+    }
+    if number.is_empty() || !number.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err("the error is noted without its number".to_owned());
+    }
+    Ok((
+        Alternative::Second,
+        format!("the control showed error {number}"),
+    ))
+}

@@ -1,0 +1,335 @@
+//! The program of each question.
+
+use std::fmt::Write as _;
+use std::hash::Hasher;
+
+use fnv::FnvHasher;
+
+use super::motion::motion;
+use frictcomp::comp::CncBuild;
+use frictcomp::readings::{Question, Way};
+
+/// The word with which each line of an answer begins.
+pub(super) const TAG: &str = "frictcomp-ask";
+
+/// What stands for a build that nobody gave.
+const NO_BUILD: &str = "?";
+
+/// The axis that is asked about.
+#[derive(Debug, Clone)]
+pub struct AskedAxis {
+    /// Its name.
+    pub name: String,
+    /// Its logical number, P-AXIS-00016; without it axis exchange is not asked.
+    pub number: Option<u32>,
+    /// Its place among the axes of the channel, from 0.
+    pub index: usize,
+    /// The build of the control.
+    pub build: Option<CncBuild>,
+    /// How far it may move, in mm or degrees, from where it stands in the positive direction and back.
+    pub travel: f64,
+}
+
+/// A program that asks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AskedFile {
+    /// Its question.
+    pub question: Question,
+    /// Its name.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// What a question needs, in plain words.
+pub(super) struct Script {
+    /// What must be so before.
+    before: String,
+    /// What moves.
+    moves: String,
+    /// The programs; where there are two, what is done between them.
+    parts: Vec<String>,
+    between: &'static str,
+    /// How the answer is read.
+    read: String,
+}
+
+/// The programs for a question, none where there is nothing to run. The last one of them brings back
+/// the state at the start of the control.
+pub fn ask(question: Question, axis: &AskedAxis) -> Vec<AskedFile> {
+    let Some(script) = script(question, axis) else {
+        return Vec::new();
+    };
+    let fingerprint = fingerprint(question, axis);
+    let several = script.parts.len() > 1;
+    let rule = question.facts().rule;
+    let texts = script.parts.iter().zip(1..);
+    let files = texts.map(|(part, number)| AskedFile {
+        question,
+        name: if several {
+            format!("ask-{rule}-{number}.nc")
+        } else {
+            format!("ask-{rule}.nc")
+        },
+        text: head(question, &script, (number, script.parts.len()))
+            + &filled(part, question, axis, &fingerprint),
+    });
+    files.collect()
+}
+
+/// The fingerprint of the programs of a question on an axis, whatever its travel and build.
+pub(super) fn fingerprint(question: Question, axis: &AskedAxis) -> String {
+    let plain = AskedAxis {
+        travel: 10.0,
+        build: None,
+        ..axis.clone()
+    };
+    let mut hasher = FnvHasher::default();
+    let parts = script(question, &plain).map_or(Vec::new(), |script| script.parts);
+    for part in &parts {
+        hasher.write(filled(part, question, &plain, "").as_bytes());
+    }
+    format!("{:08x}", hasher.finish() & 0xffff_ffff)
+}
+
+/// The comment at the head of a program.
+fn head(question: Question, script: &Script, (part, parts): (usize, usize)) -> String {
+    let facts = question.facts();
+    let mut lines = vec![
+        format!("{}: {}", facts.rule, facts.question),
+        format!("If {}: {}.", facts.readings[0], facts.meanings[0]),
+        format!("If {}: {}.", facts.readings[1], facts.meanings[1]),
+        format!("Moves: {}", script.moves),
+        format!("Before: {}", script.before),
+    ];
+    if parts > 1 {
+        lines.push(format!(
+            "Part {part} of {parts}. Between them: {}",
+            script.between
+        ));
+    }
+    lines.push(format!("After: {}", script.read));
+    let mut text = String::new();
+    for line in lines {
+        let _ = writeln!(text, "; {}", line.replace('`', ""));
+    }
+    text
+}
+
+/// The blocks of a part: `>NAME EXPRESSION` leaves an answer, `@` is the axis.
+fn filled(part: &str, question: Question, axis: &AskedAxis, fingerprint: &str) -> String {
+    let rule = question.facts().rule;
+    let build = axis
+        .build
+        .map_or_else(|| NO_BUILD.to_owned(), |build| build.to_string());
+    let name = &axis.name;
+    let tag = format!("{TAG} {rule} {fingerprint} {name} {build}");
+    let state = format!("V.A.FRICT_COMP_ACTIVE.{name}");
+    let mut text = String::new();
+    for line in part.lines() {
+        let Some(answer) = line.strip_prefix('>') else {
+            let _ = writeln!(text, "{}", line.replace('@', name));
+            continue;
+        };
+        let (word, value) = answer.split_once(' ').unwrap_or((answer, ""));
+        let value = value.replace('@', name);
+        // Waits until everything before it is executed.
+        let _ = writeln!(text, "P1 = {state}");
+        let _ = match value.as_str() {
+            "" => writeln!(text, "#MSG SAVE EXCLUSIVE [\"{tag} {word}\"]"),
+            _ => writeln!(text, "#MSG SAVE EXCLUSIVE [\"{tag} {word} %d\", {value}]"),
+        };
+    }
+    text
+}
+
+const STATE: &str = "V.A.FRICT_COMP_ACTIVE.@";
+
+const NOTHING_MOVES: &str = "nothing";
+
+/// What an axis needs on which the state itself is looked at.
+const ACTIVE: &str = "the axis has P-AXIS-00522 = 1 and a value list that the control took; nothing has \
+    switched it since the start of the control; message.txt is empty";
+
+fn by_itself(before: &str, part: String, read: &str) -> Script {
+    Script {
+        before: before.to_owned(),
+        moves: NOTHING_MOVES.to_owned(),
+        parts: vec![part],
+        between: "",
+        read: read.to_owned(),
+    }
+}
+
+const READ: &str = "give message.txt to frictcomp ask --read";
+
+const READ_ERROR: &str = "give message.txt to frictcomp ask --read; where the control showed an error, add \
+    a copy of the begin line with error and the number in place of begin";
+
+/// The blocks in which an axis is switched off, asked, and switched on again.
+fn off_and_on(between: &str) -> String {
+    format!(
+        ">begin\n>start {STATE}\nN10 @[COMP OFF FRICT]\n>off {STATE}\n{between}>answer {STATE}\n\
+         N90 @[COMP ON FRICT]\nN99 M30\n"
+    )
+}
+
+fn spanning(between: &'static str) -> Script {
+    Script {
+        parts: vec![
+            format!(">begin\n>start {STATE}\nN10 @[COMP OFF FRICT]\n>off {STATE}\nN99 M30\n"),
+            format!(">answer {STATE}\nN90 @[COMP ON FRICT]\nN99 M30\n"),
+        ],
+        between,
+        ..by_itself(ACTIVE, String::new(), READ)
+    }
+}
+
+/// What is done for a question; `None` where nothing can be run.
+fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
+    if question.facts().way == Way::Recording {
+        let (part, moves) = motion(question, axis);
+        return Some(Script {
+            moves,
+            ..by_itself(
+                "the axis has P-AXIS-00522 = 1, a value list that the control took, and room to move; the \
+                 objects of frict_comp, the commanded position and velocity are recorded in every cycle",
+                format!(">begin\n{part}N99 M30\n"),
+                "look at the recording, and add a copy of the begin line with reading and the word of the \
+                 reading in place of begin to message.txt; give it to frictcomp ask --read",
+            )
+        });
+    }
+    Some(match question {
+        Question::Reset => spanning("press reset"),
+        Question::Restart => spanning("restart the control"),
+        Question::LowerCase => by_itself(
+            ACTIVE,
+            format!(
+                ">begin\n>start {STATE}\nN10 @[comp off frict]\n>answer {STATE}\nN90 @[COMP ON FRICT]\n\
+                 N99 M30\n"
+            ),
+            READ_ERROR,
+        ),
+        Question::OrderInBlock => by_itself(
+            ACTIVE,
+            format!(
+                ">begin\n>start {STATE}\nN10 @[COMP OFF FRICT] @[COMP ON FRICT]\n>answer {STATE}\n\
+                 N20 @[COMP ON FRICT] @[COMP OFF FRICT]\n>other {STATE}\nN90 @[COMP ON FRICT]\nN99 M30\n"
+            ),
+            READ,
+        ),
+        Question::OffUnconfigured => by_itself(
+            "the axis has P-AXIS-00522 = 0, in the axis list that the control took",
+            ">begin\n>init V.A.FRICT_COMP_INIT.@\nN10 @[COMP OFF FRICT]\n\
+             >answer V.A.FRICT_COMP_INIT.@\nN99 M30\n"
+                .to_owned(),
+            READ_ERROR,
+        ),
+        Question::OnWithoutList => by_itself(
+            "the axis has P-AXIS-00522 = 1 and a value list with mode 0, or none",
+            format!(
+                ">begin\n>init V.A.FRICT_COMP_INIT.@\nN10 @[COMP ON FRICT]\n>answer {STATE}\nN99 M30\n"
+            ),
+            READ_ERROR,
+        ),
+        Question::ManualActivation => by_itself(
+            "the axis has leadscrew compensation with its table, and P-COMP-00028 = 1; the control was \
+             restarted, and this is the first program",
+            ">begin\n>init V.A.LEAD_COMP_INIT.@\n>answer V.A.LEAD_COMP_ACTIVE.@\nN99 M30\n"
+                .to_owned(),
+            READ,
+        ),
+        Question::AxisExchange => {
+            let (number, index) = (axis.number?, axis.index);
+            by_itself(
+                ACTIVE,
+                off_and_on(&format!(
+                    "N20 #PUT AX [@]\nN30 #CALL AX [@, {number}, {index}]\n"
+                )),
+                READ,
+            )
+        }
+        Question::SkipLevel => by_itself(
+            "skip level 2 is off",
+            ">begin\nN10 #VAR\nV.S.FRICTASK : UNS32 = 0\nN20 #ENDVAR\nN25 V.S.FRICTASK = 0\n\
+             ; Turn skip level 2 on now, then press start.\nN30 M00\nN40 #FLUSH WAIT\n\
+             /2 N50 V.S.FRICTASK = 1\n>answer V.S.FRICTASK\nN99 M30\n"
+                .to_owned(),
+            "turn skip level 2 off again; give message.txt to frictcomp ask --read",
+        ),
+        Question::MachineData => by_itself(
+            ACTIVE,
+            off_and_on("N20 #MACHINE DATA [AX=@ P-AXIS-00522=1]\n"),
+            READ,
+        ),
+        Question::BlockSearch => by_itself(
+            ACTIVE,
+            format!(
+                ">begin\nN100 @[COMP OFF FRICT]\nN200 G04 1\n>answer {STATE}\nN290 @[COMP ON FRICT]\n\
+                 N299 M30\n"
+            ),
+            "it is started by a block search for N200, not from its first block; add a copy of the begin \
+             line with searched 1 in place of begin to message.txt, and give it to frictcomp ask --read",
+        ),
+        Question::SyntaxCheck => by_itself(
+            "the axis has P-AXIS-00522 = 0; the program is only checked for its syntax, not started",
+            "N10 @[COMP ON FRICT]\nN99 M30\n".to_owned(),
+            "write down whether P-ERR-70495 was shown, as README.txt says",
+        ),
+        _ => return None,
+    })
+}
+
+/// What stands beside the programs: how all of it is done, and the notes that need no program.
+pub fn readme(axis: &AskedAxis) -> String {
+    let mut text = String::from(
+        "Programs that ask the control what its documents leave open.\n\n\
+         Each program says at its head what it asks, what moves, and what to do before and after.\n\
+         Programs leave their answers in message.txt, in the folder of the control's start-up list with\n\
+         type 0x04, else in its main folder. Collect it, or several of them, and run\n\n\
+         \u{20}   frictcomp ask --read message.txt\n\n\
+         The last program of a question brings the axis back to its state at the start of the control.\n\
+         Where a program stopped with an error, run the last one of its question, or restart the control.\n\n\
+         What you see yourself is a line in a text file, which is read in the same way:\n\n",
+    );
+    for question in Question::ALL {
+        let facts = question.facts();
+        if facts.way == Way::Program {
+            continue;
+        }
+        let _ = writeln!(text, "{}: {}", facts.rule, facts.question.replace('`', ""));
+        for (name, meaning) in facts.readings.iter().zip(facts.meanings) {
+            let _ = writeln!(
+                text,
+                "    {} reading {name}\n        {}",
+                tag(question, axis),
+                meaning.replace('`', "")
+            );
+        }
+        let _ = writeln!(
+            text,
+            "    What answers it: {}\n",
+            facts.how.replace('`', "")
+        );
+    }
+    if axis.number.is_none() {
+        text.push_str(
+            "R2.70 is not asked: frictcomp.toml does not say the logical number of the axis.\n",
+        );
+    }
+    text
+}
+
+/// What each answer to a question begins with.
+pub(super) fn tag(question: Question, axis: &AskedAxis) -> String {
+    let build = axis
+        .build
+        .map_or_else(|| NO_BUILD.to_owned(), |build| build.to_string());
+    format!(
+        "{TAG} {} {} {} {build}",
+        question.facts().rule,
+        fingerprint(question, axis),
+        axis.name
+    )
+}

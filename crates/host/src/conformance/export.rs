@@ -1,0 +1,158 @@
+//! Cases as programs for a control, which leaves its answers in a file (R15.11).
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use super::case::{Case, Expectation, Moment, is_between};
+use frictcomp::comp::Kind;
+
+/// A file of an export.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exported {
+    /// Its path below the folder of the export.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+/// The word with which each answer begins.
+pub(super) const TAG: &str = "frictcomp";
+
+/// The programs, lists and instructions of a case.
+pub fn export(case: &Case) -> Vec<Exported> {
+    let folder = PathBuf::from(&case.name);
+    let mut files: Vec<Exported> = case
+        .files
+        .iter()
+        .map(|file| Exported {
+            path: folder.join(&file.name),
+            text: with_answers(case, &file.name, &file.text),
+        })
+        .collect();
+    for program in programs(case).filter(|program| asks_at_end(case, program)) {
+        files.push(Exported {
+            path: folder.join(end_program(program)),
+            text: answers(case, program, &Moment::End) + "M30\n",
+        });
+    }
+    files.push(Exported {
+        path: folder.join("case.txt"),
+        text: instructions(case),
+    });
+    files
+}
+
+fn programs(case: &Case) -> impl Iterator<Item = &String> {
+    let mut seen = Vec::new();
+    let programs = case.run.iter().filter(|step| !is_between(step));
+    programs.filter(move |program| {
+        let is_new = !seen.contains(program);
+        seen.push(program);
+        is_new
+    })
+}
+
+/// All states that a case asks for, under any reading.
+fn asked(case: &Case) -> impl Iterator<Item = (&String, &Moment, &String, Kind)> {
+    let under = case.readings.iter().flat_map(|(_, expected)| expected);
+    let all = case.expected.iter().chain(under);
+    all.filter_map(|it| match it {
+        Expectation::State {
+            program,
+            after,
+            axis,
+            kind,
+            ..
+        } => Some((program, after, axis, *kind)),
+        _ => None,
+    })
+}
+
+fn asks_at_end(case: &Case, program: &str) -> bool {
+    asked(case).any(|(of, after, ..)| of == program && *after == Moment::End)
+}
+
+/// The program that answers what is asked after the end of another one.
+fn end_program(program: &str) -> String {
+    format!("after-{program}")
+}
+
+/// The blocks that leave the states of a moment. The first read waits until all blocks before it are
+/// executed; the text is written when its block is decoded.
+fn answers(case: &Case, program: &str, moment: &Moment) -> String {
+    let mut text = String::new();
+    let mut done: Vec<(&String, Kind)> = Vec::new();
+    for (of, after, axis, kind) in asked(case) {
+        if of != program || after != moment || done.contains(&(axis, kind)) {
+            continue;
+        }
+        done.push((axis, kind));
+        let variable = format!("V.A.{kind}_COMP_ACTIVE.{axis}");
+        let name = &case.name;
+        let _ = writeln!(text, "P99 = {variable}");
+        let _ = writeln!(
+            text,
+            "#MSG SAVE EXCLUSIVE [\"{TAG} {name} {program} {moment} {axis} {kind} %d\", {variable}]"
+        );
+    }
+    text
+}
+
+/// A program with the blocks that leave its answers.
+fn with_answers(case: &Case, program: &str, text: &str) -> String {
+    let mut made = String::new();
+    let mut begun = 1;
+    for (at, line) in (1_u32..).zip(text.lines()) {
+        made.push_str(line);
+        made.push('\n');
+        let code = line.split(';').next().unwrap_or_default().trim_end();
+        if !code.ends_with('\\') {
+            made.push_str(&answers(case, program, &Moment::Line(begun)));
+            begun = at + 1;
+        }
+    }
+    made
+}
+
+fn instructions(case: &Case) -> String {
+    let mut text = format!("{}: {}\n{}\n", case.name, case.rule, case.about);
+    match &case.source {
+        Some(source) => {
+            let _ = writeln!(text, "Source: {source}");
+        }
+        None => text.push_str("No document says so.\n"),
+    }
+    let _ = writeln!(
+        text,
+        "\nThe machine, as a frictcomp.toml:\n\n{}",
+        case.machine
+    );
+    text.push_str("Restart the control. Then run, with message.txt empty before:\n");
+    for step in &case.run {
+        let _ = match step.as_str() {
+            "reset" => writeln!(text, "- press reset"),
+            "restart" => writeln!(text, "- restart the control"),
+            program if asks_at_end(case, program) => {
+                writeln!(text, "- {program}, then {}", end_program(program))
+            }
+            program => writeln!(text, "- {program}"),
+        };
+    }
+    let _ = writeln!(
+        text,
+        "\nIf the control shows an error, add this line to message.txt:\n{TAG} {} refused NUMBER",
+        case.name
+    );
+    text.push_str("\nExpected:\n");
+    for expected in &case.expected {
+        let _ = writeln!(text, "- {expected}");
+    }
+    let question = case.question();
+    for (reading, expected) in &case.readings {
+        let name = question.map_or("", |question| question.name_of(*reading));
+        for expected in expected {
+            let _ = writeln!(text, "- if {name}: {expected}");
+        }
+    }
+    text
+}

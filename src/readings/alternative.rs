@@ -1,0 +1,10 @@
+//! Which of the two readings of a question.
+
+/// One of the two readings of a question, in the order of [`QuestionFacts::readings`](super::QuestionFacts::readings).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Alternative {
+    /// The first one.
+    First,
+    /// The second one.
+    Second,
+}

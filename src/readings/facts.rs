@@ -1,0 +1,324 @@
+//! What is known about each question: the one table.
+
+use super::alternative::Alternative::{self, First};
+use Way::{Note, Program, Recording};
+
+/// How a control is asked (R15.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Way {
+    /// By an NC program that leaves its answer in a file of the control.
+    Program,
+    /// By a recording of a motion.
+    Recording,
+    /// By what an operator sees and writes down.
+    Note,
+}
+
+impl Way {
+    /// Its word in outputs.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Program => "program",
+            Self::Recording => "recording",
+            Self::Note => "note",
+        }
+    }
+}
+
+/// What is known about a question. The texts name words of programs in backquotes.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct QuestionFacts {
+    /// The rule of `docs/rules.md` that depends on the answer.
+    pub rule: &'static str,
+    /// The question in plain words.
+    pub question: &'static str,
+    /// The names of the two readings.
+    pub readings: [&'static str; 2],
+    /// What each of them means.
+    pub meanings: [&'static str; 2],
+    /// The one that is assumed; `None` where neither is, and what differs is unknown.
+    pub assumed: Option<Alternative>,
+    /// Why that one.
+    pub why: &'static str,
+    /// What depends on it.
+    pub depends: &'static str,
+    /// How it is asked.
+    pub way: Way,
+    /// What answers it: the command, the channel, or what to write down.
+    pub how: &'static str,
+}
+
+impl QuestionFacts {
+    /// The name of what is taken without an answer, `unknown` where neither reading is.
+    pub fn assumed_name(&self) -> &'static str {
+        self.assumed
+            .map_or("unknown", |reading| self.readings[reading as usize])
+    }
+}
+
+/// In the order of [`Question::ALL`](super::Question::ALL).
+pub(super) static FACTS: [QuestionFacts; 20] = [
+    QuestionFacts {
+        rule: "R1.8",
+        question: "Does the control take keywords of a COMP command in lower case?",
+        readings: ["accepted", "refused"],
+        meanings: [
+            "`X[comp off frict]` switches",
+            "`X[comp off frict]` is an error",
+        ],
+        assumed: Some(First),
+        why: "programs in lower case are found in the field; every document prints upper case",
+        depends: "programs with such keywords stop or go on (FC404, FC306)",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after the command; an error is written down",
+    },
+    QuestionFacts {
+        rule: "R1.9",
+        question: "Does a COMP command act before the motion of its own block?",
+        readings: ["before", "after"],
+        meanings: [
+            "the motion of the block is made in the new state",
+            "the motion of the block is made in the old state",
+        ],
+        assumed: Some(First),
+        why: "technology functions of a block act before its motion",
+        depends: "which motion is compensated where COMP shares a block (FC405, P-ERR-70435)",
+        way: Recording,
+        how: "`frict_comp.f_is_active` beside the commanded position in a block with both",
+    },
+    QuestionFacts {
+        rule: "R1.24",
+        question: "Does a syntax check on the control find P-ERR-70495?",
+        readings: ["reported", "passed"],
+        meanings: [
+            "the syntax check reports it",
+            "only the run reports it; the syntax check passes",
+        ],
+        assumed: None,
+        why: "no document says which mode of the decoder knows the axis parameters",
+        depends: "whether a syntax check on the control replaces this tool; no state",
+        way: Note,
+        how: "the error number that the syntax check shows, or none",
+    },
+    QuestionFacts {
+        rule: "R1.25",
+        question: "Is `COMP OFF FRICT` an error on an axis whose P-AXIS-00522 is 0?",
+        readings: ["accepted", "refused"],
+        meanings: ["the command does nothing", "the command is an error"],
+        assumed: Some(First),
+        why: "the documents tie P-ERR-70495 to switching on",
+        depends: "programs that switch off an axis without 00522 stop or go on (FC402, FC306)",
+        way: Program,
+        how: "whether the program comes to its last message; an error is written down",
+    },
+    QuestionFacts {
+        rule: "R1.26",
+        question: "Is `COMP ON FRICT` an error on an axis without an accepted value list?",
+        readings: ["ineffective", "refused"],
+        meanings: ["selected, but without effect", "the command is an error"],
+        assumed: Some(First),
+        why: "the documents say when it is active and name no error",
+        depends: "whether such programs stop (FC303, FC306)",
+        way: Program,
+        how: "whether the program comes to its last message; an error is written down",
+    },
+    QuestionFacts {
+        rule: "R1.28",
+        question: "Does a reset of the channel keep what COMP switched?",
+        readings: ["kept", "start-up"],
+        meanings: [
+            "the state is the one before the reset",
+            "the state is the one at the start of the control",
+        ],
+        assumed: Some(First),
+        why: "the state outlives the program, and no document names reset",
+        depends: "what the program after a reset finds (FC401, FC403, FC910)",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after a reset between two programs",
+    },
+    QuestionFacts {
+        rule: "R1.29",
+        question: "Does a restart of the control set the state by P-AXIS-00522 again?",
+        readings: ["start-up", "kept"],
+        meanings: [
+            "the state is that of P-AXIS-00522",
+            "the state is the one before the restart",
+        ],
+        assumed: Some(First),
+        why: "with P-AXIS-00522 it is active directly after controller start-up",
+        depends: "the first state of every session without a state file",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after a restart between two programs",
+    },
+    QuestionFacts {
+        rule: "R1.31",
+        question: "Which of two opposite COMP commands for one axis in one block wins?",
+        readings: ["last", "first"],
+        meanings: ["the last one", "the first one"],
+        assumed: Some(First),
+        why: "words of a block are read from left to right",
+        depends: "the state after such a block (FC301)",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after the block",
+    },
+    QuestionFacts {
+        rule: "R1.36",
+        question: "Does an axis that misses a compensation of P-AXIS-00465 raise P-ERR-70435 while homing?",
+        readings: ["free", "monitored"],
+        meanings: ["G74 is not monitored", "G74 is monitored as other motion"],
+        assumed: Some(First),
+        why: "the page of the parameter speaks of automatic mode and excepts homing",
+        depends: "P-ERR-70435 at G74",
+        way: Note,
+        how: "the error number that homing shows, or none, with FRICT in P-AXIS-00465 and off",
+    },
+    QuestionFacts {
+        rule: "R1.40",
+        question: "Is a kind with manual activation off at the start of the control?",
+        readings: ["off", "on"],
+        meanings: [
+            "off until a program switches it on",
+            "on as any other; off only after program end",
+        ],
+        assumed: Some(First),
+        why: "the control's data call it an activation by the program",
+        depends: "the first state of LEAD, CROSS, PLANE, TEMP and CROSSTALK; never of FRICT",
+        way: Program,
+        how: "`V.A.LEAD_COMP_ACTIVE` in the first program after a restart",
+    },
+    QuestionFacts {
+        rule: "R1.57",
+        question: "Does a COMP command for FRICT between two moves stop the path, and with it the look-ahead?",
+        readings: ["runs-on", "stops"],
+        meanings: ["the path goes on at its feed", "the path comes to a stop"],
+        assumed: Some(First),
+        why: "no document says that the command flushes the channel; a mark on the part is the worse case",
+        depends: "whether the additive current jumps at a moving axis (FC409)",
+        way: Recording,
+        how: "the commanded velocity at a COMP command between two moves in one direction",
+    },
+    QuestionFacts {
+        rule: "R2.70",
+        question: "Does an axis keep its compensation when it is released and requested again?",
+        readings: ["kept", "start-up"],
+        meanings: [
+            "it comes back as it went",
+            "it comes back in its state at the start of the control",
+        ],
+        assumed: Some(First),
+        why: "the compensation belongs to the axis, not to the channel",
+        depends: "the state after `#CALL AX` and its neighbours",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after `#PUT AX` and `#CALL AX`",
+    },
+    QuestionFacts {
+        rule: "R2.90",
+        question: "Does a skip level that is turned while a program runs act at once?",
+        readings: ["at-once", "at-start"],
+        meanings: [
+            "a level acts from the moment in which it is turned",
+            "a level is read when the program starts",
+        ],
+        assumed: None,
+        why: "one public page says at once, another at the start: both are possible until asked",
+        depends: "whether ways on which a level was turned in between count (FC901)",
+        way: Program,
+        how: "a `V.S.` variable that a block with a skip mark writes after the level is turned at M00",
+    },
+    QuestionFacts {
+        rule: "R2.92",
+        question: "Does `#MACHINE DATA` on P-AXIS-00522 take back what COMP switched?",
+        readings: ["start-up", "kept"],
+        meanings: [
+            "the axis list is taken over again, and with it its selection",
+            "what COMP switched stays",
+        ],
+        assumed: None,
+        why: "the page says that the whole list is transferred again, not what becomes of selections",
+        depends: "the state after such a command (FC314)",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after the command",
+    },
+    QuestionFacts {
+        rule: "R2.96",
+        question: "Does a block search execute the COMP commands that it passes?",
+        readings: ["executed", "decoded"],
+        meanings: [
+            "what stands before the searched block acts",
+            "what stands before the searched block is only read",
+        ],
+        assumed: None,
+        why: "the pages on block search do not name axis commands",
+        depends: "the state after a start in the middle of a program; the dry run begins at the first block",
+        way: Program,
+        how: "`V.A.FRICT_COMP_ACTIVE` after a block search past a COMP command",
+    },
+    QuestionFacts {
+        rule: "R4.2",
+        question: "Does the current decay linearly over the cycles before a reversal?",
+        readings: ["linear", "step"],
+        meanings: [
+            "by the same part in each of the cycles",
+            "to zero in the first of the cycles",
+        ],
+        assumed: Some(First),
+        why: "the documents call the build-up linear and the figure shows a ramp on both sides",
+        depends: "the current in the last cycles before a reversal",
+        way: Recording,
+        how: "`frict_comp.output` before a reversal, with the velocity",
+    },
+    QuestionFacts {
+        rule: "R4.3",
+        question: "Does the current build up at every start, also after a stop in the same direction?",
+        readings: ["first", "every"],
+        meanings: [
+            "after a reversal and at the first start",
+            "after every standstill",
+        ],
+        assumed: Some(First),
+        why: "the weighting is described for reversals; one manual speaks of starting",
+        depends: "the current after a stop without a reversal",
+        way: Recording,
+        how: "`frict_comp.output` at a start in the direction of the motion before",
+    },
+    QuestionFacts {
+        rule: "R4.5",
+        question: "Does `delay_cycles` delay the whole output?",
+        readings: ["all", "reversal"],
+        meanings: [
+            "a dead time on every value",
+            "only the build-up after a reversal comes later",
+        ],
+        assumed: Some(First),
+        why: "the description of the parameter says all values; its title names the reversal",
+        depends: "the current after every change of velocity",
+        way: Recording,
+        how: "`frict_comp.output` beside the velocity at a change of feed",
+    },
+    QuestionFacts {
+        rule: "R4.6",
+        question: "Is the current held while the axis stands still?",
+        readings: ["hold", "zero"],
+        meanings: ["the last value is held", "nothing is added at standstill"],
+        assumed: Some(First),
+        why: "a servo at rest needs the value; the documents say that it compensates path motion",
+        depends: "the current of an axis at rest (C11)",
+        way: Recording,
+        how: "`frict_comp.output` while the axis stands after a motion",
+    },
+    QuestionFacts {
+        rule: "R4.7",
+        question: "Is the first output of the list held at lower velocities?",
+        readings: ["hold", "origin"],
+        meanings: [
+            "the first output is held",
+            "a line runs from zero to the first point",
+        ],
+        assumed: Some(First),
+        why: "friction does not vanish at low velocity",
+        depends: "the current at velocities below the first point",
+        way: Recording,
+        how: "`frict_comp.output` at a constant velocity below the first point",
+    },
+];

@@ -1,0 +1,14 @@
+//! The questions that the documents leave open, and how a machine reads them.
+//!
+//! A question has two readings. One of them is assumed, unless `[reading]` in `frictcomp.toml` selects
+//! the other; `[confirmed]` says on which build of the control somebody has seen it.
+
+mod alternative;
+mod facts;
+mod question;
+mod selected;
+
+pub use alternative::Alternative;
+pub use facts::{QuestionFacts, Way};
+pub use question::Question;
+pub use selected::{Basis, Confirmation, Readings};

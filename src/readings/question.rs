@@ -1,0 +1,98 @@
+//! The questions by name.
+
+use super::alternative::Alternative;
+use super::facts::{FACTS, QuestionFacts};
+
+/// A question that the documents leave open (R15.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Question {
+    /// Does a keyword in lower case work?
+    LowerCase,
+    /// Does a command act before the motion of its block?
+    WithMotion,
+    /// Does a syntax check find the refusal?
+    SyntaxCheck,
+    /// Is switching off an axis that is not configured refused?
+    OffUnconfigured,
+    /// Is switching on without a value list refused?
+    OnWithoutList,
+    /// Does a reset keep the state?
+    Reset,
+    /// Does a restart keep the state?
+    Restart,
+    /// Which of two opposite commands in a block wins?
+    OrderInBlock,
+    /// Is a required compensation monitored while homing?
+    Homing,
+    /// Is a kind with manual activation off at the start of the control?
+    ManualActivation,
+    /// Does a command stop the path?
+    LookAhead,
+    /// Does an axis keep its state through an axis exchange?
+    AxisExchange,
+    /// When is a skip level read?
+    SkipLevel,
+    /// What does a write to the machine data leave?
+    MachineData,
+    /// Does a block search execute commands?
+    BlockSearch,
+    /// How does the current decay before a reversal?
+    Decay,
+    /// After which starts does the current build up?
+    Start,
+    /// What does `delay_cycles` postpone?
+    Delay,
+    /// What is the current at standstill?
+    Standstill,
+    /// What is the current below the first point?
+    Below,
+}
+
+impl Question {
+    /// Every question, in the order of the rules.
+    pub const ALL: [Self; 20] = [
+        Self::LowerCase,
+        Self::WithMotion,
+        Self::SyntaxCheck,
+        Self::OffUnconfigured,
+        Self::OnWithoutList,
+        Self::Reset,
+        Self::Restart,
+        Self::OrderInBlock,
+        Self::Homing,
+        Self::ManualActivation,
+        Self::LookAhead,
+        Self::AxisExchange,
+        Self::SkipLevel,
+        Self::MachineData,
+        Self::BlockSearch,
+        Self::Decay,
+        Self::Start,
+        Self::Delay,
+        Self::Standstill,
+        Self::Below,
+    ];
+
+    /// What is known about it.
+    pub fn facts(self) -> &'static QuestionFacts {
+        &FACTS[self as usize]
+    }
+
+    /// The question of a rule, `R1.28`.
+    pub fn of_rule(rule: &str) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|question| question.facts().rule == rule)
+    }
+
+    /// The reading of this name.
+    pub fn reading(self, name: &str) -> Option<Alternative> {
+        let mut both = [Alternative::First, Alternative::Second].into_iter();
+        both.find(|reading| self.name_of(*reading) == name)
+    }
+
+    /// The name of a reading.
+    pub fn name_of(self, reading: Alternative) -> &'static str {
+        self.facts().readings[reading as usize]
+    }
+}

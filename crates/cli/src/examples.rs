@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 24] = [
+static EXAMPLES: [Examples; 26] = [
     examples(
         &["run"],
         [
@@ -118,6 +118,8 @@ static EXAMPLES: [Examples; 24] = [
             "frictcomp verify friction.csv --value-list comp_x.lis --format json",
         ],
     ),
+    examples(&["commission"], COMMISSION),
+    examples(&["commission", "plan"], COMMISSION),
     examples(
         &["explain"],
         [
@@ -157,6 +159,12 @@ static EXAMPLES: [Examples; 24] = [
         ],
     ),
     examples(&["man"], ["frictcomp man", "frictcomp man --output pages"]),
+];
+
+/// Stage 1 for two axes, and for one alone.
+const COMMISSION: [&str; 2] = [
+    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
+    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
 ];
 
 /// What the tool itself shows.

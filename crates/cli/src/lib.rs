@@ -12,6 +12,7 @@ mod check;
 mod circle;
 mod code_page;
 mod codes;
+mod commission;
 mod completions;
 mod config;
 mod console;
@@ -112,6 +113,8 @@ enum Command {
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
+    #[command(subcommand)]
+    Commission(commission::CommissionCommand),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Lsp(lsp::LspArgs),
@@ -237,6 +240,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Commission(command) => commission::run(command, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

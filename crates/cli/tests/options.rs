@@ -466,6 +466,8 @@ fn every_help_ends_with_two_examples_that_work() {
         "trace",
         "identify",
         "verify",
+        "commission",
+        "commission plan",
         "explain",
         "codes",
         "lsp",
@@ -533,6 +535,12 @@ fn example_folder() -> Bench {
         ),
         ("trace.csv", "t,x,v\n0,0,0\n0.001,1,100\n"),
     ]);
+    bench.write(
+        "frictcomp.toml",
+        "[[axis]]\nname = \"X\"\nmax_velocity = 12000\nmax_acceleration = 2\n\
+         [[axis]]\nname = \"Y\"\nmax_velocity = 12000\nmax_acceleration = 2\n\
+         [[axis]]\nname = \"Z\"\n",
+    );
     let friction = fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let friction = friction.expect("a recording").replace("SetVelo", "v");
     bench.write("friction.csv", &friction.replace("ActTorque", "torque"));

@@ -28,6 +28,7 @@ mod both_versions;
 mod contours;
 mod cures;
 mod decode;
+mod digest;
 mod discovery;
 mod disk;
 mod dry_run;
@@ -72,6 +73,7 @@ pub use both_versions::{MachineOfVersions, MachineOwner};
 pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
 pub use cures::MendedProgram;
 pub use decode::decode;
+pub use digest::sha256_of;
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;
 pub use dry_run::{

@@ -20,6 +20,7 @@ mod advice;
 pub mod assumptions;
 pub mod audit;
 pub mod circle;
+pub mod commission;
 pub mod configuration;
 pub mod contour;
 mod csv;

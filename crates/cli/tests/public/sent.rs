@@ -10,7 +10,7 @@ use frictcomp::{
 };
 use frictcomp_editor::lsp;
 use frictcomp_physics::{circle, compare, contour, current, motion, simulation, stiction};
-use frictcomp_recordings::{identify, trace};
+use frictcomp_recordings::{commission, identify, trace};
 use {frictcomp_drives as drives, frictcomp_host as host, frictcomp_report as report};
 
 use frictcomp_physics::current::CurrentCycle;
@@ -120,6 +120,19 @@ sent! {
     circle::Tuned,
     circle::TunedAxis,
     circle::UnknownPathCentre,
+    commission::Dynamics,
+    commission::FreeTravel,
+    commission::Installed,
+    commission::MeasuredAxis,
+    commission::Measurement,
+    commission::Plan,
+    commission::PlanError,
+    commission::PlanRequest,
+    commission::PlanStep,
+    commission::Program,
+    commission::Signature,
+    commission::Stage,
+    commission::Turning,
     comp::AxisIndex,
     comp::AxisSetup,
     comp::Change,
@@ -461,6 +474,9 @@ sent! {
     report::circle::ListOrigin,
     report::circle::NamedSide,
     report::circle::Subject,
+    report::commission::PlanFile,
+    report::commission::PlanReport,
+    report::commission::ValueListUsed,
     report::contour::AgreedContour,
     report::contour::ContourRecorder<'_>,
     report::contour::ContourSubject,

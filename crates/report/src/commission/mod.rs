@@ -1,0 +1,9 @@
+//! Commissioning: the measuring programs and what an operator has to know about them.
+
+mod program;
+mod readme;
+mod summary;
+
+pub use program::render_program;
+pub use readme::render_readme;
+pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 26] = [
+static EXAMPLES: [Examples; 27] = [
     examples(
         &["run"],
         [
@@ -116,6 +116,13 @@ static EXAMPLES: [Examples; 26] = [
         [
             "frictcomp verify friction.csv --value-list comp_x.lis",
             "frictcomp verify friction.csv --value-list comp_x.lis --format json",
+        ],
+    ),
+    examples(
+        &["trend"],
+        [
+            "frictcomp trend recordings",
+            "frictcomp trend recordings --axis X --svg trend.svg",
         ],
     ),
     examples(&["commission"], COMMISSION),

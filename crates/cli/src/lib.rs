@@ -55,6 +55,7 @@ mod sole_file;
 mod start;
 mod stiction;
 mod trace;
+mod trend;
 mod tune;
 mod values;
 mod verify;
@@ -113,6 +114,7 @@ enum Command {
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
+    Trend(trend::TrendArgs),
     #[command(subcommand)]
     Commission(commission::CommissionCommand),
     Explain(explain::ExplainArgs),
@@ -240,6 +242,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Trend(args) => trend::run(args, console),
         Command::Commission(command) => commission::run(command, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),

@@ -466,6 +466,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "trace",
         "identify",
         "verify",
+        "trend",
         "commission",
         "commission plan",
         "explain",
@@ -543,7 +544,12 @@ fn example_folder() -> Bench {
     );
     let friction = fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let friction = friction.expect("a recording").replace("SetVelo", "v");
-    bench.write("friction.csv", &friction.replace("ActTorque", "torque"));
+    let friction = friction.replace("ActTorque", "torque");
+    bench.write("friction.csv", &friction);
+    fs::create_dir(bench.folder().join("recordings")).expect("a folder");
+    for date in ["2026-03-01", "2027-03-01"] {
+        bench.write(&format!("recordings/x-{date}.csv"), &friction);
+    }
     let machine = root().join("programs/machines/mill3");
     for list in fs::read_dir(machine).expect("a machine") {
         let list = list.expect("a list").path();

@@ -3,6 +3,7 @@
 mod circle;
 mod contour;
 mod current;
+mod friction;
 mod identification;
 mod lists;
 mod trace;
@@ -12,6 +13,7 @@ mod units;
 pub use circle::circle;
 pub use contour::ContourPicture;
 pub use current::{AxisPlot, AxisSample, CurrentPlot};
+pub use friction::{friction_states, friction_trend};
 pub use identification::{friction_curve, residuals_over_position, segments_on_trace};
 pub use lists::{value_curve, value_curves};
 pub use trace::channels;

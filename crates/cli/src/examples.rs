@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 27] = [
+static EXAMPLES: [Examples; 28] = [
     examples(
         &["run"],
         [
@@ -127,6 +127,13 @@ static EXAMPLES: [Examples; 27] = [
     ),
     examples(&["commission"], COMMISSION),
     examples(&["commission", "plan"], COMMISSION),
+    examples(
+        &["commission", "run"],
+        [
+            "frictcomp commission run measuring",
+            "frictcomp commission run measuring --velocity %.SetVelo --torque %.ActTorque",
+        ],
+    ),
     examples(
         &["explain"],
         [

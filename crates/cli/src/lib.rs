@@ -46,6 +46,7 @@ mod outputs;
 mod painted;
 mod progress;
 mod quiet;
+mod recorded_files;
 mod result;
 mod run;
 mod settings;

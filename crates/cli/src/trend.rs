@@ -11,6 +11,7 @@ use super::exit;
 use super::failure::Failure;
 use super::identify::refusal;
 use super::outputs::{Outputs, write_text};
+use super::recorded_files::recordings_in;
 use super::result::Format;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Ledger, read_axis};
@@ -18,9 +19,6 @@ use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_c
 use frictcomp_report::pictures::friction_trend;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_text};
-
-/// Endings of recordings.
-const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
 
 /// Follow the friction of an axis over the dates of its recordings
 ///
@@ -48,7 +46,7 @@ pub(super) struct TrendArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
-    let paths = recordings(&args.folder)?;
+    let paths = recordings_in(&args.folder)?;
     let ledger = Ledger::default();
     paths.iter().for_each(|path| ledger.reads("trace", path));
     let mut outputs = Outputs::new(&ledger, console);
@@ -99,28 +97,6 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
-}
-
-/// The recordings of a folder, by their names.
-fn recordings(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let failed = |error: std::io::Error| {
-        Failure::new(format!(
-            "cannot read the folder `{}`: {error}",
-            shown_path(folder)
-        ))
-    };
-    let mut paths = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let ending = path
-            .extension()
-            .map(|it| it.to_string_lossy().to_lowercase());
-        if ending.is_some_and(|it| RECORDINGS.contains(&it.as_str())) {
-            paths.push(path);
-        }
-    }
-    paths.sort();
-    Ok(paths)
 }
 
 impl TrendArgs {

@@ -469,6 +469,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "trend",
         "commission",
         "commission plan",
+        "commission run",
         "explain",
         "codes",
         "lsp",
@@ -544,6 +545,11 @@ fn example_folder() -> Bench {
     );
     let friction = fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let friction = friction.expect("a recording").replace("SetVelo", "v");
+    fs::create_dir_all(bench.folder().join("measuring/recordings")).expect("a folder");
+    bench.write(
+        "measuring/plan-1.json",
+        r#"{"schema":1,"plan":{"stage":"off","axes":[],"approach":1000,"programs":[]},"lists":[]}"#,
+    );
     let friction = friction.replace("ActTorque", "torque");
     bench.write("friction.csv", &friction);
     fs::create_dir(bench.folder().join("recordings")).expect("a folder");

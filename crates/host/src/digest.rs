@@ -28,3 +28,8 @@ pub fn sha256_of(path: &Path) -> Result<String, HostError> {
     }
     Ok(format!("{:x}", digest.finalize()))
 }
+
+/// The SHA-256 of a text in hexadecimal digits.
+pub fn sha256_of_text(text: &str) -> String {
+    format!("{:x}", Sha256::digest(text))
+}

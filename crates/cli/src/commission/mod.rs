@@ -1,6 +1,8 @@
 //! `frictcomp commission`: from measuring programs to a list that is proved.
 
 mod plan;
+mod reading;
+mod run;
 
 use clap::Subcommand;
 
@@ -11,11 +13,13 @@ use super::failure::Failure;
 #[derive(Debug, Subcommand)]
 pub(super) enum CommissionCommand {
     Plan(plan::PlanArgs),
+    Run(run::RunArgs),
 }
 
 /// Runs the command.
 pub(super) fn run(command: &CommissionCommand, console: Console) -> Result<u8, Failure> {
     match command {
         CommissionCommand::Plan(args) => plan::run(args, console),
+        CommissionCommand::Run(args) => run::run(args, console),
     }
 }

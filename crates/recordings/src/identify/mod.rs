@@ -30,6 +30,7 @@ mod verify;
 mod warnings;
 
 pub use circles::{OnCircles, identify_circles, identify_measured_circles};
+pub(crate) use curve::along;
 pub use curve::{Fit, FrictionCurve};
 pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};

@@ -2,8 +2,10 @@
 
 mod program;
 mod readme;
+mod results;
 mod summary;
 
 pub use program::render_program;
 pub use readme::render_readme;
+pub use results::{AxisVerdict, Results, ResultsReport, render_results, render_results_json};
 pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

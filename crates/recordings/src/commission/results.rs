@@ -1,0 +1,85 @@
+//! The results of all recordings of a commissioning (R16.2, R16.9).
+
+use serde::{Deserialize, Serialize};
+
+use super::found::{CirclesFound, FrictionFound};
+
+/// The greatest additive current as a part of the measured friction.
+pub const MOST_CURRENT: f64 = 1.3;
+
+/// A recording in the folder.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordingResult {
+    /// The file.
+    pub file: String,
+    /// The SHA-256 of its bytes.
+    pub sha256: String,
+    /// Plan and options that it was read with; with others it is read again.
+    pub read_with: String,
+    /// The number of its program.
+    pub program: Option<u8>,
+    /// What it tells.
+    pub found: Found,
+}
+
+/// What a recording tells.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// The friction of an axis.
+    Friction(FrictionFound),
+    /// Circles.
+    Circles(CirclesFound),
+    /// Nothing that is used, with the reason.
+    Refused(String),
+}
+
+/// A circle with compensation off and on, as they were recorded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BeforeAfter {
+    /// The planned feed in mm/min.
+    pub feed: f64,
+    /// The largest glitch with compensation off in µm.
+    pub off_um: f64,
+    /// The largest glitch with compensation on in µm.
+    pub on_um: f64,
+}
+
+impl BeforeAfter {
+    /// Whether compensation leaves more than there was without it.
+    pub fn is_worse(&self) -> bool {
+        self.on_um > self.off_um
+    }
+}
+
+/// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest
+/// first. `is_on` tells the stage of a program by its number. Of several recordings of a program the last one
+/// counts.
+pub fn before_after(results: &[RecordingResult], is_on: impl Fn(u8) -> bool) -> Vec<BeforeAfter> {
+    let circles = |on: bool| {
+        let is_on = &is_on;
+        results.iter().filter_map(move |it| match &it.found {
+            Found::Circles(found) if found.against.is_empty() && is_on(it.program?) == on => {
+                Some(found)
+            }
+            _ => None,
+        })
+    };
+    let mut pairs: Vec<BeforeAfter> = Vec::new();
+    for off in circles(false) {
+        let same = |on: &&CirclesFound| {
+            on.feed.total_cmp(&off.feed).is_eq()
+                && (on.acceleration / off.acceleration - 1.0).abs() < 0.05
+        };
+        if let Some(on) = circles(true).filter(same).last() {
+            pairs.retain(|it| it.feed.total_cmp(&off.feed).is_ne());
+            pairs.push(BeforeAfter {
+                feed: off.feed,
+                off_um: off.worst_um,
+                on_um: on.worst_um,
+            });
+        }
+    }
+    pairs.sort_by(|one, other| one.feed.total_cmp(&other.feed));
+    pairs
+}

@@ -328,8 +328,17 @@ fn from_recordings_to_accepted_lists() {
         let [off, on] = ["off_um", "on_um"].map(|key| circle[key].as_f64().expect("a number"));
         assert!(off > 15.0 && on < 0.6 * off, "{circle}");
     }
-    let (_, text) = run(folder, &[]);
+    let report = [
+        "--html",
+        "report.html",
+        "--machine",
+        "M <1>",
+        "--before",
+        "X=zero.lis",
+    ];
+    let (_, text) = run(folder, &report);
     assert!(text.contains("10 recordings, 10 of them known"), "{text}");
+    check_report(folder);
     put(
         folder,
         "off2000.csv",
@@ -341,6 +350,41 @@ fn from_recordings_to_accepted_lists() {
         text.contains(
             "not accepted, the lists of before stay: F2000 is not recorded both off and on"
         ),
+        "{text}"
+    );
+}
+
+/// R16.5: the report is a page with machine, verdict, circles, an axis a page, the change of a list, and the
+/// SHA-256 of each recording; it says that nothing in it is predicted.
+fn check_report(folder: &Path) {
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..Default::default()
+    };
+    roxmltree::Document::parse_with_options(&page, options).expect("well-formed");
+    for words in [
+        "Friction compensation of M &lt;1&gt;",
+        "date not stated",
+        "none is predicted",
+        "Accepted: at each of the 4 recorded feeds",
+        "33-friction-X.nc",
+        "Axis X",
+        "Axis Y",
+        "+++ m/lists/X-provisional-",
+        "No list of before was given",
+        "class=\"own-page\"",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let results = std::fs::read_to_string(folder.join("m/results.json")).expect("results");
+    let results: serde_json::Value = serde_json::from_str(&results).expect("a record");
+    for recording in results["recordings"].as_array().expect("recordings") {
+        assert!(page.contains(recording["sha256"].as_str().expect("a sum")));
+    }
+    let (status, text) = run(folder, &["--html", "r.html", "--before", "Z=zero.lis"]);
+    assert!(
+        status == Some(2) && text.contains("`--before` names `Z`"),
         "{text}"
     );
 }

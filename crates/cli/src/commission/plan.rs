@@ -248,7 +248,7 @@ impl PlanArgs {
 }
 
 /// The value after `AXIS=` of an option that is given for each axis.
-fn named<T: std::str::FromStr>(
+pub(super) fn named<T: std::str::FromStr>(
     given: &[String],
     axis: &str,
     form: &str,

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::plan::named;
 use super::reading::ReadingArgs;
 use crate::console::Console;
 use crate::exit;
@@ -22,7 +23,9 @@ use frictcomp_recordings::commission::{
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Results, ResultsReport, render_results, render_results_json,
 };
+use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::{TextChange, render_unified, visible_line};
 
 /// Take the recordings of measuring programs: friction, lists, circles before and after
 ///
@@ -41,6 +44,19 @@ pub(crate) struct RunArgs {
     /// build accepts fractions
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
+    /// Write the acceptance report to this file, for a browser and for paper
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// The name of the machine in the report
+    #[arg(long, value_name = "NAME", requires = "html")]
+    machine: Option<String>,
+    /// The date of the recordings in the report
+    #[arg(long, value_name = "DATE", requires = "html")]
+    date: Option<String>,
+    /// The list of an axis before the commissioning, with which the report compares that of stage 2:
+    /// `X=old.lis`
+    #[arg(long, value_name = "AXIS=LIST", requires = "html")]
+    before: Vec<String>,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
@@ -93,6 +109,11 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         circles,
         against_lists,
     };
+    if let Some(path) = &args.html {
+        let given = acceptance(args, &report, &ledger)?;
+        let mut html = outputs.file("--html", path)?;
+        render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
+    }
     let mut file = outputs.file("results.json", &args.folder.join(RESULTS))?;
     let content = Results {
         schema: Results::SCHEMA,
@@ -111,6 +132,49 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         exit::CLEAN
     } else {
         exit::FOUND
+    })
+}
+
+/// What the report has beyond the results.
+fn acceptance(
+    args: &RunArgs,
+    report: &ResultsReport,
+    ledger: &Ledger,
+) -> Result<Acceptance, Failure> {
+    let mut changes = Vec::new();
+    for used in report.plans.iter().flat_map(|it| &it.lists) {
+        let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
+        let Some(before) = before else { continue };
+        ledger.reads("value list", &before);
+        let (old, new) = (read_text(&before)?, read_text(Path::new(&used.file))?);
+        let change = TextChange {
+            before: (&shown(&before), &old),
+            after: (&used.file, &new),
+        };
+        let patch = render_unified(change);
+        let same = "no line differs".to_owned();
+        changes.push((
+            used.axis.clone(),
+            if patch.is_empty() { same } else { patch },
+        ));
+    }
+    let axes: Vec<&str> = changes.iter().map(|it| it.0.as_str()).collect();
+    let unused = args
+        .before
+        .iter()
+        .filter_map(|it| it.split_once('='))
+        .find(|it| !axes.contains(&it.0.trim()));
+    if let Some((axis, _)) = unused {
+        let message = format!(
+            "`--before` names `{}`, of which stage 2 has no list",
+            visible_line(axis)
+        );
+        return Err(Failure::new(message).with_help("leave it out until stage 2 is planned"));
+    }
+    Ok(Acceptance {
+        machine: args.machine.clone(),
+        date: args.date.clone(),
+        changes,
     })
 }
 

@@ -495,6 +495,7 @@ sent! {
     report::contour::AgreedContour,
     report::contour::ContourRecorder<'_>,
     report::contour::ContourSubject,
+    report::html::Acceptance,
     report::html::GivenForRun<'_>,
     report::html::RunDigest,
     report::html::RunInputs<'_>,

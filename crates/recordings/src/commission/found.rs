@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::identify::{Identified, along};
 use frictcomp::lists::FrictionList;
-use frictcomp_physics::circle::Recording;
+use frictcomp_physics::circle::{RecordedCircle, Recording};
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
 /// Friction of the same program in two recordings may differ by this part, and so may the start and
@@ -184,7 +184,7 @@ impl CirclesFound {
         let feeds = recording
             .circles
             .iter()
-            .filter_map(|it| it.feed_mm_per_min());
+            .filter_map(RecordedCircle::feed_mm_per_min);
         let measured_feed = feeds.reduce(f64::midpoint);
         let speed = measured_feed.unwrap_or(feed) / 60.0;
         let figures = [&recording.side.figures.ccw, &recording.side.figures.cw];

@@ -8,7 +8,7 @@ use super::program::{number, told};
 use super::summary::{PlanFile, ValueListUsed};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{BeforeAfter, Found, RecordingResult};
+use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult};
 
 /// The content of `results.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -73,6 +73,15 @@ impl ResultsReport {
         self.missing().is_empty()
             && self.axes.iter().all(|it| it.list.is_some())
             && self.against_lists.as_ref().is_some_and(Vec::is_empty)
+    }
+
+    /// The friction that the list of an axis is made of.
+    pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
+        let from = axis.from.as_ref()?;
+        self.results.iter().find_map(|it| match &it.found {
+            Found::Friction(found) if it.file == *from => Some(found),
+            _ => None,
+        })
     }
 
     fn lists(&self) -> impl Iterator<Item = &ValueListUsed> {

@@ -1,6 +1,7 @@
 //! What the results of the tool look like as charts.
 
 mod circle;
+mod commission;
 mod contour;
 mod current;
 mod friction;
@@ -11,6 +12,7 @@ mod tuning;
 mod units;
 
 pub use circle::circle;
+pub use commission::{friction_of_axis, glitches_by_feed};
 pub use contour::ContourPicture;
 pub use current::{AxisPlot, AxisSample, CurrentPlot};
 pub use friction::{friction_states, friction_trend};

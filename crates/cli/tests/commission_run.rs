@@ -301,7 +301,7 @@ fn from_recordings_to_accepted_lists() {
             &format!("off{feed}.csv"),
             &circles(folder, &off, &deviations(feed, None)),
         );
-        let on = format!("m/{:02}-circle-{feed}.nc", at + 35);
+        let on = format!("m/{:02}-circle-{feed}.nc", at + 66);
         put(
             folder,
             &format!("on{feed}.csv"),
@@ -309,22 +309,22 @@ fn from_recordings_to_accepted_lists() {
         );
     }
     let (status, text) = run(folder, &[]);
-    assert!(text.contains("10 recordings, 0 of them known"), "{text}");
+    assert!(text.contains("10 recordings, 2 of them known"), "{text}");
     assert!(
         text.contains("accepted: X m/lists/X-provisional-")
             && text.contains("each of the 4 recorded feeds"),
         "{text}"
     );
     assert!(
-        text.contains("missing: a recording of 33-friction-X.nc"),
+        text.contains("missing: a recording of 64-friction-X.nc"),
         "{text}"
     );
     assert_eq!(status, Some(1), "two recordings are missing: {text}");
     let output = call(folder, &["commission", "run", "m", "--format", "json"]);
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a record");
-    let circles = record["circles"].as_array().expect("circles");
-    assert_eq!(circles.len(), 4);
-    for circle in circles {
+    let compared = record["rounds"][0]["circles"].as_array().expect("circles");
+    assert_eq!(compared.len(), 4);
+    for circle in compared {
         let [off, on] = ["off_um", "on_um"].map(|key| circle[key].as_f64().expect("a number"));
         assert!(off > 15.0 && on < 0.6 * off, "{circle}");
     }
@@ -339,6 +339,31 @@ fn from_recordings_to_accepted_lists() {
     let (_, text) = run(folder, &report);
     assert!(text.contains("10 recordings, 10 of them known"), "{text}");
     check_report(folder);
+    // Other lists are another round: no recording of round 2 is taken for one of round 3.
+    let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];
+    let output = call(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let (_, text) = run(folder, &[]);
+    assert!(
+        !text.contains("round 3") && text.contains("missing: a recording of 82-circle-2000.nc"),
+        "{text}"
+    );
+    put(
+        folder,
+        "zero2000.csv",
+        &circles(folder, "m/82-circle-2000.nc", &deviations(2000.0, None)),
+    );
+    let (status, text) = run(folder, &[]);
+    let (_, third) = text.split_once("round 3: ").expect("a round");
+    assert!(
+        third.contains("not accepted")
+            && third.contains("at F2000")
+            && third.contains("F3000 is not recorded"),
+        "{text}"
+    );
+    assert_eq!(status, Some(1), "{text}");
+    std::fs::remove_file(folder.join("m/plan-3.json")).expect("removed");
+    std::fs::remove_file(folder.join("m/recordings/zero2000.csv")).expect("removed");
     put(
         folder,
         "off2000.csv",
@@ -367,8 +392,8 @@ fn check_report(folder: &Path) {
         "Friction compensation of M &lt;1&gt;",
         "date not stated",
         "none is predicted",
-        "Accepted: at each of the 4 recorded feeds",
-        "33-friction-X.nc",
+        "Accepted: at each of the 4 recorded feeds the lists of round 2",
+        "64-friction-X.nc",
         "Axis X",
         "Axis Y",
         "+++ m/lists/X-provisional-",

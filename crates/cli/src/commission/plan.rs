@@ -12,13 +12,13 @@ use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
-use frictcomp_host::{Ledger, sha256_of};
+use frictcomp_host::{Ledger, read_text, sha256_of};
 use frictcomp_physics::motion::AxisLimits;
 use frictcomp_recordings::commission::{
     Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanRequest, Stage,
 };
 use frictcomp_report::commission::{
-    PlanReport, ValueListUsed, render_json, render_program, render_readme, render_text,
+    PlanFile, PlanReport, ValueListUsed, render_json, render_program, render_readme, render_text,
 };
 use frictcomp_report::visible_line;
 
@@ -74,7 +74,8 @@ pub(crate) struct PlanArgs {
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
-    /// Write the programs, `README.txt` and `plan-1.json`, of stage 2 `plan-2.json`, to this folder
+    /// Write the programs, `README.txt` and `plan-1.json` to this folder; stage 2 has `plan-2.json`, and one more for
+    /// each further set of lists
     #[arg(long, short, value_name = "FOLDER")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -100,12 +101,14 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
     } else {
         Stage::On
     };
+    let round = round(args.output.as_deref(), &lists);
     let request = PlanRequest {
         axes,
         feeds: args.feeds.clone(),
         approach: args.approach,
         radius: args.radius,
         slowest: args.slowest,
+        round,
     };
     let assumed = loaded
         .machine
@@ -119,7 +122,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         assumed_jerk: assumed.map(|it| it.name.clone()).collect(),
     };
     if let Some(folder) = &args.output {
-        write(folder, &report, &ledger, console)?;
+        write((folder, round), &report, &ledger, console)?;
     }
     console.print(&match args.format {
         Format::Text => console.fitted(&render_text(&report)),
@@ -130,7 +133,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
 
 /// Writes the folder: all of its files, or none.
 fn write(
-    folder: &Path,
+    (folder, round): (&Path, u16),
     report: &PlanReport,
     ledger: &Ledger,
     console: Console,
@@ -138,13 +141,9 @@ fn write(
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let mut outputs = Outputs::new(ledger, console);
     outputs.print("the result")?;
-    let stage = match report.plan.stage {
-        Stage::Off => "1",
-        Stage::On => "2",
-    };
     let pages = [
         ("README.txt".to_owned(), render_readme(report)),
-        (format!("plan-{stage}.json"), render_json(report)),
+        (plan_name(round), render_json(report)),
     ];
     let programs = report.plan.programs.iter();
     let programs = programs.map(|it| (it.file.clone(), render_program(report, it)));
@@ -154,6 +153,36 @@ fn write(
     }
     outputs.check()?;
     outputs.finish()
+}
+
+/// The file of the plan of a round.
+pub(super) fn plan_name(round: u16) -> String {
+    format!("plan-{round}.json")
+}
+
+/// The plan in a file; `None` where there is none that is understood.
+fn plan_in(path: &Path) -> Option<PlanFile> {
+    serde_json::from_str(&read_text(path).ok()?).ok()
+}
+
+/// The round of a plan: 1 without lists; with lists the one that has them already, or the next that the
+/// folder has not.
+fn round(folder: Option<&Path>, lists: &[ValueListUsed]) -> u16 {
+    if lists.is_empty() {
+        return 1;
+    }
+    let sums = |lists: &[ValueListUsed]| {
+        let pairs = lists.iter().map(|it| (it.axis.clone(), it.sha256.clone()));
+        pairs.collect::<Vec<_>>()
+    };
+    let is_free = |round: &u16| {
+        let path = folder.map(|it| it.join(plan_name(*round)));
+        let Some(path) = path.filter(|it| it.exists()) else {
+            return true;
+        };
+        plan_in(&path).is_some_and(|it| sums(&it.lists) == sums(lists))
+    };
+    (2..).find(is_free).unwrap_or(u16::MAX)
 }
 
 impl PlanArgs {

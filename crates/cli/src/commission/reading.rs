@@ -44,7 +44,7 @@ pub(super) struct ReadingArgs {
     torque_args: TorqueArgs,
     /// The program of a recording without a signature, by its number: `friction.csv=1`
     #[arg(long, value_name = "FILE=NUMBER", value_parser = parse_role)]
-    role: Vec<(String, u8)>,
+    role: Vec<(String, u16)>,
 }
 
 /// A program that was recorded, with its plan.
@@ -64,7 +64,7 @@ impl ReadingArgs {
 
     /// The number of the program and what its recording tells. What cannot be read is a result, too: the
     /// other recordings are read all the same.
-    pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u8>, Found) {
+    pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, Found) {
         let recorded = match self.recognise(path, plans) {
             Ok(recorded) => recorded,
             Err(failure) => return (None, Found::Refused(sentence(&failure))),
@@ -89,7 +89,7 @@ impl ReadingArgs {
             .file_name()
             .map(|it| it.to_string_lossy().into_owned())
             .unwrap_or_default();
-        let program = |number: u8| {
+        let program = |number: u16| {
             let mut programs = plans
                 .iter()
                 .flat_map(|plan| plan.programs.iter().map(move |it| (it, *plan)));
@@ -267,13 +267,13 @@ fn sentence(failure: &Failure) -> String {
 }
 
 /// `FILE=NUMBER`.
-fn parse_role(text: &str) -> Result<(String, u8), String> {
+fn parse_role(text: &str) -> Result<(String, u16), String> {
     let parsed = text.rsplit_once('=').and_then(|(file, number)| {
         let number = number
             .trim()
             .parse()
             .ok()
-            .filter(|it| (1..64).contains(it))?;
+            .filter(|it| (1..1024).contains(it))?;
         (!file.is_empty()).then(|| (file.to_owned(), number))
     });
     parsed

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::plan::named;
+use super::plan::{named, plan_name};
 use super::reading::ReadingArgs;
 use crate::console::Console;
 use crate::exit;
@@ -17,11 +17,11 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp_host::{Ledger, read_text, sha256_of, sha256_of_text};
 use frictcomp_recordings::commission::{
-    BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, RecordingResult, Stage,
-    before_after,
+    BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult,
+    Stage, before_after,
 };
 use frictcomp_report::commission::{
-    AxisVerdict, PlanFile, Results, ResultsReport, render_results, render_results_json,
+    AxisVerdict, PlanFile, Results, ResultsReport, Round, render_results, render_results_json,
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
@@ -69,7 +69,6 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder.join("recordings"))?;
     paths.iter().for_each(|path| ledger.reads("trace", path));
     let known = known(&args.folder.join(RESULTS));
-    let read_with = read_with(args, &plans)?;
     let mut kept = 0;
     let mut results = Vec::new();
     for path in &paths {
@@ -77,7 +76,9 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
         let file = file.unwrap_or_default();
         let same = |it: &&RecordingResult| {
-            it.file == file && it.sha256 == sha256 && it.read_with == read_with
+            it.file == file
+                && it.sha256 == sha256
+                && it.read_with == read_with(args, &plans, it.program)
         };
         if let Some(result) = known.iter().find(same) {
             kept += 1;
@@ -89,7 +90,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         results.push(RecordingResult {
             file,
             sha256,
-            read_with: read_with.clone(),
+            read_with: read_with(args, &plans, program),
             program,
             found,
         });
@@ -97,17 +98,13 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&ledger, console);
     outputs.print("the result")?;
     let axes = lists(args, &plans, &results, &mut outputs)?;
-    let circles = before_after(&results, |number| {
-        stage_of(&plans, number) == Some(Stage::On)
-    });
-    let against_lists = against(&plans, &results, &circles, &ledger)?;
+    let rounds = rounds(&plans, &results, &ledger)?;
     let report = ResultsReport {
         plans,
         results,
         kept,
         axes,
-        circles,
-        against_lists,
+        rounds,
     };
     if let Some(path) = &args.html {
         let given = acceptance(args, &report, &ledger)?;
@@ -142,7 +139,7 @@ fn acceptance(
     ledger: &Ledger,
 ) -> Result<Acceptance, Failure> {
     let mut changes = Vec::new();
-    for used in report.plans.iter().flat_map(|it| &it.lists) {
+    for used in report.rounds.last().iter().flat_map(|it| &it.lists) {
         let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
         let Some(before) = before else { continue };
         ledger.reads("value list", &before);
@@ -181,11 +178,14 @@ fn acceptance(
 /// The file of the results.
 const RESULTS: &str = "results.json";
 
-/// The plans of both stages, as far as they are there.
+/// The plans of stage 1, where it is there, and of each round of stage 2.
 fn plans(folder: &Path, ledger: &Ledger) -> Result<Vec<PlanFile>, Failure> {
     let mut plans = Vec::new();
-    for name in ["plan-1.json", "plan-2.json"] {
-        let path = folder.join(name);
+    for round in 1.. {
+        let path = folder.join(plan_name(round));
+        if !path.exists() && round > 1 {
+            break;
+        }
         if !path.exists() {
             continue;
         }
@@ -222,17 +222,19 @@ fn known(path: &Path) -> Vec<RecordingResult> {
         .unwrap_or_default()
 }
 
-/// All that decides how a recording is read, but the recording itself.
-fn read_with(args: &RunArgs, plans: &[PlanFile]) -> Result<String, Failure> {
-    let plans = serde_json::to_string(plans).map_err(|error| Failure::new(error.to_string()))?;
-    Ok(format!(
-        "{} {} {plans}",
-        env!("CARGO_PKG_VERSION"),
-        args.reading.key()
-    ))
+/// The SHA-256 of all that decides how a recording is read, but the recording itself: version, options and
+/// the plan of its program, all plans where its program is not known.
+fn read_with(args: &RunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
+    let has = |plan: &&PlanFile| {
+        let mut programs = plan.plan.programs.iter();
+        program.is_none_or(|number| programs.any(|it| it.number == number))
+    };
+    let plans: Vec<&Plan> = plans.iter().filter(has).map(|it| &it.plan).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
 }
 
-fn stage_of(plans: &[PlanFile], number: u8) -> Option<Stage> {
+fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
     let plan = plans
         .iter()
         .find(|it| it.plan.programs.iter().any(|it| it.number == number));
@@ -372,32 +374,73 @@ fn list_of(found: &FrictionFound) -> FrictionList {
     }
 }
 
-/// Reasons against the lists of stage 2; `None` before its circles are recorded.
-fn against(
+/// The rounds of stage 2, each judged by its own recordings and by the lists that were accepted before it.
+fn rounds(
     plans: &[PlanFile],
     results: &[RecordingResult],
-    circles: &[BeforeAfter],
     ledger: &Ledger,
-) -> Result<Option<Vec<String>>, Failure> {
-    let Some(second) = plans.iter().find(|it| it.plan.stage == Stage::On) else {
-        return Ok(None);
-    };
-    if circles.is_empty() {
-        return Ok(None);
+) -> Result<Vec<Round>, Failure> {
+    let mut rounds: Vec<Round> = Vec::new();
+    let second = plans.iter().filter(|it| it.plan.stage == Stage::On);
+    for (number, plan) in (2..).zip(second) {
+        let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
+        let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
+        let circles = before_after(results, is_off, is_on);
+        let mut against = None;
+        if !circles.is_empty() {
+            let mut reasons = feeds_against(plan, &circles, &rounds);
+            reasons.extend(lists_against(plan, plans, results, ledger)?);
+            against = Some(reasons);
+        }
+        rounds.push(Round {
+            number,
+            lists: plan.lists.clone(),
+            circles,
+            against,
+        });
     }
+    Ok(rounds)
+}
+
+/// Feeds at which the lists of a round leave more than there was without them, or than those that were
+/// accepted last, and feeds that are not recorded.
+fn feeds_against(plan: &PlanFile, circles: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
+    let accepted = earlier.iter().rev().find(|it| it.is_accepted());
+    let at = |circles: &[BeforeAfter], feed: f64| {
+        let mut circles = circles.iter();
+        circles.find(|it| it.feed.total_cmp(&feed).is_eq()).cloned()
+    };
     let mut against = Vec::new();
-    let planned = second.plan.programs.iter().filter_map(|it| it.feed());
-    for feed in planned {
-        match circles.iter().find(|it| it.feed.total_cmp(&feed).is_eq()) {
-            None => against.push(format!("F{feed} is not recorded both off and on")),
-            Some(it) if it.is_worse() => against.push(format!(
+    for feed in plan.plan.programs.iter().filter_map(Program::feed) {
+        let Some(now) = at(circles, feed) else {
+            against.push(format!("F{feed} is not recorded both off and on"));
+            continue;
+        };
+        let old = accepted.and_then(|round| Some((round.number, at(&round.circles, feed)?.on_um)));
+        if now.is_worse() {
+            against.push(format!(
                 "at F{feed} {:.1} µm are left, more than the {:.1} µm without it",
-                it.on_um, it.off_um
-            )),
-            Some(_) => {}
+                now.on_um, now.off_um
+            ));
+        } else if let Some((round, before)) = old.filter(|it| now.on_um > it.1) {
+            against.push(format!(
+                "at F{feed} {:.1} µm are left, more than the {before:.1} µm of round {round}",
+                now.on_um
+            ));
         }
     }
-    for used in &second.lists {
+    against
+}
+
+/// Lists of a round that are no longer those that were recorded, or add too much.
+fn lists_against(
+    plan: &PlanFile,
+    plans: &[PlanFile],
+    results: &[RecordingResult],
+    ledger: &Ledger,
+) -> Result<Vec<String>, Failure> {
+    let mut against = Vec::new();
+    for used in &plan.lists {
         let path = PathBuf::from(&used.file);
         if !path.exists() || sha256_of(&path)? != used.sha256 {
             against.push(format!(
@@ -407,7 +450,7 @@ fn against(
             continue;
         }
         let list = value_list(&path, ledger)?;
-        let (source, _) = second
+        let (source, _) = plan
             .plan
             .axes
             .iter()
@@ -428,5 +471,5 @@ fn against(
             ));
         }
     }
-    Ok(Some(against))
+    Ok(against)
 }

@@ -491,6 +491,7 @@ sent! {
     report::commission::PlanReport,
     report::commission::Results,
     report::commission::ResultsReport,
+    report::commission::Round,
     report::commission::ValueListUsed,
     report::contour::AgreedContour,
     report::contour::ContourRecorder<'_>,

@@ -108,6 +108,9 @@ pub enum PlanError {
         /// The bound.
         limit: f64,
     },
+    /// More rounds than signatures can tell.
+    #[error("{0} rounds are more than signatures can tell apart")]
+    Rounds(u16),
     /// Stage 2 on an axis that takes no list.
     #[error(
         "friction compensation of `{0}` is not configured (P-AXIS-00522 is 0), so a list has no effect there"
@@ -138,6 +141,7 @@ impl PlanError {
             }
             Self::Radius { .. } => "give a smaller radius, or more of the travel".to_owned(),
             Self::TooTight { .. } => "give a larger radius, or leave that feed out".to_owned(),
+            Self::Rounds(_) => "go on in a folder of its own".to_owned(),
             Self::Unconfigured(axis) => format!(
                 "set `kenngr.frict_comp 1` in the axis list of {axis}, restart the control, and describe it in `frictcomp.toml`"
             ),

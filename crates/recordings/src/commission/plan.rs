@@ -13,8 +13,12 @@ use frictcomp::machine::AxisType;
 /// The fewest and the most feeds of a plan.
 const FEEDS: std::ops::RangeInclusive<usize> = 4..=12;
 
-/// The first number of a program of stage 2.
-const SECOND_STAGE: u8 = 33;
+/// The first number of the first round of stage 2, which is round 2, and of numbers in each round.
+const SECOND_ROUND: u16 = 64;
+const NUMBERS: u16 = 16;
+
+/// The last round whose numbers a signature has.
+const LAST_ROUND: u16 = 61;
 
 /// Compensation while the programs of a plan run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,6 +50,9 @@ impl Plan {
     /// The axes cannot be measured together, or a motion does not fit into the travel or the dynamics of an
     /// axis (R16.8).
     pub fn new(request: &PlanRequest, stage: Stage) -> Result<Self, PlanError> {
+        if request.round > LAST_ROUND {
+            return Err(PlanError::Rounds(request.round));
+        }
         check(request, stage)?;
         let feeds = feeds(request)?;
         let rooms = request.axes.iter().map(Room::of);
@@ -76,7 +83,7 @@ impl Plan {
         } else {
             programs.push(runs.strokes(0, &feeds)?);
         }
-        for (number, program) in (first_number(stage)..).zip(&mut programs) {
+        for (number, program) in (first_number(request.round)..).zip(&mut programs) {
             program.begin_with(number);
         }
         Ok(Self {
@@ -93,11 +100,11 @@ impl Plan {
     }
 }
 
-/// The number of the first program of a stage.
-fn first_number(stage: Stage) -> u8 {
-    match stage {
-        Stage::Off => 1,
-        Stage::On => SECOND_STAGE,
+/// The number of the first program of a round.
+fn first_number(round: u16) -> u16 {
+    match round.checked_sub(2) {
+        None => 1,
+        Some(earlier) => SECOND_ROUND + NUMBERS * earlier,
     }
 }
 

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 /// A measuring program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Program {
-    /// The number of its signature, from 1 to 63.
-    pub number: u8,
+    /// The number of its signature, from 1 to 1023.
+    pub number: u16,
     /// Its file without a folder.
     pub file: String,
     /// The measurement.

@@ -17,6 +17,8 @@ pub struct PlanRequest {
     pub radius: Option<f64>,
     /// The slowest speed in mm/s or °/s.
     pub slowest: f64,
+    /// 1 for stage 1, from 2 on for each set of lists in stage 2: no two rounds have a number in common.
+    pub round: u16,
 }
 
 /// An axis of a plan.

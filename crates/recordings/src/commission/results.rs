@@ -7,6 +7,9 @@ use super::found::{CirclesFound, FrictionFound};
 /// The greatest additive current as a part of the measured friction.
 pub const MOST_CURRENT: f64 = 1.3;
 
+/// Two circles are compared where v²/R differs by less than this part.
+const SAME_ACCELERATION: f64 = 0.05;
+
 /// A recording in the folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordingResult {
@@ -14,10 +17,10 @@ pub struct RecordingResult {
     pub file: String,
     /// The SHA-256 of its bytes.
     pub sha256: String,
-    /// Plan and options that it was read with; with others it is read again.
+    /// The SHA-256 of the plan and the options that it was read with; with others it is read again.
     pub read_with: String,
     /// The number of its program.
-    pub program: Option<u8>,
+    pub program: Option<u16>,
     /// What it tells.
     pub found: Found,
 }
@@ -53,25 +56,27 @@ impl BeforeAfter {
 }
 
 /// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest
-/// first. `is_on` tells the stage of a program by its number. Of several recordings of a program the last one
-/// counts.
-pub fn before_after(results: &[RecordingResult], is_on: impl Fn(u8) -> bool) -> Vec<BeforeAfter> {
-    let circles = |on: bool| {
-        let is_on = &is_on;
-        results.iter().filter_map(move |it| match &it.found {
-            Found::Circles(found) if found.against.is_empty() && is_on(it.program?) == on => {
-                Some(found)
-            }
+/// first. Programs are told by their numbers; of several recordings of a program the last one counts.
+pub fn before_after(
+    results: &[RecordingResult],
+    is_off: impl Fn(u16) -> bool,
+    is_on: impl Fn(u16) -> bool,
+) -> Vec<BeforeAfter> {
+    let circles = |is_so: &dyn Fn(u16) -> bool| {
+        let found = results.iter().filter_map(|it| match &it.found {
+            Found::Circles(found) if found.against.is_empty() && is_so(it.program?) => Some(found),
             _ => None,
-        })
+        });
+        found.collect::<Vec<&CirclesFound>>()
     };
+    let on = circles(&is_on);
     let mut pairs: Vec<BeforeAfter> = Vec::new();
-    for off in circles(false) {
-        let same = |on: &&CirclesFound| {
+    for off in circles(&is_off) {
+        let same = |on: &&&CirclesFound| {
             on.feed.total_cmp(&off.feed).is_eq()
-                && (on.acceleration / off.acceleration - 1.0).abs() < 0.05
+                && (on.acceleration / off.acceleration - 1.0).abs() < SAME_ACCELERATION
         };
-        if let Some(on) = circles(true).filter(same).last() {
+        if let Some(on) = on.iter().rev().find(same) {
             pairs.retain(|it| it.feed.total_cmp(&off.feed).is_ne());
             pairs.push(BeforeAfter {
                 feed: off.feed,

@@ -170,7 +170,7 @@ impl Program {
     }
 
     /// Puts the signature of a number in front and into the name of the file.
-    pub(super) fn begin_with(&mut self, number: u8) {
+    pub(super) fn begin_with(&mut self, number: u16) {
         let Some(signature) = Signature::new(number) else {
             return;
         };

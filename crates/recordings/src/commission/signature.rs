@@ -1,10 +1,10 @@
 //! The number of a program as long and short strokes, by which its recording is recognised.
 
 /// Bits of the number.
-const BITS: u8 = 6;
+const BITS: u16 = 10;
 
 /// Strokes forth and back: the number, then how many of its bits are set, modulo 4.
-const STROKES: usize = 8;
+const STROKES: usize = 12;
 
 /// The way of a short stroke in mm or degrees; a long one is twice as long.
 const SHORT: f64 = 1.0;
@@ -23,7 +23,7 @@ const STANDSTILL: f64 = 0.5;
 
 /// The number of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Signature(u8);
+pub struct Signature(u16);
 
 impl Signature {
     /// The feed of the strokes in mm/min or °/min.
@@ -35,22 +35,22 @@ impl Signature {
     /// The longest way from the start in mm or degrees.
     pub const REACH: f64 = 2.0 * SHORT;
 
-    /// The signature of a number from 1 to 63.
-    pub fn new(number: u8) -> Option<Self> {
+    /// The signature of a number from 1 to 1023.
+    pub fn new(number: u16) -> Option<Self> {
         (1..1 << BITS).contains(&number).then_some(Self(number))
     }
 
     /// The number.
-    pub fn number(self) -> u8 {
+    pub fn number(self) -> u16 {
         self.0
     }
 
     /// The ways of the strokes in mm or degrees, each forth and then back.
     pub fn strokes(self) -> [f64; STROKES] {
-        let check = u8::try_from(self.0.count_ones() % 4).unwrap_or_default();
+        let check = u16::try_from(self.0.count_ones() % 4).unwrap_or_default();
         let bits = (self.0 << 2) | check;
         std::array::from_fn(|at| {
-            let is_long = bits & (0x80 >> at) != 0;
+            let is_long = bits & (1 << (STROKES - 1 - at)) != 0;
             if is_long { 2.0 * SHORT } else { SHORT }
         })
     }
@@ -79,12 +79,12 @@ pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
 
 /// The number that strokes forth and back tell.
 fn read(window: &[Move]) -> Option<Signature> {
-    let mut bits = 0_u8;
+    let mut bits = 0_u16;
     for stroke in window.chunks(2) {
         let [forth, back] = stroke else { return None };
         let is_back = (forth.way + back.way).abs() <= TOLERANCE;
         let is = |way: f64| (forth.way.abs() - way).abs() <= TOLERANCE;
-        let bit = u8::from(is(2.0 * SHORT));
+        let bit = u16::from(is(2.0 * SHORT));
         if !is_back || (bit == 0 && !is(SHORT)) {
             return None;
         }

@@ -7,5 +7,7 @@ mod summary;
 
 pub use program::render_program;
 pub use readme::render_readme;
-pub use results::{AxisVerdict, Results, ResultsReport, render_results, render_results_json};
+pub use results::{
+    AxisVerdict, Results, ResultsReport, Round, render_results, render_results_json,
+};
 pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

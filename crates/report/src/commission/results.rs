@@ -8,7 +8,7 @@ use super::program::{number, told};
 use super::summary::{PlanFile, ValueListUsed};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult};
+use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult, Stage};
 
 /// The content of `results.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -48,17 +48,38 @@ pub struct ResultsReport {
     pub kept: usize,
     /// The lists.
     pub axes: Vec<AxisVerdict>,
-    /// The circles with compensation off and on.
+    /// The rounds of stage 2, first to last.
+    pub rounds: Vec<Round>,
+}
+
+/// A set of lists that was recorded in stage 2.
+#[derive(Debug, Clone, Serialize)]
+pub struct Round {
+    /// The number of the round and of its plan, from 2 on.
+    pub number: usize,
+    /// The lists.
+    pub lists: Vec<ValueListUsed>,
+    /// The circles with compensation off and with these lists on.
     pub circles: Vec<BeforeAfter>,
-    /// Reasons for which the lists of stage 2 are not accepted; `None` before they can be judged.
-    pub against_lists: Option<Vec<String>>,
+    /// Reasons for which the lists are not accepted; `None` before a circle is recorded off and on.
+    pub against: Option<Vec<String>>,
+}
+
+impl Round {
+    /// Whether nothing speaks against the lists.
+    pub fn is_accepted(&self) -> bool {
+        self.against.as_ref().is_some_and(Vec::is_empty)
+    }
 }
 
 impl ResultsReport {
-    /// The programs without a recording that is used.
+    /// The programs of stage 1 and of the last round without a recording that is used.
     pub fn missing(&self) -> Vec<String> {
-        let programs = self.plans.iter().flat_map(|it| it.plan.programs.iter());
-        let lacks = |number: u8| {
+        let last = self.plans.len().saturating_sub(1);
+        let plans = self.plans.iter().enumerate();
+        let counted = plans.filter(|(at, it)| *at == last || it.plan.stage == Stage::Off);
+        let programs = counted.flat_map(|(_, it)| it.plan.programs.iter());
+        let lacks = |number: u16| {
             !self
                 .results
                 .iter()
@@ -68,11 +89,11 @@ impl ResultsReport {
         missing.map(|it| it.file.clone()).collect()
     }
 
-    /// Whether every program is recorded, every axis has a list, and the lists of stage 2 are accepted.
+    /// Whether every program is recorded, every axis has a list, and the lists of the last round are accepted.
     pub fn is_complete(&self) -> bool {
         self.missing().is_empty()
             && self.axes.iter().all(|it| it.list.is_some())
-            && self.against_lists.as_ref().is_some_and(Vec::is_empty)
+            && self.rounds.last().is_some_and(Round::is_accepted)
     }
 
     /// The friction that the list of an axis is made of.
@@ -82,10 +103,6 @@ impl ResultsReport {
             Found::Friction(found) if it.file == *from => Some(found),
             _ => None,
         })
-    }
-
-    fn lists(&self) -> impl Iterator<Item = &ValueListUsed> {
-        self.plans.iter().flat_map(|it| it.lists.iter())
     }
 }
 
@@ -136,7 +153,14 @@ pub fn render_results(report: &ResultsReport) -> String {
             let _ = writeln!(out, "  {}", visible_line(note));
         }
     }
-    push_circles(&mut out, report);
+    for round in &report.rounds {
+        push_round(&mut out, round);
+    }
+    if report.rounds.iter().all(|it| it.against.is_none()) {
+        out.push_str(
+            "\nno list is accepted: stage 2, the same circles with it on, is not recorded\n",
+        );
+    }
     out
 }
 
@@ -174,54 +198,41 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
     }
 }
 
-/// The circles off and on, and whether the lists of stage 2 are accepted.
-fn push_circles(out: &mut String, report: &ResultsReport) {
-    if !report.circles.is_empty() {
+/// The circles off and on, and whether the lists are accepted.
+fn push_round(out: &mut String, round: &Round) {
+    let Some(against) = &round.against else {
+        return;
+    };
+    let _ = writeln!(
+        out,
+        "\nround {}: recorded glitch in µm, the largest of both directions\n{:>12} {:>8} {:>8}",
+        round.number, "feed mm/min", "off", "on"
+    );
+    for circle in &round.circles {
+        let feed = number(circle.feed);
         let _ = writeln!(
             out,
-            "\nrecorded glitch in µm, the largest of both directions\n{:>12} {:>8} {:>8}",
-            "feed mm/min", "off", "on"
+            "{feed:>12} {:>8.1} {:>8.1}",
+            circle.off_um, circle.on_um
         );
     }
-    for circle in &report.circles {
+    if against.is_empty() {
+        let list = |it: &ValueListUsed| {
+            let sum = it.sha256.get(..16).unwrap_or(&it.sha256);
+            format!("{} {} ({sum})", it.axis, it.file)
+        };
+        let lists: Vec<String> = round.lists.iter().map(list).collect();
         let _ = writeln!(
             out,
-            "{:>12} {:>8.1} {:>8.1}",
-            number(circle.feed),
-            circle.off_um,
-            circle.on_um
+            "\naccepted: {}; at each of the {} recorded feeds no more is left than without it, nor than with the \
+             lists that were accepted before. Other feeds were not recorded",
+            visible_line(&lists.join(", ")),
+            round.circles.len()
         );
-    }
-    out.push('\n');
-    match &report.against_lists {
-        None => out.push_str(
-            "no list is accepted: stage 2, the same circles with it on, is not recorded\n",
-        ),
-        Some(against) if against.is_empty() => {
-            let lists: Vec<String> = report
-                .lists()
-                .map(|it| {
-                    format!(
-                        "{} {} ({})",
-                        it.axis,
-                        it.file,
-                        it.sha256.get(..16).unwrap_or(&it.sha256)
-                    )
-                })
-                .collect();
-            let _ = writeln!(
-                out,
-                "accepted: {}; at each of the {} recorded feeds it leaves less than there is without it. Other \
-                 feeds were not recorded",
-                visible_line(&lists.join(", ")),
-                report.circles.len()
-            );
-        }
-        Some(against) => {
-            out.push_str("not accepted, the lists of before stay:\n");
-            for reason in against {
-                let _ = writeln!(out, "  {}", visible_line(reason));
-            }
+    } else {
+        out.push_str("\nnot accepted, the lists of before stay:\n");
+        for reason in against {
+            let _ = writeln!(out, "  {}", visible_line(reason));
         }
     }
 }
@@ -233,9 +244,7 @@ struct Document<'a> {
     recordings: &'a [RecordingResult],
     missing: Vec<String>,
     axes: &'a [AxisVerdict],
-    circles: &'a [BeforeAfter],
-    lists: Vec<&'a ValueListUsed>,
-    against_lists: Option<&'a [String]>,
+    rounds: &'a [Round],
 }
 
 /// The same for machines.
@@ -246,8 +255,6 @@ pub fn render_results_json(report: &ResultsReport) -> String {
         recordings: &report.results,
         missing: report.missing(),
         axes: &report.axes,
-        circles: &report.circles,
-        lists: report.lists().collect(),
-        against_lists: report.against_lists.as_deref(),
+        rounds: &report.rounds,
     })
 }

@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
-use crate::commission::{AxisVerdict, ResultsReport};
+use crate::commission::{AxisVerdict, ResultsReport, Round};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
@@ -76,14 +76,14 @@ pub fn render_acceptance(
 fn verdict(report: &ResultsReport) -> Markup {
     let missing = report.missing();
     html! {
-        @match &report.against_lists {
-            None => p { "No list is accepted: circles with compensation on are not recorded." },
-            Some(against) if against.is_empty() => p {
-                "Accepted: at each of the " (report.circles.len()) " recorded feeds the lists leave no more than there \
-                 was without them. Other feeds were not recorded."
+        @match report.rounds.last().map(|it| (it, it.against.as_deref())) {
+            None | Some((_, None)) => p { "No list is accepted: circles with compensation on are not recorded." },
+            Some((round, Some([]))) => p {
+                "Accepted: at each of the " (round.circles.len()) " recorded feeds the lists of round " (round.number)
+                " leave no more than there was without them. Other feeds were not recorded."
             },
-            Some(against) => {
-                p { "Not accepted; the lists of before stay." }
+            Some((round, Some(against))) => {
+                p { "The lists of round " (round.number) " are not accepted; those of before stay." }
                 ul { @for reason in against { li { (reason) } } }
             }
         }
@@ -94,11 +94,23 @@ fn verdict(report: &ResultsReport) -> Markup {
 }
 
 fn circles(report: &ResultsReport) -> Markup {
-    if report.circles.is_empty() {
-        return html! { p { "No circle is recorded both with compensation off and on." } };
+    let rounds = report.rounds.iter().filter(|it| !it.circles.is_empty());
+    let rounds: Vec<&Round> = rounds.collect();
+    html! {
+        @if rounds.is_empty() {
+            p { "No circle is recorded both with compensation off and on." }
+        }
+        @for round in rounds { (round_circles(round)) }
     }
+}
+
+fn round_circles(round: &Round) -> Markup {
+    let caption = format!(
+        "Round {}: largest glitch of both directions, recorded",
+        round.number
+    );
     let table = Table {
-        caption: Caption::Shown("Largest glitch of both directions, recorded"),
+        caption: Caption::Shown(&caption),
         columns: &[
             Column::Text("feed in mm/min"),
             Column::Number("off in µm"),
@@ -106,13 +118,14 @@ fn circles(report: &ResultsReport) -> Markup {
             Column::Number("left in %"),
         ],
     };
-    let rows = report.circles.iter().map(|it| {
+    let rows = round.circles.iter().map(|it| {
         let cells = [it.off_um, it.on_um, 100.0 * it.on_um / it.off_um];
         let cells = cells.map(|number| html! { (Rounded(number, 1).to_string()) });
         Row::new(&Rounded(it.feed, 0).to_string(), cells.to_vec())
     });
+    let id = format!("round-{}", round.number);
     html! {
-        (figure(glitches_by_feed(report).render(Frame::Inside("circles"))))
+        (figure(glitches_by_feed(&round.circles).render(Frame::Inside(&id))))
         (table.render(rows))
     }
 }
@@ -186,7 +199,7 @@ fn grounds(report: &ResultsReport) -> Markup {
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
             li { "No plant was fitted: feeds, loads and temperatures that were not recorded are not judged." }
             @for list in report.plans.iter().flat_map(|it| &it.lists) {
-                li { "List of " (list.axis) " in stage 2: " (list.file) ", SHA-256 " code { (list.sha256) } }
+                li { "List of " (list.axis) " on: " (list.file) ", SHA-256 " code { (list.sha256) } }
             }
         }
     }

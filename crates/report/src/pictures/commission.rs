@@ -1,6 +1,5 @@
 //! The friction of a commissioned axis, and its circles before and after.
 
-use crate::commission::ResultsReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use frictcomp_recordings::commission::{BeforeAfter, FrictionFound};
 
@@ -53,21 +52,17 @@ pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
 }
 
 /// The largest glitch over the feed, off and on.
-pub fn glitches_by_feed(report: &ResultsReport) -> LineChart {
+pub fn glitches_by_feed(circles: &[BeforeAfter]) -> LineChart {
     let series = |name: &str, value: fn(&BeforeAfter) -> f64| Series {
         name: name.to_owned(),
-        points: report
-            .circles
-            .iter()
-            .map(|it| [it.feed, value(it)])
-            .collect(),
+        points: circles.iter().map(|it| [it.feed, value(it)]).collect(),
         drawn: Drawn::Marked,
     };
     LineChart {
         title: "Largest glitch of recorded circles".to_owned(),
         description: format!(
             "The largest glitch at {} recorded feeds with compensation off and on.",
-            report.circles.len()
+            circles.len()
         ),
         x: ChartAxis::linear("feed in mm/min"),
         panels: vec![Panel {

@@ -13,6 +13,7 @@ mod check;
 mod circle;
 mod code_page;
 mod codes;
+mod commission;
 mod completions;
 mod config;
 mod conformance;
@@ -47,6 +48,7 @@ mod outputs;
 mod painted;
 mod progress;
 mod quiet;
+mod recorded_files;
 mod result;
 mod run;
 mod settings;
@@ -56,6 +58,7 @@ mod sole_file;
 mod start;
 mod stiction;
 mod trace;
+mod trend;
 mod tune;
 mod values;
 mod verify;
@@ -116,6 +119,9 @@ enum Command {
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
+    Trend(trend::TrendArgs),
+    #[command(subcommand)]
+    Commission(commission::CommissionCommand),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Lsp(lsp::LspArgs),
@@ -243,6 +249,8 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Verify(args) => verify::run(args, console),
         Command::Ask(args) => ask::run(args, console),
         Command::Conformance(args) => conformance::run(args, console),
+        Command::Trend(args) => trend::run(args, console),
+        Command::Commission(command) => commission::run(command, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

@@ -222,6 +222,11 @@ impl Machines {
         &self.disk
     }
 
+    /// The files that were read for machines and programs so far.
+    pub(super) fn files_read(&self) -> Vec<PathBuf> {
+        self.ledger.files()
+    }
+
     /// Has a configuration count for the programs of a folder, unless the user chose another one.
     pub(super) fn settle(&mut self, folder: &Path, configuration: Option<PathBuf>) {
         self.nearest.insert(folder.to_owned(), configuration);

@@ -38,6 +38,7 @@ pub mod on_circles;
 mod output;
 pub mod pictures;
 mod records;
+pub mod schema;
 pub mod stiction;
 mod strings;
 pub mod svg;

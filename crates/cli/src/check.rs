@@ -20,13 +20,15 @@ use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
+use super::watch::Saves;
 use frictcomp::diagnostic::Severity;
 use frictcomp::session::{Causes, Findings, NoteKind, Notes};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, ChangedPrograms, Disk, ExecutedProgram, HostError, Input, Ledger, LoadedMachine,
-    Naming, Revision, find_programs, in_order, main_programs, processors, run_alone,
+    Alone, Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, HostError, Input, Ledger,
+    LoadedMachine, Naming, Revision, find_programs, in_order, is_source, main_programs, processors,
+    run_alone,
 };
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
@@ -55,6 +57,9 @@ pub(super) struct CheckArgs {
     /// Check called programs by themselves, too
     #[arg(long)]
     all: bool,
+    /// Check again after each save, only what the change reaches
+    #[arg(long, conflicts_with_all = ["changed", "fix", "diff", "unknowns", "opaque", "write_baseline", "output"])]
+    watch: bool,
     #[command(flatten)]
     baseline: BaselineArgs,
     #[command(flatten)]
@@ -70,10 +75,46 @@ pub(super) struct CheckArgs {
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let console = args.listing.console(console);
-    Failures::of(console, |failures| check(args, console, failures))
+    if args.watch {
+        return watch(args, console);
+    }
+    Failures::of(console, |failures| check(args, console, (None, failures)))
 }
 
-fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+/// Checks all programs, and after each save what it reaches. Ends where it cannot watch any more.
+fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    if args.paths.iter().any(|path| path.as_os_str() == "-") {
+        let failure = Failure::new("standard input is not saved, so it cannot be watched");
+        return Err(failure.with_help("name programs or folders"));
+    }
+    let mut saves = Saves::new()?;
+    saves.watch(args.paths.iter().map(PathBuf::as_path))?;
+    let mut saved: Option<Vec<ChangedFile>> = None;
+    loop {
+        let mut machines = args.machine.machines(&Ledger::default());
+        let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+        for input in &found.inputs {
+            // Why a machine cannot be used is said by the check.
+            let _ = machines.for_folder(input.folder());
+        }
+        saves.watch(machines.folders())?;
+        let done = Failures::of(console, |failures| {
+            check(args, console, (saved.take(), failures))
+        });
+        if let Err(failure) = done {
+            console.explain(&failure);
+        }
+        saves.say();
+        let extensions = machines.extensions(args.paths.first().map_or(Path::new(""), |it| it));
+        saved = Some(saves.next(|path| is_source(path, extensions.as_deref()))?);
+    }
+}
+
+fn check(
+    args: &CheckArgs,
+    console: Console,
+    (saved, failures): (Option<Vec<ChangedFile>>, &mut Failures),
+) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
     let (paths, since) = args.since()?;
@@ -85,6 +126,10 @@ fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<
         let changed = failures.keep(changed?);
         console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
         inputs = changed.inputs;
+    }
+    if let Some(saved) = saved {
+        let changed = ChangedPrograms::of(saved, &inputs, &mut machines, processors());
+        inputs = failures.keep(changed).inputs;
     }
     for input in &inputs {
         input.note(&ledger);

@@ -61,6 +61,7 @@ mod tune;
 mod values;
 mod verify;
 mod vocabulary;
+mod watch;
 mod wildcards;
 
 use std::ffi::OsString;

@@ -51,6 +51,16 @@ impl ChangedPrograms {
         workers: NonZeroUsize,
     ) -> Result<(Self, Vec<HostError>), HostError> {
         let files = revision.changes()?;
+        Ok(Self::of(files, inputs, machines, workers))
+    }
+
+    /// The same for files that are known to differ.
+    pub fn of(
+        files: Vec<ChangedFile>,
+        inputs: &[Input],
+        machines: &mut Machines,
+        workers: NonZeroUsize,
+    ) -> (Self, Vec<HostError>) {
         if files.is_empty() {
             let none = Self {
                 inputs: Vec::new(),
@@ -58,7 +68,7 @@ impl ChangedPrograms {
                 is_machine_changed: false,
                 extensions: BTreeSet::new(),
             };
-            return Ok((none, Vec::new()));
+            return (none, Vec::new());
         }
         let (graph, errors) = CallGraph::of(inputs, machines, workers);
         let changes = Changes::new(&files, machines);
@@ -86,7 +96,7 @@ impl ChangedPrograms {
             is_machine_changed,
             extensions,
         };
-        Ok((changed, errors))
+        (changed, errors)
     }
 
     /// Whether a file is a program by its name.

@@ -42,6 +42,23 @@ pub struct OldFile {
     blob: String,
 }
 
+impl ChangedFile {
+    /// A file that was saved, or that is gone now.
+    pub fn saved(path: PathBuf) -> Self {
+        if path.exists() {
+            return Self {
+                new: Some(path),
+                old: None,
+            };
+        }
+        let blob = String::new();
+        Self {
+            new: None,
+            old: Some(OldFile { path, blob }),
+        }
+    }
+}
+
 impl Revision {
     /// A revision by its name, in the repository of a folder.
     ///

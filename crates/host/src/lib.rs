@@ -86,7 +86,7 @@ pub use dry_run::{
 };
 pub use encoded_text::{EncodedText, NotEncodable};
 pub use error::HostError;
-pub use file_kind::{CONFIG_NAME, is_program};
+pub use file_kind::{CONFIG_NAME, is_program, is_source};
 pub use finder::{ProgramFinder, Reach};
 pub use first_look::{outline_of, write_new};
 pub use git::{ChangedFile, OldFile, Revision};

@@ -2,6 +2,8 @@
 
 #[path = "lsp/fixes.rs"]
 mod fixes;
+#[path = "lsp/calls.rs"]
+mod calls;
 mod folder;
 #[path = "lsp/lifecycle.rs"]
 mod lifecycle;

@@ -225,6 +225,22 @@ impl CallGraph {
         reached
     }
 
+    /// The programs that reach a program by their calls, itself aside, by their positions.
+    pub fn callers(&self, program: usize) -> Vec<usize> {
+        let mut reached = vec![false; self.programs.len()];
+        let mut next = vec![program];
+        while let Some(at) = next.pop() {
+            let callers = self.programs[at].called_by.iter();
+            for caller in callers.copied() {
+                if !std::mem::replace(&mut reached[caller], true) {
+                    next.push(caller);
+                }
+            }
+        }
+        reached[program] = false;
+        (0..reached.len()).filter(|at| reached[*at]).collect()
+    }
+
     fn edges(&self) -> Vec<Vec<usize>> {
         let calls = self.programs.iter().map(|program| program.calls.iter());
         calls

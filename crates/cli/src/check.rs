@@ -20,7 +20,7 @@ use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
-use super::watch::Saves;
+use super::watch::FileWatch;
 use frictcomp::diagnostic::Severity;
 use frictcomp::session::{Causes, Findings, NoteKind, Notes};
 use frictcomp::text::shown_path;
@@ -37,6 +37,8 @@ use frictcomp_report::{ListingFormat, command_line, wrap};
 /// A program that another one calls is checked in its callers: it is not checked by itself if it holds
 /// neither M02 nor M30 and a main program of this call executes it to its end.
 #[derive(Debug, Args)]
+// Each is a switch of its own on the command line.
+#[allow(clippy::struct_excessive_bools)]
 pub(super) struct CheckArgs {
     /// Programs and folders of programs; `-` is standard input
     #[arg(value_name = "PATH", default_value = ".")]
@@ -87,8 +89,8 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         let failure = Failure::new("standard input is not saved, so it cannot be watched");
         return Err(failure.with_help("name programs or folders"));
     }
-    let mut saves = Saves::new()?;
-    saves.watch(args.paths.iter().map(PathBuf::as_path))?;
+    let mut files = FileWatch::new()?;
+    files.watch(args.paths.iter().map(PathBuf::as_path))?;
     let mut saved: Option<Vec<ChangedFile>> = None;
     loop {
         let mut machines = args.machine.machines(&Ledger::default());
@@ -97,16 +99,16 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
             // Why a machine cannot be used is said by the check.
             let _ = machines.for_folder(input.folder());
         }
-        saves.watch(machines.folders())?;
+        files.watch(machines.folders())?;
         let done = Failures::of(console, |failures| {
             check(args, console, (saved.take(), failures))
         });
         if let Err(failure) = done {
             console.explain(&failure);
         }
-        saves.say();
+        files.say();
         let extensions = machines.extensions(args.paths.first().map_or(Path::new(""), |it| it));
-        saved = Some(saves.next(|path| is_source(path, extensions.as_deref()))?);
+        saved = Some(files.next(|path| is_source(path, extensions.as_deref()))?);
     }
 }
 
@@ -117,11 +119,11 @@ fn check(
 ) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
-    let (paths, since) = args.since()?;
+    let Since { paths, revision } = args.since()?;
     let found = find_programs(&paths, |folder| machines.extensions(folder));
     failures.extend(Failures::from(found.failures));
     let mut inputs = found.inputs;
-    if let Some((name, revision)) = &since {
+    if let Some((name, revision)) = &revision {
         let changed = ChangedPrograms::since(revision, &inputs, &mut machines, processors());
         let changed = failures.keep(changed?);
         console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
@@ -231,12 +233,21 @@ fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
     }
 }
 
+/// What is checked: paths, and the revision with its name where only what changed is.
+struct Since {
+    paths: Vec<PathBuf>,
+    revision: Option<(String, Revision)>,
+}
+
 impl CheckArgs {
     /// The paths, and the revision with its name where only what changed is checked. A word after
     /// `--changed` that is no revision may be the first path.
-    fn since(&self) -> Result<(Vec<PathBuf>, Option<(String, Revision)>), Failure> {
+    fn since(&self) -> Result<Since, Failure> {
         let Some(name) = &self.changed else {
-            return Ok((self.paths.clone(), None));
+            return Ok(Since {
+                paths: self.paths.clone(),
+                revision: None,
+            });
         };
         let folder = self.paths.first().map(PathBuf::as_path);
         let folder = folder
@@ -244,7 +255,10 @@ impl CheckArgs {
             .or(folder.and_then(Path::parent));
         let folder = folder.unwrap_or(Path::new(""));
         match Revision::new(folder, name) {
-            Ok(revision) => Ok((self.paths.clone(), Some((name.clone(), revision)))),
+            Ok(revision) => Ok(Since {
+                paths: self.paths.clone(),
+                revision: Some((name.clone(), revision)),
+            }),
             Err(HostError::NoRevision(_)) if Path::new(name).exists() => {
                 let mut paths = vec![PathBuf::from(name)];
                 // Without a path of its own the current folder is meant, and the word takes its place.
@@ -256,7 +270,10 @@ impl CheckArgs {
                 );
                 let head = "HEAD".to_owned();
                 let revision = Revision::new(folder, &head)?;
-                Ok((paths, Some((head, revision))))
+                Ok(Since {
+                    paths,
+                    revision: Some((head, revision)),
+                })
             }
             Err(error) => Err(error.into()),
         }
@@ -447,7 +464,7 @@ fn check_file(
     let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
     let returned = session.interpreter().returned_files();
     Ok(Found {
-        executed_to_end: returned.map(|file| file.to_string()).collect(),
+        executed_to_end: returned.map(ToString::to_string).collect(),
         findings,
         unsaid,
         uncompensated,

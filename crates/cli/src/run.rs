@@ -19,7 +19,7 @@ use super::settings;
 use super::severities::SeverityArgs;
 use super::start::StartArgs;
 use super::values;
-use super::watch::Saves;
+use super::watch::FileWatch;
 use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::session::{Session, StopPolicy, undescribed};
@@ -183,8 +183,8 @@ fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         return Err(failure.with_help("name programs"));
     }
     let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
-    let mut saves = Saves::new()?;
-    saves.watch(args.files.iter().map(PathBuf::as_path))?;
+    let mut files = FileWatch::new()?;
+    files.watch(args.files.iter().map(PathBuf::as_path))?;
     loop {
         if let Err(failure) = run_once(args, console) {
             console.explain(&failure);
@@ -195,9 +195,9 @@ fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
                 // Why a machine cannot be used was said by the run.
                 let _ = machines.for_folder(input.folder());
             }
-            saves.watch(machines.folders())?;
-            saves.say();
-            let saved = saves.next(|path| is_source(path, None))?;
+            files.watch(machines.folders())?;
+            files.say();
+            let saved = files.next(|path| is_source(path, None))?;
             let (changed, _) = ChangedPrograms::of(saved, &inputs, &mut machines, processors());
             if !changed.inputs.is_empty() {
                 break;

@@ -15,13 +15,13 @@ use frictcomp_host::{ChangedFile, Disk};
 const QUIET: Duration = Duration::from_millis(100);
 
 /// Files that are saved while somebody watches.
-pub(super) struct Saves {
+pub(super) struct FileWatch {
     watcher: RecommendedWatcher,
     events: Receiver<notify::Result<Event>>,
     watched: BTreeSet<PathBuf>,
 }
 
-impl Saves {
+impl FileWatch {
     /// Nothing is watched yet.
     pub(super) fn new() -> Result<Self, Failure> {
         let (sender, events) = mpsc::channel();

@@ -71,18 +71,18 @@ impl ChangedPrograms {
             return (none, Vec::new());
         }
         let (graph, errors) = CallGraph::of(inputs, machines, workers);
-        let changes = Changes::new(&files, machines);
+        let differing = Changes::new(&files, machines);
         let mut machine_of = BTreeMap::new();
         let mut is_machine_changed = false;
         for program in graph.programs() {
             let folder = program.input.folder();
             let is_changed = *machine_of
                 .entry(folder.to_owned())
-                .or_insert_with(|| changes.hold_machine(folder, machines));
+                .or_insert_with(|| differing.hold_machine(folder, machines));
             is_machine_changed |= is_changed;
         }
         let reached = graph.reaching(|program| {
-            machine_of.get(program.input.folder()) == Some(&true) || changes.hold(program)
+            machine_of.get(program.input.folder()) == Some(&true) || differing.hold(program)
         });
         let programs = graph.programs().iter().zip(reached);
         let reached = programs.filter(|(program, is_reached)| program.is_named && *is_reached);

@@ -164,7 +164,7 @@ impl Revision {
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
-            .map_err(no_git)?;
+            .map_err(|error| no_git(&error))?;
         let read = self.read_all(&mut child, &files, &mut texts);
         // Its pipes are closed; what it says has been read.
         let _ = child.wait();
@@ -213,11 +213,15 @@ impl Revision {
         option.push(path);
         let mut command = self.command(&["cat-file", "--filters"]);
         let output = command.arg(option).arg(&file.blob).output();
-        succeeded(output.map_err(no_git)?)
+        succeeded(output.map_err(|error| no_git(&error))?)
     }
 
     fn git(&self, arguments: &[&str]) -> Result<Vec<u8>, HostError> {
-        succeeded(self.command(arguments).output().map_err(no_git)?)
+        succeeded(
+            self.command(arguments)
+                .output()
+                .map_err(|error| no_git(&error))?,
+        )
     }
 
     fn command(&self, arguments: &[&str]) -> Command {
@@ -255,7 +259,9 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
 }
 
 fn git(folder: &Path, arguments: &[&str]) -> Result<Output, HostError> {
-    command(folder, arguments).output().map_err(no_git)
+    command(folder, arguments)
+        .output()
+        .map_err(|error| no_git(&error))
 }
 
 fn succeeded(output: Output) -> Result<Vec<u8>, HostError> {
@@ -266,7 +272,7 @@ fn succeeded(output: Output) -> Result<Vec<u8>, HostError> {
     }
 }
 
-fn no_git(error: io::Error) -> HostError {
+fn no_git(error: &io::Error) -> HostError {
     match error.kind() {
         io::ErrorKind::NotFound => HostError::NoGit,
         _ => HostError::Git(error.to_string()),

@@ -36,10 +36,8 @@ pub fn main_programs(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<bool>
             is_covered[*called] = true;
         }
     };
-    for at in 0..programs.len() {
-        if mains[at] {
-            cover(at, &mut is_covered);
-        }
+    for (at, _) in mains.iter().enumerate().filter(|(_, is_main)| **is_main) {
+        cover(at, &mut is_covered);
     }
     for circle in callers_first(&edges) {
         let left: Vec<usize> = circle
@@ -113,17 +111,14 @@ fn finish(edges: &[Vec<usize>], start: usize, is_seen: &mut [bool], finished: &m
     }
     let mut open = vec![(start, 0)];
     while let Some((at, next)) = open.last_mut() {
-        match edges[*at].get(*next) {
-            Some(to) => {
-                *next += 1;
-                if !std::mem::replace(&mut is_seen[*to], true) {
-                    open.push((*to, 0));
-                }
+        if let Some(to) = edges[*at].get(*next) {
+            *next += 1;
+            if !std::mem::replace(&mut is_seen[*to], true) {
+                open.push((*to, 0));
             }
-            None => {
-                finished.push(*at);
-                open.pop();
-            }
+        } else {
+            finished.push(*at);
+            open.pop();
         }
     }
 }

@@ -81,9 +81,10 @@ fn any_case<'a>(words: impl Iterator<Item = &'a str>) -> String {
         }
         for letter in word.chars() {
             let (upper, lower) = (letter.to_ascii_uppercase(), letter.to_ascii_lowercase());
-            let _ = match upper == lower {
-                true => write!(pattern, "{letter}"),
-                false => write!(pattern, "[{upper}{lower}]"),
+            let _ = if upper == lower {
+                write!(pattern, "{letter}")
+            } else {
+                write!(pattern, "[{upper}{lower}]")
             };
         }
     }

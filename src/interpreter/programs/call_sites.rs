@@ -119,7 +119,7 @@ impl Sites<'_> {
             }
         }
         with_macros(block, text, MAX_MACROS, &mut |block, text| {
-            self.own(block, text)
+            self.own(block, text);
         });
     }
 

@@ -38,9 +38,12 @@ pub(super) struct ProjectCalls {
     folder: Option<PathBuf>,
     /// Rises with each save.
     saves: Arc<AtomicU64>,
-    /// The calls that were found last, after so many saves.
-    found: Arc<Mutex<Option<(u64, Arc<CallGraph>)>>>,
+    /// The calls that were found last.
+    found: Arc<Mutex<Option<FoundCalls>>>,
 }
+
+/// Calls, and the number of saves before they were found.
+type FoundCalls = (u64, Arc<CallGraph>);
 
 impl ProjectCalls {
     /// Those of a folder.
@@ -166,9 +169,9 @@ pub(super) fn outgoing(
     let programs = graph.programs();
     let caller = &programs[position(&graph, &params.item.uri)?];
     let mut seen = BTreeSet::new();
-    let called = caller.calls.iter().map(|call| call.program);
-    let called = called.filter(|program| seen.insert(*program));
-    let calls = called.filter_map(|program| {
+    let targets = caller.calls.iter().map(|call| call.program);
+    let targets = targets.filter(|program| seen.insert(*program));
+    let calls = targets.filter_map(|program| {
         Some(CallHierarchyOutgoingCall {
             to: item_of(view, &programs[program])?,
             from_ranges: lines(caller, program),
@@ -178,9 +181,9 @@ pub(super) fn outgoing(
 }
 
 /// The lines on which a program calls another one.
-fn lines(caller: &GraphProgram, called: usize) -> Vec<Range> {
+fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
     let calls = caller.calls.iter();
-    let calls = calls.filter(|call: &&FoundCall| call.program == called);
+    let calls = calls.filter(|call: &&FoundCall| call.program == program);
     calls
         .map(|call| whole_line(call.line.saturating_sub(1)))
         .collect()

@@ -30,6 +30,7 @@ pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
+pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
 pub use run::carried_ways::CarriedWays;
 pub use run::event::{

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 30] = [
+static EXAMPLES: [Examples; 32] = [
     examples(
         &["run"],
         [
@@ -39,6 +39,13 @@ static EXAMPLES: [Examples; 30] = [
         [
             "frictcomp golden --update programs",
             "frictcomp golden programs",
+        ],
+    ),
+    examples(
+        &["graph"],
+        [
+            "frictcomp graph programs",
+            "frictcomp graph --format dot -o calls.dot programs",
         ],
     ),
     examples(
@@ -162,6 +169,10 @@ static EXAMPLES: [Examples; 30] = [
     examples(
         &["config"],
         ["frictcomp config show", "frictcomp config show programs"],
+    ),
+    examples(
+        &["config", "schema"],
+        ["frictcomp config schema", "frictcomp config schema plant"],
     ),
     examples(
         &["config", "show"],

@@ -8,6 +8,7 @@
 
 mod ask;
 mod audit;
+mod baseline;
 mod channels;
 mod check;
 mod circle;
@@ -23,6 +24,7 @@ mod current;
 mod cycle;
 mod dap;
 mod diff;
+mod diff_git;
 mod drive;
 mod examples;
 mod execution;
@@ -32,6 +34,7 @@ mod fail_on;
 mod failure;
 mod failures;
 mod golden;
+mod graph;
 mod html;
 mod identify;
 mod init;
@@ -63,6 +66,7 @@ mod tune;
 mod values;
 mod verify;
 mod vocabulary;
+mod watch;
 mod wildcards;
 
 use std::ffi::OsString;
@@ -106,6 +110,7 @@ enum Command {
     Check(check::CheckArgs),
     Audit(audit::AuditArgs),
     Golden(golden::GoldenArgs),
+    Graph(graph::GraphArgs),
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
     Drive(drive::DriveArgs),
@@ -236,6 +241,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Check(args) => check::run(args, console),
         Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
+        Command::Graph(args) => graph::run(args, console),
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),
         Command::Drive(args) => drive::run(args, console),

@@ -39,6 +39,7 @@ pub mod on_circles;
 mod output;
 pub mod pictures;
 mod records;
+pub mod schema;
 pub mod states;
 pub mod stiction;
 mod strings;

@@ -11,6 +11,7 @@ use clap::Args;
 
 use super::baseline::{Baseline, BaselineArgs};
 use super::console::{Console, Printed, Target};
+use super::diff_git::unseen_remark;
 use super::execution::ExecutionArgs;
 use super::fail_on::of_axis;
 use super::failure::Failure;
@@ -127,6 +128,9 @@ fn check(
         let changed = ChangedPrograms::since(revision, &inputs, &mut machines, processors());
         let changed = failures.keep(changed?);
         console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
+        unseen_remark(&changed)
+            .iter()
+            .for_each(|it| console.remark(it));
         inputs = changed.inputs;
     }
     if let Some(saved) = saved {

@@ -66,6 +66,9 @@ pub(super) fn run(
              of today"
         ));
     }
+    unseen_remark(&changed)
+        .iter()
+        .for_each(|it| console.remark(it));
     let pairs = pairs(&changed, (&disk, paths));
     let comparer = Comparer {
         args,
@@ -106,6 +109,24 @@ pub(super) fn run(
         exit::CLEAN
     } else {
         exit::FOUND
+    })
+}
+
+/// Names what git does not look at, so that a change of it is not seen.
+pub(super) fn unseen_remark(changed: &ChangedPrograms) -> Option<String> {
+    const MOST_NAMED: usize = 5;
+    let names = changed.unseen.iter().take(MOST_NAMED);
+    let names: Vec<String> = names.map(|path| format!("`{}`", shown(path))).collect();
+    let more = if changed.unseen.len() > MOST_NAMED {
+        ", \u{2026}"
+    } else {
+        ""
+    };
+    (!names.is_empty()).then(|| {
+        format!(
+            "git does not follow {}{more}: a change there is not seen",
+            names.join(", ")
+        )
     })
 }
 

@@ -304,6 +304,24 @@ fn what_git_cannot_say_is_an_error() {
 }
 
 #[test]
+fn what_git_does_not_follow_is_named() {
+    // R17.4
+    let bench = repository();
+    bench.write(".gitignore", "made.nc\n");
+    bench.write("made.nc", SUB);
+    bench.write("a.nc", &caller("made.nc"));
+    let said = talk(&bench, &["check", "--changed", "."]);
+    assert!(
+        said.contains("git does not follow `made.nc`: a change there is not seen"),
+        "{said}"
+    );
+    commit(&bench);
+    let said = talk(&bench, &["diff", "--git", "HEAD", "."]);
+    assert!(said.contains("git does not follow `made.nc`"), "{said}");
+    assert!(!talk(&bench, &["check", "--changed", "b.nc"]).contains("does not follow"));
+}
+
+#[test]
 fn ten_thousand_changed_files_are_compared() {
     // R17.4
     let bench = Bench::new(&[]);

@@ -22,8 +22,12 @@ pub struct ChangedPrograms {
     pub files: Vec<ChangedFile>,
     /// Whether a configuration or a list differs.
     pub is_machine_changed: bool,
+    /// The programs and lists that git does not look at: those that it ignores, or that lie elsewhere.
+    pub unseen: Vec<PathBuf>,
     /// The extensions that programs have here, in lower case.
     extensions: BTreeSet<String>,
+    /// The programs that were looked at.
+    read: Vec<PathBuf>,
 }
 
 /// What differs, as programs are compared with it.
@@ -51,7 +55,16 @@ impl ChangedPrograms {
         workers: NonZeroUsize,
     ) -> Result<(Self, Vec<HostError>), HostError> {
         let files = revision.changes()?;
-        Ok(Self::of(files, inputs, machines, workers))
+        let (mut changed, errors) = Self::of(files, inputs, machines, workers);
+        if !changed.read.is_empty() {
+            let mut seen = revision.files()?;
+            seen.extend(changed.files.iter().filter_map(|file| file.new.clone()));
+            let lists = machines.files_read();
+            let read = std::mem::take(&mut changed.read).into_iter().chain(lists);
+            let unseen = read.filter(|path| !seen.contains(&Disk::place(path)));
+            changed.unseen = unseen.collect();
+        }
+        Ok((changed, errors))
     }
 
     /// The same for files that are known to differ.
@@ -61,15 +74,6 @@ impl ChangedPrograms {
         machines: &mut Machines,
         workers: NonZeroUsize,
     ) -> (Self, Vec<HostError>) {
-        if files.is_empty() {
-            let none = Self {
-                inputs: Vec::new(),
-                files,
-                is_machine_changed: false,
-                extensions: BTreeSet::new(),
-            };
-            return (none, Vec::new());
-        }
         let (graph, errors) = CallGraph::of(inputs, machines, workers);
         let differing = Changes::new(&files, machines);
         let mut machine_of = BTreeMap::new();
@@ -88,13 +92,16 @@ impl ChangedPrograms {
         let reached = programs.filter(|(program, is_reached)| program.is_named && *is_reached);
         let inputs = reached.map(|(program, _)| program.input.clone()).collect();
         let paths = graph.programs().iter().filter_map(path_of);
+        let read = paths.clone().map(Path::to_owned).collect();
         let extensions = paths.filter_map(|path| path.extension()?.to_str());
         let extensions = extensions.map(str::to_ascii_lowercase).collect();
         let changed = Self {
             inputs,
             files,
             is_machine_changed,
+            unseen: Vec::new(),
             extensions,
+            read,
         };
         (changed, errors)
     }

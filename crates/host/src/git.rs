@@ -1,7 +1,7 @@
 //! What differs between the files of a folder and a revision of its git repository, told by the command
 //! `git` (R17.4).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -114,6 +114,17 @@ impl Revision {
             }
         }
         Ok(changes)
+    }
+
+    /// The files of the work tree that git follows.
+    ///
+    /// # Errors
+    /// The command `git` fails.
+    pub fn files(&self) -> Result<BTreeSet<PathBuf>, HostError> {
+        let listed = self.git(&["ls-files", "-z"])?;
+        let paths = listed.split(|byte| *byte == 0);
+        let paths = paths.filter(|path| !path.is_empty());
+        Ok(paths.map(|path| self.top.join(os(path))).collect())
     }
 
     /// The rows of `git diff --raw -z`.

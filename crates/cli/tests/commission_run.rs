@@ -494,6 +494,37 @@ fn what_speaks_against_a_list_is_named() {
     );
 }
 
+/// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
+/// are exchanged are found by the strokes.
+#[test]
+fn channels_of_the_wrong_axis_are_found() {
+    let track = friction(0, 1.0);
+    let mut text = String::from("t;A.v [mm/s];A.torque;B.v [mm/s];B.torque\n");
+    for line in track.lines().skip(1) {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|it| it.parse().expect("a number"))
+            .collect();
+        writeln!(text, "{};{};{};0;0", cells[0], cells[1] / 1000.0, cells[3]).expect("text");
+    }
+    for ([a, b], words) in [
+        (["X", "Y"], "X: provisional list"),
+        (["Y", "X"], "two axes are mixed"),
+    ] {
+        let folder = planned();
+        put(
+            folder.path(),
+            "both.csv",
+            &text
+                .replace("A.", &format!("{a}."))
+                .replace("B.", &format!("{b}.")),
+        );
+        let channels = ["--velocity", "%.v", "--torque", "%.torque"];
+        let (status, said) = run(folder.path(), &channels);
+        assert!(status == Some(1) && said.contains(words), "{said}");
+    }
+}
+
 /// R16.2: without a plan, or without recordings, nothing is invented.
 #[test]
 fn without_a_plan_there_is_nothing_to_read() {

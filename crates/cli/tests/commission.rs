@@ -88,13 +88,10 @@ fn commission(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
 
 fn programs(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
-    let names = entries.map(|it| {
-        it.expect("an entry")
-            .file_name()
-            .to_string_lossy()
-            .into_owned()
-    });
-    let mut names: Vec<String> = names.filter(|it| it.ends_with(".nc")).collect();
+    let paths = entries.map(|it| it.expect("an entry").path());
+    let programs = paths.filter(|it| it.extension().is_some_and(|it| it == "nc"));
+    let names = programs.filter_map(|it| Some(it.file_name()?.to_string_lossy().into_owned()));
+    let mut names: Vec<String> = names.collect();
     names.sort();
     names
 }

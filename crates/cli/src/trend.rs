@@ -48,7 +48,9 @@ pub(super) struct TrendArgs {
 pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
     let ledger = Ledger::default();
-    paths.iter().for_each(|path| ledger.reads("trace", path));
+    for path in &paths {
+        ledger.reads("trace", path);
+    }
     let mut outputs = Outputs::new(&ledger, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.print("the result")?;
@@ -136,10 +138,8 @@ impl TrendArgs {
 fn date_in(name: &str) -> Option<(String, f64)> {
     const FORM: &str = "0000-00-00";
     let starts = name.char_indices().map(|(at, _)| at);
-    let texts = starts.filter_map(|at| name.get(at..at + FORM.len()));
-    texts
-        .filter_map(|text| Some((text.to_owned(), day_of(text)?)))
-        .next()
+    let mut texts = starts.filter_map(|at| name.get(at..at + FORM.len()));
+    texts.find_map(|text| Some((text.to_owned(), day_of(text)?)))
 }
 
 /// The days from 1970-01-01 to a date of the Gregorian calendar.

@@ -88,13 +88,10 @@ fn commission(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
 
 fn programs(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
-    let names = entries.map(|it| {
-        it.expect("an entry")
-            .file_name()
-            .to_string_lossy()
-            .into_owned()
-    });
-    let mut names: Vec<String> = names.filter(|it| it.ends_with(".nc")).collect();
+    let paths = entries.map(|it| it.expect("an entry").path());
+    let programs = paths.filter(|it| it.extension().is_some_and(|it| it == "nc"));
+    let names = programs.filter_map(|it| Some(it.file_name()?.to_string_lossy().into_owned()));
+    let mut names: Vec<String> = names.collect();
     names.sort();
     names
 }
@@ -236,6 +233,24 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
     );
     assert!(text.contains(sum), "{text}");
     assert!(!text.contains("G00"), "{text}");
+}
+
+/// R16.9: a plan whose recordings may be there already gives way to no other one.
+#[test]
+fn a_plan_is_not_replaced_by_another_one() {
+    let folder = folder();
+    let one = [&SMALL[..], &["-o", "one"]].concat();
+    let (status, said) = commission(folder.path(), &one);
+    assert_eq!(status, Some(0), "{said}");
+    let other = ["--approach", "500"];
+    let (status, said) = commission(folder.path(), &[&one[..], &other].concat());
+    assert_eq!(status, Some(2), "{said}");
+    assert!(
+        said.contains("`one/plan-1.json` holds another plan"),
+        "{said}"
+    );
+    let (status, said) = commission(folder.path(), &[&one[..], &other, &["--force"]].concat());
+    assert_eq!(status, Some(0), "{said}");
 }
 
 /// R16.1: the page for the operator is one page of plain letters, and says what has to be recorded.

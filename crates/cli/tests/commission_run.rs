@@ -250,64 +250,8 @@ fn provisional(folder: &Path, axis: &str) -> String {
 fn from_recordings_to_accepted_lists() {
     let folder = planned();
     let folder = folder.path();
-    let (status, text) = run(folder, &[]);
-    assert_eq!(status, Some(1), "{text}");
-    assert!(
-        text.contains("missing: a recording of 01-friction-X.nc") && text.contains("X: no list"),
-        "{text}"
-    );
-    // The names tell nothing, the content does.
-    put(folder, "a.csv", &friction(1, 1.0));
-    put(folder, "b.csv", &friction(0, 1.0));
-    let (status, text) = run(folder, &[]);
-    assert_eq!(status, Some(1), "{text}");
-    assert!(
-        text.contains("X: provisional list m/lists/X-provisional-")
-            && text.contains(".lis, from b.csv"),
-        "{text}"
-    );
-    assert!(
-        text.contains("missing: a recording of 03-circle-2000.nc"),
-        "{text}"
-    );
-    assert!(text.contains("no list is accepted: stage 2"), "{text}");
-    let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
-    let (status, checked) = (call(folder, &["lists", &lists[0]]), "lists");
-    assert_eq!(
-        status.status.code(),
-        Some(0),
-        "{checked}: {}",
-        said(&status)
-    );
-    // Fc 512.5 N, Fs 632.5 N, fv 4 N s/mm at 5 N a drive unit.
-    let list = list_in(&folder.join(&lists[0]));
-    assert!(list.table.len() > 4);
-    for point in &list.table {
-        let speed = point.input / 1000.0;
-        let expected = (512.5 + 120.0 * (-speed.max(0.5) / 3.0).exp() + 4.0 * speed) / 5.0;
-        assert!(
-            (point.output / expected - 1.0).abs() < 0.03,
-            "{point:?}: {expected}"
-        );
-    }
-    let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at]));
-    let stage_2 = [&PLAN[..], &["m", "--value-list", &x, "--value-list", &y]].concat();
-    let output = call(folder, &stage_2);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    for (at, feed) in FEEDS.into_iter().enumerate() {
-        let off = format!("m/{:02}-circle-{feed}.nc", at + 3);
-        put(
-            folder,
-            &format!("off{feed}.csv"),
-            &circles(folder, &off, &deviations(feed, None)),
-        );
-        let on = format!("m/{:02}-circle-{feed}.nc", at + 66);
-        put(
-            folder,
-            &format!("on{feed}.csv"),
-            &circles(folder, &on, &deviations(feed, Some(&list))),
-        );
-    }
+    first_stage(folder);
+    second_stage(folder);
     let (status, text) = run(folder, &[]);
     assert!(text.contains("10 recordings, 2 of them known"), "{text}");
     assert!(
@@ -339,6 +283,72 @@ fn from_recordings_to_accepted_lists() {
     let (_, text) = run(folder, &report);
     assert!(text.contains("10 recordings, 10 of them known"), "{text}");
     check_report(folder);
+    other_recordings(folder);
+}
+
+/// Friction alone: provisional lists, and all circles are missing.
+fn first_stage(folder: &Path) {
+    let (status, text) = run(folder, &[]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(
+        text.contains("missing: a recording of 01-friction-X.nc") && text.contains("X: no list"),
+        "{text}"
+    );
+    // The names tell nothing, the content does.
+    put(folder, "a.csv", &friction(1, 1.0));
+    put(folder, "b.csv", &friction(0, 1.0));
+    let (status, text) = run(folder, &[]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(
+        text.contains("X: provisional list m/lists/X-provisional-")
+            && text.contains(".lis, from b.csv"),
+        "{text}"
+    );
+    assert!(
+        text.contains("missing: a recording of 03-circle-2000.nc"),
+        "{text}"
+    );
+    assert!(text.contains("no list is accepted: stage 2"), "{text}");
+}
+
+/// The provisional lists are the friction of the machine; circles without and with them are recorded.
+fn second_stage(folder: &Path) {
+    let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
+    let output = call(folder, &["lists", &lists[0]]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    // Fc 512.5 N, Fs 632.5 N, fv 4 N s/mm at 5 N a drive unit.
+    let list = list_in(&folder.join(&lists[0]));
+    assert!(list.table.len() > 4);
+    for point in &list.table {
+        let speed = point.input / 1000.0;
+        let expected = (512.5 + 120.0 * (-speed.max(0.5) / 3.0).exp() + 4.0 * speed) / 5.0;
+        assert!(
+            (point.output / expected - 1.0).abs() < 0.03,
+            "{point:?}: {expected}"
+        );
+    }
+    let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at]));
+    let stage_2 = [&PLAN[..], &["m", "--value-list", &x, "--value-list", &y]].concat();
+    let output = call(folder, &stage_2);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    for (at, feed) in FEEDS.into_iter().enumerate() {
+        let off = format!("m/{:02}-circle-{feed}.nc", at + 3);
+        put(
+            folder,
+            &format!("off{feed}.csv"),
+            &circles(folder, &off, &deviations(feed, None)),
+        );
+        let on = format!("m/{:02}-circle-{feed}.nc", at + 66);
+        put(
+            folder,
+            &format!("on{feed}.csv"),
+            &circles(folder, &on, &deviations(feed, Some(&list))),
+        );
+    }
+}
+
+/// Another round, then a recording that changed.
+fn other_recordings(folder: &Path) {
     // Other lists are another round: no recording of round 2 is taken for one of round 3.
     let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];
     let output = call(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
@@ -442,12 +452,11 @@ fn what_speaks_against_a_list_is_named() {
         &|it| format!("{},{},{},{}", it[0], it[1], it[2], (it[0] * 1e6) as i64 % 7),
         head,
     );
-    let unsigned: String = good
+    let after = good
         .lines()
         .enumerate()
-        .filter(|(at, _)| *at == 0 || *at > 14_000)
-        .map(|(_, it)| format!("{it}\n"))
-        .collect();
+        .filter(|(at, _)| *at == 0 || *at > 18_000);
+    let unsigned = after.map(|(_, it)| it).collect::<Vec<_>>().join("\n");
     let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
     for (files, words) in [
         (
@@ -492,6 +501,37 @@ fn what_speaks_against_a_list_is_named() {
             && text.contains("Y: no list"),
         "{text}"
     );
+}
+
+/// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
+/// are exchanged are found by the strokes.
+#[test]
+fn channels_of_the_wrong_axis_are_found() {
+    let track = friction(0, 1.0);
+    let mut text = String::from("t;A.v [mm/s];A.torque;B.v [mm/s];B.torque\n");
+    for line in track.lines().skip(1) {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|it| it.parse().expect("a number"))
+            .collect();
+        writeln!(text, "{};{};{};0;0", cells[0], cells[1] / 1000.0, cells[3]).expect("text");
+    }
+    for ([a, b], words) in [
+        (["X", "Y"], "X: provisional list"),
+        (["Y", "X"], "two axes are mixed"),
+    ] {
+        let folder = planned();
+        put(
+            folder.path(),
+            "both.csv",
+            &text
+                .replace("A.", &format!("{a}."))
+                .replace("B.", &format!("{b}.")),
+        );
+        let channels = ["--velocity", "%.v", "--torque", "%.torque"];
+        let (status, said) = run(folder.path(), &channels);
+        assert!(status == Some(1) && said.contains(words), "{said}");
+    }
 }
 
 /// R16.2: without a plan, or without recordings, nothing is invented.

@@ -60,7 +60,7 @@ fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
 #[test]
 fn states_stand_side_by_side() {
     let folder = folder(&[("cold.csv", 1.2, 0.0), ("warm.csv", 1.0, 0.0)]);
-    let states = [
+    let recorded = [
         "identify",
         "--recording",
         "cold=r/cold.csv",
@@ -69,7 +69,7 @@ fn states_stand_side_by_side() {
     ];
     let (status, said) = call(
         folder.path(),
-        &[&states[..], &["-o", "x.lis", "--svg", "x.svg"]].concat(),
+        &[&recorded[..], &["-o", "x.lis", "--svg", "x.svg"]].concat(),
     );
     assert_eq!(status, Some(0), "{said}");
     assert!(said.contains("speed cold warm spread"), "{said}");
@@ -99,7 +99,7 @@ fn states_stand_side_by_side() {
     assert!(svg.contains("cold") && svg.contains("warm"));
     let (status, said) = call(
         folder.path(),
-        &[&states[..], &["--working", "cold", "--format", "json"]].concat(),
+        &[&recorded[..], &["--working", "cold", "--format", "json"]].concat(),
     );
     assert_eq!(status, Some(0), "{said}");
     let record: serde_json::Value = serde_json::from_str(&said).expect("a record");

@@ -148,14 +148,14 @@ struct LeftOut<'a> {
 /// The same for machines; each parameter with its standard error.
 pub fn render_json(report: &TrendReport) -> String {
     let date = |at: usize| report.dates.get(at).map_or("", |it| &it.date);
-    let dated = |it: &'_ DatedFriction| {
+    let parameters = |it: &DatedFriction| {
         FrictionParameter::ALL.map(|parameter| {
             let level = it.levels.get(parameter);
             [level.value, level.error]
         })
     };
     let dates = report.dates.iter().map(|it| {
-        let [coulomb, breakaway, viscous, offset] = dated(it);
+        let [coulomb, breakaway, viscous, offset] = parameters(it);
         Dated {
             date: &it.date,
             file: &it.file,

@@ -12,7 +12,7 @@ use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
-use frictcomp_host::{Ledger, read_text, sha256_of};
+use frictcomp_host::{Ledger, Replaces, read_text, sha256_of};
 use frictcomp_physics::motion::AxisLimits;
 use frictcomp_recordings::commission::{
     Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanRequest, Stage,
@@ -139,6 +139,14 @@ fn write(
     console: Console,
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
+    let plan = folder.join(plan_name(round));
+    let is_other = read_text(&plan).is_ok_and(|there| there != render_json(report));
+    if is_other && console.replaces(Replaces::Results) == Replaces::Results {
+        let message = format!("`{}` holds another plan", shown(&plan));
+        let help = "its recordings would be taken for those of the new one; plan in another folder, or use \
+                    `--force` where there are none";
+        return Err(Failure::new(message).with_help(help));
+    }
     let mut outputs = Outputs::new(ledger, console);
     outputs.print("the result")?;
     let pages = [
@@ -182,7 +190,7 @@ fn round(folder: Option<&Path>, lists: &[ValueListUsed]) -> u16 {
         };
         plan_in(&path).is_some_and(|it| sums(&it.lists) == sums(lists))
     };
-    (2..).find(is_free).unwrap_or(u16::MAX)
+    (2..u16::MAX).find(is_free).unwrap_or(u16::MAX)
 }
 
 impl PlanArgs {

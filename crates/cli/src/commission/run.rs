@@ -67,7 +67,9 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let plans = plans(&args.folder, &ledger)?;
     let paths = recordings_in(&args.folder.join("recordings"))?;
-    paths.iter().for_each(|path| ledger.reads("trace", path));
+    for path in &paths {
+        ledger.reads("trace", path);
+    }
     let known = known(&args.folder.join(RESULTS));
     let mut kept = 0;
     let mut results = Vec::new();
@@ -338,7 +340,7 @@ fn source_of<'a>(
         };
         frictions.clone().filter(move |(it, _)| is_so(it))
     };
-    let Some((last, found)) = of_stage(Stage::Off).last() else {
+    let Some((last, found)) = of_stage(Stage::Off).next_back() else {
         return (
             None,
             vec!["no recording of its constant speeds can be used".to_owned()],

@@ -149,3 +149,86 @@ fn looks(step_s: f64) -> usize {
 fn seconds(samples: usize, step_s: f64) -> f64 {
     samples as f64 * step_s
 }
+
+#[cfg(test)]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "rows of recordings that the tests make themselves"
+)]
+mod tests {
+    use super::*;
+
+    const STEP_S: f64 = 0.002;
+
+    /// Appends a standstill of some seconds.
+    fn rest(places: &mut Vec<f64>, seconds: f64) {
+        let place = places.last().copied().unwrap_or_default();
+        places.resize(places.len() + (seconds / STEP_S) as usize, place);
+    }
+
+    /// Appends a way there and back at a part of the feed of the strokes.
+    fn stroke(places: &mut Vec<f64>, way: f64, part: f64) {
+        for to in [way, 0.0] {
+            let from = places.last().copied().unwrap_or_default();
+            let steps =
+                ((to - from).abs() / (part * Signature::FEED / 60.0 * STEP_S)).round() as usize;
+            places.extend((1..=steps).map(|at| from + (to - from) * at as f64 / steps as f64));
+            rest(places, 0.2);
+        }
+    }
+
+    /// A program at a part of its feeds, in steps of 1 µm, with 2 µm of vibration.
+    fn recorded(strokes: &[f64], inwards: f64, part: f64) -> Vec<f64> {
+        let mut places = vec![0.0];
+        rest(&mut places, Signature::DWELL_S);
+        for way in strokes {
+            stroke(&mut places, inwards * way, part);
+        }
+        rest(&mut places, Signature::DWELL_S);
+        stroke(&mut places, inwards * 30.0, part);
+        let vibrating = places.iter().enumerate();
+        let vibrating = vibrating.map(|(at, place)| place + 0.002 * (at as f64 * 0.29).sin());
+        vibrating
+            .map(|place| (place * 1000.0).round() / 1000.0)
+            .collect()
+    }
+
+    fn numbers(places: &[f64]) -> Vec<u16> {
+        let found = signature_in(places, STEP_S);
+        found.iter().map(|it| it.0.number()).collect()
+    }
+
+    /// R16.1: the number of a program is read in either direction, at 100 % and at 10 % override.
+    #[test]
+    fn a_number_is_read_at_any_override() {
+        for number in [1, 64, 511, 682, 1023] {
+            let strokes = Signature::new(number).expect("a number").strokes();
+            for (inwards, part) in [(1.0, 1.0), (-1.0, 1.0), (1.0, 0.1)] {
+                let found = numbers(&recorded(&strokes, inwards, part));
+                assert_eq!(found, [number], "{inwards} {part}");
+            }
+        }
+        assert_eq!(Signature::new(0), None);
+        assert_eq!(Signature::new(1024), None);
+    }
+
+    /// R16.1: strokes that are no number, with a stroke too few or one of another length, are none.
+    #[test]
+    fn other_strokes_are_no_number() {
+        let strokes = Signature::new(682).expect("a number").strokes();
+        assert!(numbers(&recorded(&strokes[1..], 1.0, 1.0)).is_empty());
+        for at in 0..strokes.len() {
+            for way in [1.5, 3.0 - strokes[at]] {
+                let mut others = strokes;
+                others[at] = way;
+                assert!(
+                    numbers(&recorded(&others, 1.0, 1.0)).is_empty(),
+                    "{at} {way}"
+                );
+            }
+        }
+        assert!(numbers(&[]).is_empty());
+    }
+}

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::program::{number, told};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{Plan, Stage};
+use frictcomp_recordings::commission::{Plan, Program, Stage};
 
 /// A plan with what it rests on.
 #[derive(Debug, Clone)]
@@ -111,7 +111,7 @@ pub fn render_text(report: &PlanReport) -> String {
             "{axis}: the ramps are those of the control's defaults; give `max_jerk` where they differ"
         );
     }
-    let circles = plan.programs.iter().filter_map(|it| it.feed());
+    let circles = plan.programs.iter().filter_map(Program::feed);
     let feeds: Vec<f64> = circles.collect();
     if let (Some(slowest), Some(fastest)) = (feeds.first(), feeds.last()) {
         if feeds.len() < 6 {

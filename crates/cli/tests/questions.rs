@@ -255,6 +255,49 @@ fn a_report_says_what_was_confirmed() {
     );
 }
 
+/// R15.2, R4.2, R4.6: the additive current follows the configuration, and an option goes before it.
+#[test]
+fn the_current_follows_the_selected_readings() {
+    let bench = bench();
+    let machine = "[[axis]]\nname = \"X\"\nfrict_comp = true\n[axis.value]\nmode = 3\n\
+        reversal_lookahead = 4\ntable = [[0, 100]]\n";
+    let readings = "[reading]\n\"R4.6\" = \"zero\"\n\"R4.2\" = \"step\"\n";
+    bench.write("a.nc", "N10 G90 G01 F600 X0\nN20 X1\nN30 X0\nN40 M30\n");
+    let said = |arguments: &[&str]| {
+        let all = ["current", "a.nc", "--axis", "X", "--start", "X0"];
+        let output = bench.call(&[&all, arguments].concat());
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{text}");
+        let weights = String::from_utf8(output.stdout).expect("text");
+        let weights = weights
+            .lines()
+            .skip(1)
+            .filter_map(|row| row.split(',').nth(3));
+        let between = weights.filter(|it| *it != "0" && *it != "1").count();
+        (text, between)
+    };
+    bench.write("frictcomp.toml", machine);
+    let (text, between) = said(&[]);
+    assert!(
+        text.contains("reading: standstill=hold,below=hold"),
+        "{text}"
+    );
+    assert_eq!(between, 3);
+    bench.write("frictcomp.toml", &format!("{readings}{machine}"));
+    let (text, between) = said(&[]);
+    assert!(
+        text.contains("standstill=zero") && text.contains("decay=step"),
+        "{text}"
+    );
+    assert_eq!(between, 0);
+    let (text, between) = said(&["--reading", "standstill=hold,decay=linear"]);
+    assert!(
+        text.contains("standstill=hold") && !text.contains("decay"),
+        "{text}"
+    );
+    assert_eq!(between, 3);
+}
+
 /// R15.1, R15.3: the list says each question, both readings, and what the one in force rests on.
 #[test]
 fn the_list_says_what_is_answered() {

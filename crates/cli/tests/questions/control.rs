@@ -4,6 +4,10 @@
 use std::fmt::Write as _;
 
 /// A control with one axis.
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch of the machine"
+)]
 pub(crate) struct Control {
     /// The rule of the question, and whether the second reading is followed.
     pub(crate) asked: (&'static str, bool),

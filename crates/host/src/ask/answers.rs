@@ -92,8 +92,11 @@ pub fn read_answers(text: &str, axis: impl Fn(&str) -> AskedAxis) -> Vec<Answer>
     answers.collect()
 }
 
-/// The reading that the values of a question show, with the evidence; else why none.
-fn judge(question: Question, values: &Values) -> Result<(Alternative, String), String> {
+/// A reading with its evidence, or why there is none.
+type Judged = Result<(Alternative, String), String>;
+
+/// The reading that the values of a question show.
+fn judge(question: Question, values: &Values) -> Judged {
     if let Some(name) = values.get("reading") {
         let reading = question.reading(name);
         let noted = format!("the note says `{name}`");
@@ -103,101 +106,37 @@ fn judge(question: Question, values: &Values) -> Result<(Alternative, String), S
     if question.facts().way != Way::Program {
         return Err("what was seen is not written down yet".to_owned());
     }
-    let value = |word: &str| match values.get(word).map(String::as_str) {
-        Some("0") => Ok(false),
-        Some("1") => Ok(true),
-        Some(other) => Err(format!("`{word}` is `{other}`, neither 0 nor 1")),
-        None => Err(format!("there is no line with `{word}`")),
-    };
-    let is = |word: &str, wanted: bool, otherwise: &str| match value(word) {
-        Ok(found) if found == wanted => Ok(()),
-        Ok(_) => Err(otherwise.to_owned()),
-        Err(reason) => Err(reason),
-    };
-    let first_if = |holds: bool| {
-        if holds {
-            Alternative::First
-        } else {
-            Alternative::Second
-        }
-    };
-    let starts = "the axis was not active before; it needs P-AXIS-00522 = 1 and a value list";
-    let switches = "COMP OFF FRICT had no effect; the value list or the axis is not as it must be";
     match question {
         Question::LowerCase | Question::OffUnconfigured | Question::OnWithoutList => {
-            let init = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program asks";
-            match question {
-                Question::LowerCase => is("start", true, starts)?,
-                _ => is("init", false, init)?,
-            }
-            if let Some(number) = values.get("error") {
-                return refused(question, number);
-            }
-            let answer = value("answer").map_err(|_| {
-                "the program did not come to its answer; write down the error of the control"
-                    .to_owned()
-            })?;
-            if question == Question::LowerCase && answer {
-                return Err("the command was taken and had no effect".to_owned());
-            }
-            if question == Question::OnWithoutList && answer {
-                return Err("the axis became active, so it has a value list".to_owned());
-            }
-            Ok((
-                Alternative::First,
-                "the program went on after the command".to_owned(),
-            ))
+            judge_refusable(question, values)
         }
-        Question::OrderInBlock => {
-            is("start", true, starts)?;
-            let (answer, other) = (value("answer")?, value("other")?);
-            if answer == other {
-                return Err(format!(
-                    "both orders leave the axis {}: neither reading holds",
-                    if answer { "on" } else { "off" }
-                ));
-            }
-            Ok((
-                first_if(answer),
-                format!("off and on leaves {}", u8::from(answer)),
-            ))
-        }
+        Question::OrderInBlock => judge_order(values),
         Question::ManualActivation => {
-            is(
-                "init",
-                true,
-                "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation",
-            )?;
-            let answer = value("answer")?;
-            Ok((
-                first_if(!answer),
-                format!("LEAD is {} at the start", u8::from(answer)),
-            ))
+            let otherwise = "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation";
+            require(values, ("init", true), otherwise)?;
+            let answer = value(values, "answer")?;
+            let evidence = format!("LEAD is {} at the start", u8::from(answer));
+            Ok((first_if(!answer), evidence))
         }
         Question::SkipLevel => {
-            let answer = value("answer")?;
+            let answer = value(values, "answer")?;
             let what = if answer { "executed" } else { "skipped" };
-            Ok((
-                first_if(!answer),
-                format!("the marked block was {what} after the level was turned on"),
-            ))
+            let evidence = format!("the marked block was {what} after the level was turned on");
+            Ok((first_if(!answer), evidence))
         }
         Question::BlockSearch => {
-            is(
-                "searched",
-                true,
-                "it is not noted that a block search started the program",
-            )?;
-            let answer = value("answer")?;
-            Ok((
-                first_if(!answer),
-                format!("the state after the search is {}", u8::from(answer)),
-            ))
+            let otherwise = "it is not noted that a block search started the program";
+            require(values, ("searched", true), otherwise)?;
+            let answer = value(values, "answer")?;
+            let evidence = format!("the state after the search is {}", u8::from(answer));
+            Ok((first_if(!answer), evidence))
         }
         _ => {
-            is("start", true, starts)?;
-            is("off", false, switches)?;
-            let answer = value("answer")?;
+            require(values, ("start", true), STARTS)?;
+            let otherwise =
+                "COMP OFF FRICT had no effect; the value list or the axis is not as it must be";
+            require(values, ("off", false), otherwise)?;
+            let answer = value(values, "answer")?;
             let goes_back = matches!(question, Question::Restart | Question::MachineData);
             let evidence = format!("switched off, the state is {} afterwards", u8::from(answer));
             Ok((first_if(answer == goes_back), evidence))
@@ -205,8 +144,76 @@ fn judge(question: Question, values: &Values) -> Result<(Alternative, String), S
     }
 }
 
+const STARTS: &str = "the axis was not active before; it needs P-AXIS-00522 = 1 and a value list";
+
+fn value(values: &Values, word: &str) -> Result<bool, String> {
+    match values.get(word).map(String::as_str) {
+        Some("0") => Ok(false),
+        Some("1") => Ok(true),
+        Some(other) => Err(format!("`{word}` is `{other}`, neither 0 nor 1")),
+        None => Err(format!("there is no line with `{word}`")),
+    }
+}
+
+/// What must have been so for the answer to count.
+fn require(values: &Values, (word, wanted): (&str, bool), otherwise: &str) -> Result<(), String> {
+    if value(values, word)? == wanted {
+        Ok(())
+    } else {
+        Err(otherwise.to_owned())
+    }
+}
+
+fn first_if(holds: bool) -> Alternative {
+    if holds {
+        Alternative::First
+    } else {
+        Alternative::Second
+    }
+}
+
+/// A command that the control takes or refuses.
+fn judge_refusable(question: Question, values: &Values) -> Judged {
+    if question == Question::LowerCase {
+        require(values, ("start", true), STARTS)?;
+    } else {
+        let otherwise = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program asks";
+        require(values, ("init", false), otherwise)?;
+    }
+    if let Some(number) = values.get("error") {
+        return refused(question, number);
+    }
+    let answer = value(values, "answer").map_err(|_| {
+        "the program did not come to its answer; write down the error of the control".to_owned()
+    })?;
+    match question {
+        Question::LowerCase if answer => Err("the command was taken and had no effect".to_owned()),
+        Question::OnWithoutList if answer => {
+            Err("the axis became active, so it has a value list".to_owned())
+        }
+        _ => Ok((
+            Alternative::First,
+            "the program went on after the command".to_owned(),
+        )),
+    }
+}
+
+/// Two blocks with opposite commands, in either order.
+fn judge_order(values: &Values) -> Judged {
+    require(values, ("start", true), STARTS)?;
+    let (answer, other) = (value(values, "answer")?, value(values, "other")?);
+    if answer == other {
+        let left = if answer { "on" } else { "off" };
+        return Err(format!(
+            "both orders leave the axis {left}: neither reading holds"
+        ));
+    }
+    let evidence = format!("off and on leaves {}", u8::from(answer));
+    Ok((first_if(answer), evidence))
+}
+
 /// An error of the control at the command that is asked about.
-fn refused(question: Question, number: &str) -> Result<(Alternative, String), String> {
+fn refused(question: Question, number: &str) -> Judged {
     let number = number.trim_start_matches("P-ERR-");
     if number == "70495" && question == Question::OnWithoutList {
         return Err("P-ERR-70495 says that P-AXIS-00522 of the axis is 0".to_owned());

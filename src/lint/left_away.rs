@@ -231,17 +231,13 @@ impl Subject<'_> {
             };
             diagnostic = diagnostic.with_label(end.place.clone(), text);
         }
-        let only = match diagnostic.ends.as_slice() {
-            [only] => self.ended.at.filter(|at| *at == only),
-            _ => None,
-        };
-        let place = only.filter(|at| self.ended.is_passed_into && is_lone_m(&at.text));
-        match place.map(start_of) {
-            Some(place) => {
+        let mut ends = self.ends();
+        match (ends.next(), ends.next()) {
+            (Some(only), None) if only.is_passed_into && is_lone_m(&only.place.text) => {
                 let block = format!("{}\n", self.way_home());
-                diagnostic.with_fix(Fix::guess(place, block))
+                diagnostic.with_fix(Fix::guess(start_of(&only.place), block))
             }
-            None => diagnostic,
+            _ => diagnostic,
         }
     }
 }

@@ -403,6 +403,11 @@ fn the_end_that_was_reached_is_named() {
         (
             "N30 $IF V.E.A==1\nM30\n$ENDIF\nX[COMP ON FRICT]\nM30\n",
             vec![4],
+            true,
+        ),
+        (
+            "N30 $IF V.E.A==1\n$GOTO N50\n$ENDIF\nX[COMP ON FRICT]\nN50: M30\n",
+            vec![7],
             false,
         ),
         ("N30 $GOTO N50\nN40 X1\nN50: M30\n", vec![5], false),

@@ -10,5 +10,6 @@ pub(super) mod modal;
 pub(super) mod motion;
 pub(super) mod moving;
 pub(super) mod pace;
+pub(super) mod saved;
 pub(super) mod simplified;
 pub(super) mod slope;

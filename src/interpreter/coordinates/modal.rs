@@ -58,7 +58,7 @@ pub struct GFunctions {
     /// How blocks end, G359 and G360.
     pub block_end: BlockEnd,
     /// Groups whose active function is not known offline (R2.51).
-    unknown: GroupSet,
+    pub(super) unknown: GroupSet,
 }
 
 impl Default for GFunctions {
@@ -111,34 +111,6 @@ pub struct Modal {
     /// What G92 set before `#MCS ON`, which comes back with `#MCS OFF`.
     suspended: Option<Vec<Option<f64>>>,
 }
-
-/// What the end of a cycle brings back (P-CHAN-00210): G functions and feeds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Saved {
-    functions: GFunctions,
-    transformed: [bool; 2],
-}
-
-impl Saved {
-    /// What may also have been saved instead becomes unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
-        if self == other {
-            return;
-        }
-        for group in Group::ALL {
-            self.functions.unknown.insert(group);
-        }
-        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
-            *mine = mine.filter(|_| *mine == theirs);
-        }
-        for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
-            *mine |= theirs;
-        }
-    }
-}
-
-/// G functions that take positions away from the machine's.
-const TRANSFORMING: [&str; 2] = ["G41", "G21"];
 
 impl Modal {
     /// The defaults at program start. Where the axes stand is not known.
@@ -202,25 +174,6 @@ impl Modal {
     /// Whether it is known which G function of a group is in force.
     pub fn is_known(&self, group: Group) -> bool {
         !self.functions.unknown.contains(group)
-    }
-
-    /// What a cycle may change and its end brings back.
-    pub(in crate::interpreter) fn save(&self) -> Saved {
-        Saved {
-            functions: self.functions.clone(),
-            transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
-        }
-    }
-
-    /// The end of a cycle.
-    pub(in crate::interpreter) fn restore(&mut self, saved: &Saved) {
-        if self.functions.offset != saved.functions.offset {
-            self.forget_positions();
-        }
-        self.functions = saved.functions.clone();
-        for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
-            self.transform(name, on);
-        }
     }
 
     /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
@@ -330,7 +283,7 @@ impl Modal {
     /// Enters or leaves a transformation.
     /// The coordinates before and after are those of different systems, except with cutter radius
     /// compensation, which leaves the program's coordinates as they are.
-    fn transform(&mut self, name: &str, on: bool) {
+    pub(super) fn transform(&mut self, name: &str, on: bool) {
         let changed = if on {
             self.transformed.insert(name.to_owned())
         } else {

@@ -116,7 +116,6 @@ impl Interpreter {
             by,
             endless: std::mem::take(&mut self.work.endless),
             at: at.as_ref().map(|end| &end.place),
-            is_passed_into: at.as_ref().is_some_and(|end| end.is_passed_into),
             ends: &ends,
             changes: &changes,
             diagnostics: &notes.said,
@@ -137,6 +136,7 @@ impl Interpreter {
         let place = at.map(|end| end.place.clone()).or(last);
         let reached = place.map(|place| ProgramEnd {
             place,
+            is_passed_into: at.is_some_and(|end| end.is_passed_into),
             cause: None,
             compensation: self.left_with(own.as_deref()),
         });
@@ -145,6 +145,7 @@ impl Interpreter {
             let is_reached = at.is_some_and(|at| at.place == place);
             (!is_reached).then(|| ProgramEnd {
                 place,
+                is_passed_into: false,
                 cause: Some(end.cause),
                 compensation: self.left_with(Some(&end.kinds)),
             })

@@ -87,6 +87,7 @@ impl Interpreter {
             let cause = number.and_then(|number| self.state.conditions.get(number as usize));
             ends.push(ProgramEnd {
                 place,
+                is_passed_into: matches!(end.at, Some((_, Passed::Into))),
                 cause: cause
                     .filter(|_| !ends.is_empty())
                     .map(|found| found.cause.clone()),

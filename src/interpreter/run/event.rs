@@ -229,6 +229,8 @@ pub struct Joined<'a> {
 pub struct ProgramEnd {
     /// The block, `M30` or the last one of the file.
     pub place: Place,
+    /// Whether no jump goes to that block, so that what is written before it comes before the end.
+    pub is_passed_into: bool,
     /// What only the machine knows and decides whether the program ends there; `None` for the end of
     /// the dry run.
     pub cause: Option<Arc<str>>,
@@ -247,8 +249,6 @@ pub struct Ended<'a> {
     pub endless: bool,
     /// The block that ends it, `M30` for instance, where it is written in a program.
     pub at: Option<&'a Place>,
-    /// Whether no jump goes to that block, so that what is written before it comes before the end.
-    pub is_passed_into: bool,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
     /// What program end changed itself.

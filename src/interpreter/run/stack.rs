@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::step::{Passage, Request};
-use crate::interpreter::coordinates::modal;
+use crate::interpreter::coordinates::saved;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::values::names::join_value;
 use crate::interpreter::values::value::Value;
@@ -33,7 +33,7 @@ pub(in crate::interpreter) struct Frame {
     /// Where it was called.
     pub(in crate::interpreter) called_from: Option<Place>,
     /// What the end of a cycle brings back.
-    pub(in crate::interpreter) restores: Option<Box<modal::Saved>>,
+    pub(in crate::interpreter) restores: Option<Box<saved::Saved>>,
     pub(in crate::interpreter) retains: Retains,
     /// Programs that are called before the next block, the first one last.
     pub(in crate::interpreter) waiting: Vec<Request>,

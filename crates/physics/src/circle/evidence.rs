@@ -5,10 +5,10 @@ use serde::Serialize;
 
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
+use super::drift::Drift;
 use super::evidence_shape::OtherShape;
 use super::linear::Normal;
 use super::profile::{Quality, RadialProfile};
-use super::recorded::Drift;
 use super::residual::{Series, other_shape};
 use super::swings::stick_slip;
 use super::turning::Turning;

@@ -12,6 +12,7 @@ mod compare;
 mod crossing;
 mod diagnosis;
 mod direction;
+mod drift;
 mod evidence;
 mod evidence_shape;
 mod figures;

@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 
 use super::crossing::Crossing;
 use super::direction::Direction;
-use super::recorded::Drift;
+use super::drift::Drift;
 
 /// Micrometres in a metre.
 pub const UM_PER_M: f64 = 1e6;

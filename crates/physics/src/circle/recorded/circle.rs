@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::cut::{Run, runs};
-use super::drift::Drift;
+use super::drift::drift;
 use super::error::RecordedError;
 use super::fit::Fit;
 use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
@@ -117,7 +117,7 @@ impl RecordedCircle {
                 found_mm: fit.radius,
             });
         }
-        let drift = Drift::over(run, &fit, points);
+        let drift = drift(run, &fit, points);
         let turned = match &drift {
             Some(drift) => drift.removed(&points[turn.clone()], run.angles_of(&turn)),
             None => points[turn.clone()].to_vec(),

@@ -15,7 +15,6 @@ mod search;
 mod trace;
 
 pub use circle::{LeftOut, RecordedCircle};
-pub(super) use drift::Drift;
 pub use error::RecordedError;
 pub use limits::MIN_POINTS;
 pub use recording::{CommandedCircle, Recording};

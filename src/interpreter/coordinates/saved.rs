@@ -1,0 +1,55 @@
+//! What the end of a cycle brings back (P-CHAN-00210).
+
+use serde::{Deserialize, Serialize};
+
+use super::group::Group;
+use super::modal::{GFunctions, Modal};
+
+/// G functions that take positions away from the machine's.
+const TRANSFORMING: [&str; 2] = ["G41", "G21"];
+
+/// G functions and feeds before a cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Saved {
+    functions: GFunctions,
+    transformed: [bool; 2],
+}
+
+impl Saved {
+    /// What may also have been saved instead becomes unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        if self == other {
+            return;
+        }
+        for group in Group::ALL {
+            self.functions.unknown.insert(group);
+        }
+        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
+            *mine |= theirs;
+        }
+    }
+}
+
+impl Modal {
+    /// What a cycle may change and its end brings back.
+    pub(in crate::interpreter) fn save(&self) -> Saved {
+        Saved {
+            functions: self.functions.clone(),
+            transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+        }
+    }
+
+    /// The end of a cycle.
+    pub(in crate::interpreter) fn restore(&mut self, saved: &Saved) {
+        if self.functions.offset != saved.functions.offset {
+            self.forget_positions();
+        }
+        self.functions = saved.functions.clone();
+        for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
+            self.transform(name, on);
+        }
+    }
+}

@@ -1,9 +1,9 @@
 //! The language server, as a client sees it.
 
-#[path = "lsp/fixes.rs"]
-mod fixes;
 #[path = "lsp/calls.rs"]
 mod calls;
+#[path = "lsp/fixes.rs"]
+mod fixes;
 mod folder;
 #[path = "lsp/lifecycle.rs"]
 mod lifecycle;

@@ -17,7 +17,10 @@ use workspace::root;
 fn validator(of: &str) -> Validator {
     let bench = Bench::new(&[]);
     let schema = json(&bench.stdout(&["config", "schema", of]));
-    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    assert_eq!(
+        schema["$schema"],
+        "https://json-schema.org/draft/2020-12/schema"
+    );
     jsonschema::meta::validate(&schema).expect("a schema");
     jsonschema::validator_for(&schema).expect("a schema")
 }
@@ -115,7 +118,11 @@ fn every_plant_of_the_tree_fits_as_it_is_read() {
     ] {
         assert!(!is_plant(text) && !fits(&validator, text), "{text}");
     }
-    for text in ["", "m = 500\n[x]\nFs = 300\nFc = 200", "base = \"mid\"\n[y.stiction]\nmp1511 = 8000"] {
+    for text in [
+        "",
+        "m = 500\n[x]\nFs = 300\nFc = 200",
+        "base = \"mid\"\n[y.stiction]\nmp1511 = 8000",
+    ] {
         assert!(is_plant(text) && fits(&validator, text), "{text}");
     }
 }
@@ -131,7 +138,17 @@ fn a_wrong_value_is_refused_by_both() {
         let Some((key, _)) = line.split_once(" = ") else {
             continue;
         };
-        for value in ["\"text\"", "-1", "7.5", "true", "[1]", "[\"a\"]", "[[1, 2]]", "{ a = 1 }", "3"] {
+        for value in [
+            "\"text\"",
+            "-1",
+            "7.5",
+            "true",
+            "[1]",
+            "[\"a\"]",
+            "[[1, 2]]",
+            "{ a = 1 }",
+            "3",
+        ] {
             let changed = format!("{key} = {value}");
             let mut text = lines.clone();
             text[at] = &changed;
@@ -140,13 +157,20 @@ fn a_wrong_value_is_refused_by_both() {
             refused += usize::from(!is_read);
             // Some texts only the reader can judge: names, builds, severities of codes.
             let is_text = value.contains('"');
-            assert!(is_read == fits || (fits && is_text), "{changed}: read {is_read}");
+            assert!(
+                is_read == fits || (fits && is_text),
+                "{changed}: read {is_read}"
+            );
         }
         let unknown = format!("{line}\nno_such_key = 1");
         let mut text = lines.clone();
         text[at] = &unknown;
         let text = text.join("\n");
-        assert_eq!(fits(&validator, &text), is_configuration(&text), "{unknown}");
+        assert_eq!(
+            fits(&validator, &text),
+            is_configuration(&text),
+            "{unknown}"
+        );
     }
     assert!(refused > 100, "{refused}");
 }
@@ -160,7 +184,10 @@ fn words_are_taken_in_the_case_that_the_reader_takes() {
         ("[lint]\nFC402 = \"OFF\"", false),
         ("[lint]\n\"P-ERR-70495\" = \"off\"", false),
         ("[lint]\nFC999 = \"off\"", false),
-        ("[[axis]]\nname = \"X\"\ncompensations = [\"lead\", \"TEMP\"]", true),
+        (
+            "[[axis]]\nname = \"X\"\ncompensations = [\"lead\", \"TEMP\"]",
+            true,
+        ),
         ("[[axis]]\nname = \"X\"\ncompensations = [\"LEAF\"]", false),
         ("[[axis]]\nname = \"X\"\ntype = \"t\"", false),
         ("[[axis]]\ntype = \"T\"", false),
@@ -181,7 +208,9 @@ fn the_extension_names_the_schema_that_the_command_prints() {
     // R17.6
     let bench = Bench::new(&[]);
     let manifest = json(&read(&root().join("editors/vscode/package.json")));
-    let named = manifest["contributes"]["tomlValidation"].as_array().expect("schemas");
+    let named = manifest["contributes"]["tomlValidation"]
+        .as_array()
+        .expect("schemas");
     for (at, of) in ["config", "plant"].iter().enumerate() {
         let url = named[at]["url"].as_str().expect("a file");
         let path = root().join("editors/vscode").join(url);

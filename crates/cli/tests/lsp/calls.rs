@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::lsp_client::{Client, uri};
 use crate::folder::Bench;
+use crate::lsp_client::{Client, uri};
 
 /// A client of the folder of a bench.
 fn client(bench: &Bench) -> Client {

@@ -315,7 +315,9 @@ fn a_host_prints_nothing_and_knows_no_option() {
     let of_the_command_line = [
         "print!", "println!", "stdout(", "stderr(", "clap", "\"--", "`--",
     ];
-    assert_absent(&of_the_command_line, |file| file.room == "host");
+    // The options of git are not those of the tool.
+    let is_host = |file: &File| file.room == "host" && !file.path.ends_with("git.rs");
+    assert_absent(&of_the_command_line, is_host);
 }
 
 #[test]

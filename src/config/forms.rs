@@ -33,7 +33,7 @@ pub enum Form {
     /// Skip levels.
     SkipLevels,
     /// A list of pairs of numbers, at most so many.
-    Pairs(Option<usize>),
+    Points(Option<usize>),
     /// The severity of a code.
     Level,
     /// A table, by its header.
@@ -266,7 +266,7 @@ pub static CONFIG_FORMS: [TableForm; 9] = [
             key("delay_cycles", Form::Number, "P-COMP-00058, in CNC cycles"),
             key(
                 "table",
-                Form::Pairs(None),
+                Form::Points(None),
                 "points: velocity in \u{b5}m/s, current in drive units",
             ),
         ],

@@ -128,9 +128,9 @@ fn check(
         let changed = ChangedPrograms::since(revision, &inputs, &mut machines, processors());
         let changed = failures.keep(changed?);
         console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
-        unseen_remark(&changed)
-            .iter()
-            .for_each(|it| console.remark(it));
+        if let Some(remark) = unseen_remark(&changed) {
+            console.remark(&remark);
+        }
         inputs = changed.inputs;
     }
     if let Some(saved) = saved {

@@ -5,11 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::console::{Console, Printed};
-use super::diff_git;
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
-use super::failures::Failures;
 use super::machine::{MachineArgs, undescribed_remark};
 use super::outputs::Outputs;
 use super::painted::difference;
@@ -72,17 +70,25 @@ pub(super) struct DiffArgs {
     execution: ExecutionArgs,
 }
 
+impl DiffArgs {
+    /// The revision that is compared with, where it is one.
+    pub(super) fn revision(&self) -> Option<&str> {
+        self.git.as_deref()
+    }
+
+    /// Says which options have no effect with the others (R9.71).
+    pub(super) fn check_options(&self) -> Result<(), Failure> {
+        if !self.contour {
+            Tolerance::refuse_without_contour(self.tolerance)?;
+            self.simulation.refuse_without_contour()?;
+        }
+        Ok(())
+    }
+}
+
 /// Runs the command.
 pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
-    if !args.contour {
-        Tolerance::refuse_without_contour(args.tolerance)?;
-        args.simulation.refuse_without_contour()?;
-    }
-    if let Some(revision) = &args.git {
-        return Failures::of(console, |failures| {
-            diff_git::run(args, revision, (console, failures))
-        });
-    }
+    args.check_options()?;
     let [old_path, new_path] = args.paths.as_slice() else {
         let failure = Failure::new("two versions are compared, an old one and a new one");
         return Err(failure.with_help(

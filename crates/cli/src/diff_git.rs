@@ -30,8 +30,16 @@ struct Pair {
     new: Option<Input>,
 }
 
+/// Runs the command with a revision.
+pub(super) fn run(args: &DiffArgs, revision: &str, console: Console) -> Result<u8, Failure> {
+    args.check_options()?;
+    Failures::of(console, |failures| {
+        compare(args, revision, (console, failures))
+    })
+}
+
 /// Compares the programs that differ from a revision, or reach what differs.
-pub(super) fn run(
+fn compare(
     args: &DiffArgs,
     revision: &str,
     (console, failures): (Console, &mut Failures),
@@ -66,9 +74,9 @@ pub(super) fn run(
              of today"
         ));
     }
-    unseen_remark(&changed)
-        .iter()
-        .for_each(|it| console.remark(it));
+    if let Some(remark) = unseen_remark(&changed) {
+        console.remark(&remark);
+    }
     let pairs = pairs(&changed, (&disk, paths));
     let comparer = Comparer {
         args,

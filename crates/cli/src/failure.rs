@@ -88,6 +88,7 @@ fn options_for(error: &HostError) -> Option<String> {
             "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \
              the rows with `--resample`"
         }
+        HostError::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
         HostError::SeveralStartupLists(_) => "say with `--startup LIST` which one the machine has",
         HostError::AlreadyThere(path) if frictcomp_host::is_configuration(path) => {
             "`frictcomp config show` shows the machine that it describes"

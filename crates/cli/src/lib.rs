@@ -242,7 +242,10 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
         Command::Graph(args) => graph::run(args, console),
-        Command::Diff(args) => diff::run(args, console),
+        Command::Diff(args) => match args.revision() {
+            Some(revision) => diff_git::run(args, revision, console),
+            None => diff::run(args, console),
+        },
         Command::Lists(args) => lists::run(args, console),
         Command::Drive(args) => drive::run(args, console),
         Command::Current(args) => current::run(args, console),

@@ -1,7 +1,7 @@
 //! Which machine a program runs on: `frictcomp.toml`, a start-up list, or none.
 
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::assumed::{AxesOfPrograms, assume_axes};
@@ -13,6 +13,7 @@ use super::grounds::{Elsewhere, Grounds};
 use super::input::Input;
 use super::ledger::Ledger;
 use super::list_files::{ListsOnDisk, read_list};
+use super::paths::relative;
 use super::watch::{Watch, Watcher};
 use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity};
 use frictcomp::lists::Parameter;
@@ -405,23 +406,6 @@ pub fn nearest_config(folder: &Path, disk: &Disk) -> Option<PathBuf> {
         .find(|candidate| disk.is_file(candidate))?;
     let here = disk.absolute(Path::new(""))?;
     Some(relative(&found, &here))
-}
-
-/// A path seen from a folder, so that no output holds an absolute path (R9.16).
-pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
-    let shared = path
-        .components()
-        .zip(folder.components())
-        .take_while(|(one, other)| one == other)
-        .count();
-    if shared == 0 {
-        return path.to_owned();
-    }
-    let up = folder
-        .components()
-        .skip(shared)
-        .map(|_| Component::ParentDir);
-    up.chain(path.components().skip(shared)).collect()
 }
 
 #[cfg(test)]

@@ -7,11 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::discovery::relative;
 use super::input::reopen;
 use super::memory_disk::MemoryDisk;
 use super::open_text::OpenText;
-use super::paths::{Entry, normal, or_here};
+use super::paths::{Entry, normal, or_here, relative};
 use super::read::read_bytes;
 use super::shared_map::SharedMap;
 use crate::decode::decode;

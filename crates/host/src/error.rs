@@ -266,7 +266,6 @@ impl HostError {
             Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
             Self::PartlyWritten { failed, .. } => return failed.help(),
             Self::Unsettled { .. } => "check the disk before you rely on them",
-            Self::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
             Self::NoRepository { .. } => "go to the work tree of the programs",
             Self::NoRevision(_) => {
                 "`git log --oneline` names them; a clone with little history gets more with \

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
 
-use super::discovery::relative;
 use super::disk::Disk;
 use super::error::HostError;
 use super::file_kind::is_list;
 use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
 use super::paths::normal;
+use super::paths::relative;
 use super::read::read_text;
 use super::unfinished::{Placed, UnfinishedFile, take_away_left};
 use super::walk::find_programs;

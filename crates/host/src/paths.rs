@@ -57,6 +57,23 @@ pub(super) fn spelt_as(path: &Path, real: &Path) -> PathBuf {
     parts.iter().collect()
 }
 
+/// A path seen from a folder, so that no output holds an absolute path (R9.16).
+pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let shared = path
+        .components()
+        .zip(folder.components())
+        .take_while(|(one, other)| one == other)
+        .count();
+    if shared == 0 {
+        return path.to_owned();
+    }
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

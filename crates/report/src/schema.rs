@@ -118,7 +118,7 @@ fn form(form: Form, tables: &[TableForm]) -> Value {
             let words = json!({ "type": "string", "examples": ["none", "all", "1,3-5"] });
             json!({ "anyOf": [words, level, { "type": "array", "items": level }] })
         }
-        Form::Pairs(most) => {
+        Form::Points(most) => {
             let number = json!({ "type": "number" });
             let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
             let mut pairs = json!({ "type": "array", "items": pair });

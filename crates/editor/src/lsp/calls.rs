@@ -2,9 +2,7 @@
 //! many programs one is reached (R17.2).
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::path::Path;
 
 use gen_lsp_types::{
     BaseSymbolInformation, CallHierarchyIncomingCall, CallHierarchyIncomingCallsParams,
@@ -20,73 +18,13 @@ use super::navigation::called_at;
 use super::uri::path_of;
 use super::view::View;
 use frictcomp::text::shown_path;
-use frictcomp_host::{
-    CallGraph, Disk, FoundCall, GraphProgram, Input, Ledger, MachineOptions, Machines,
-    find_programs, processors,
-};
+use frictcomp_host::{CallGraph, Disk, FoundCall, GraphProgram, Input};
 
 /// Number of programs that an answer names at most.
 const MOST_SYMBOLS: usize = 500;
 
 /// Number of programs that a lens names.
 const MOST_NAMED: usize = 5;
-
-/// The calls of the programs of a project as they are saved, found when first asked for.
-#[derive(Debug, Clone)]
-pub(super) struct ProjectCalls {
-    /// The folder that the client names; nothing is searched without one.
-    folder: Option<PathBuf>,
-    /// Rises with each save.
-    saves: Arc<AtomicU64>,
-    /// The calls that were found last.
-    found: Arc<Mutex<Option<FoundCalls>>>,
-}
-
-/// Calls, and the number of saves before they were found.
-type FoundCalls = (u64, Arc<CallGraph>);
-
-impl ProjectCalls {
-    /// Those of a folder.
-    pub(super) fn new(folder: Option<PathBuf>) -> Self {
-        Self {
-            folder,
-            saves: Arc::default(),
-            found: Arc::default(),
-        }
-    }
-
-    /// Whether there is a folder.
-    pub(super) fn are_known(&self) -> bool {
-        self.folder.is_some()
-    }
-
-    /// A file was saved: the calls are found anew when they are asked for.
-    pub(super) fn forget(&self) {
-        // The calls may be on their way: the server does not wait for them.
-        self.saves.fetch_add(1, Ordering::Relaxed);
-    }
-
-    /// The calls, with the texts that are open in place of their files.
-    fn graph(&self, disk: &Disk) -> Option<Arc<CallGraph>> {
-        let folder = self.folder.as_ref()?;
-        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        let saves = self.saves.load(Ordering::Relaxed);
-        if let Some((at, graph)) = &*found
-            && *at == saves
-        {
-            return Some(Arc::clone(graph));
-        }
-        let ledger = Ledger::default();
-        let mut machines = Machines::new(MachineOptions::default(), &ledger).on_disk(disk);
-        let paths = [folder.clone()];
-        let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
-        // What cannot be read calls nothing; its check says so.
-        let (graph, _) = CallGraph::of(&inputs, &mut machines, processors());
-        let graph = Arc::new(graph);
-        *found = Some((saves, Arc::clone(&graph)));
-        Some(graph)
-    }
-}
 
 /// The position of the program of a URI.
 fn position(graph: &CallGraph, uri: &Uri) -> Option<usize> {

@@ -7,10 +7,10 @@ use gen_lsp_types::{
     WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 
-use super::calls::ProjectCalls;
 use super::client::Client;
 use super::commands::COMMANDS;
 use super::pages::SCHEME;
+use super::project_calls::ProjectCalls;
 
 /// The answer to `initialize`.
 pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {

@@ -31,6 +31,7 @@ mod navigation;
 mod outline;
 mod pages;
 mod parameters;
+mod project_calls;
 mod refusal;
 mod requests;
 mod server;

@@ -23,7 +23,6 @@ use serde_json::Value;
 
 use super::analysis::{Analysis, Job};
 use super::asked::{self, Asked};
-use super::calls::ProjectCalls;
 use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
@@ -31,6 +30,7 @@ use super::documents::{Document, Documents, Kind, is_of_a_user};
 use super::lane::{Cancel, Lane};
 use super::log::log;
 use super::messages::{Board, ByText, Translator};
+use super::project_calls::ProjectCalls;
 use super::refusal::Refusal;
 use super::requests::{Answerer, Needs, answerer};
 use super::uri::path_of;

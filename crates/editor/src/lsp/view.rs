@@ -5,11 +5,11 @@ use std::sync::Arc;
 use gen_lsp_types::{Position, Uri};
 
 use super::analysis::{Analysis, Run};
-use super::calls::ProjectCalls;
 use super::client::Client;
 use super::documents::{Document, Documents};
 use super::lane::Cancel;
 use super::messages::Translator;
+use super::project_calls::ProjectCalls;
 use frictcomp::text::shown_path;
 use frictcomp_host::SharedMap;
 

@@ -224,7 +224,7 @@ const AXIS_FORMS: [KeyForm; COUNT] = {
         at += 1;
     }
     let elements = "share and stiffness in N/m of each element";
-    forms[COUNT - 3] = key(ELEMENTS, Form::Pairs(Some(MAX_ELEMENTS)), elements);
+    forms[COUNT - 3] = key(ELEMENTS, Form::Points(Some(MAX_ELEMENTS)), elements);
     forms[COUNT - 2] = key(ATTRACTION, Form::Positive, "N/s");
     forms[COUNT - 1] = key(
         STICTION,

@@ -3,6 +3,7 @@
 use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};
 use super::machine::{EXTERNAL_KEEPS, MACHINE, WORDS};
+use super::readings::{CONFIRMATION, CONFIRMED, READING};
 use super::section::Shape;
 
 /// The form of a value.
@@ -80,7 +81,7 @@ const fn table(shape: &Shape, keys: &'static [KeyForm]) -> TableForm {
 }
 
 /// The tables of `frictcomp.toml`, the file itself first.
-pub static CONFIG_FORMS: [TableForm; 9] = [
+pub static CONFIG_FORMS: [TableForm; 12] = [
     table(
         &ROOT,
         &[
@@ -105,6 +106,16 @@ pub static CONFIG_FORMS: [TableForm; 9] = [
                 "severities of the messages of frictcomp",
             ),
             key("check", Form::Table(CHECK.name), "what is a program"),
+            key(
+                "reading",
+                Form::Table(READING.name),
+                "how open questions of the documents are read, by their rules",
+            ),
+            key(
+                "confirmed",
+                Form::Table(CONFIRMED.name),
+                "which build of the control answered them, by their rules",
+            ),
         ],
     ),
     table(
@@ -285,6 +296,24 @@ pub static CONFIG_FORMS: [TableForm; 9] = [
     TableForm {
         free: Some(Form::Level),
         ..table(&LINT, &[])
+    },
+    TableForm {
+        free: Some(Form::Text),
+        ..table(&READING, &[])
+    },
+    TableForm {
+        free: Some(Form::Table(CONFIRMATION.name)),
+        ..table(&CONFIRMED, &[])
+    },
+    TableForm {
+        required: &["build", "date"],
+        ..table(
+            &CONFIRMATION,
+            &[
+                key("build", Form::Text, "the build of the control"),
+                key("date", Form::Text, "the date of the answer"),
+            ],
+        )
     },
     table(
         &CHECK,

@@ -3,11 +3,11 @@
 use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};
 use super::machine::{EXTERNAL_KEEPS, MACHINE, WORDS};
-use super::readings::{CONFIRMED, READING};
+use super::readings::{CONFIRMATION, CONFIRMED, READING};
 use super::section::Shape;
 
 /// Every table, by its header; the file itself has none.
-const TABLES: [(&str, &Shape); 11] = [
+const TABLES: [(&str, &Shape); 12] = [
     ("", &ROOT),
     (AXIS.name, &AXIS),
     (VALUE.name, &VALUE),
@@ -19,6 +19,7 @@ const TABLES: [(&str, &Shape); 11] = [
     (CHECK.name, &CHECK),
     (READING.name, &READING),
     (CONFIRMED.name, &CONFIRMED),
+    (CONFIRMATION.name, &CONFIRMATION),
 ];
 
 /// The keys of the table of a header, `[[axis]]`; `None` where the user chooses them, or there is no

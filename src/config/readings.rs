@@ -16,8 +16,8 @@ pub(super) const CONFIRMED: Shape = Shape {
     keys: None,
 };
 
-const CONFIRMATION: Shape = Shape {
-    name: "[confirmed]",
+pub(super) const CONFIRMATION: Shape = Shape {
+    name: "an answer of [confirmed]",
     keys: Some(&["build", "date"]),
 };
 

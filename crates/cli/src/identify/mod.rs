@@ -1,23 +1,21 @@
 //! `frictcomp identify`: from a recorded trace to a value list.
 
+mod args;
 mod states;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::Args;
+pub(crate) use args::{IdentifyArgs, refusal};
 
-use crate::channels::{AxisChannels, TorqueArgs};
 use crate::console::Console;
-use crate::cycle::CycleArgs;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
-use frictcomp::comp::CncBuild;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Ledger, OutputFile, read_axis};
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, Measured, TraceFinding, Track, Wanted, identify,
+    AxisRecording, IdentifyError, IdentifyOptions, Measured, Track, Wanted,
     identify_measured_circles,
 };
 use frictcomp_report::fitted;
@@ -27,70 +25,6 @@ use frictcomp_report::on_circles::{self, OnCirclesReport};
 use frictcomp_report::pictures::friction_curve;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
-
-/// Find the friction of an axis in a recorded trace and make a value list of it
-///
-/// Record torque and commanded velocity while the axis moves back and forth at constant speeds:
-/// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`
-/// (0.1 µm or 0.0001°) and `torque` (drive units) are taken; `frictcomp trace` lists the channels of a
-/// file.
-#[derive(Debug, Args)]
-pub(crate) struct IdentifyArgs {
-    /// The recorded trace; with `--circles` one or more
-    #[arg(required_unless_present = "recording", conflicts_with = "recording")]
-    traces: Vec<PathBuf>,
-    /// The recording of a state of the axis, cold or warm for instance: `warm=FILE`; give one for each
-    #[arg(long, value_name = "STATE=FILE", value_parser = states::parse_state)]
-    #[arg(conflicts_with_all = ["circles", "html"])]
-    recording: Vec<(String, PathBuf)>,
-    /// The state in which the machine works, for which the list is; by default `warm`
-    #[arg(
-        long,
-        value_name = "STATE",
-        requires = "recording",
-        conflicts_with = "traces"
-    )]
-    working: Option<String>,
-    /// The traces are recorded circles, at two or more feeds, instead of constant speeds
-    #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
-    circles: bool,
-    #[command(flatten)]
-    channels: AxisChannels,
-    #[command(flatten)]
-    cycle: CycleArgs,
-    /// The largest number of points in the value list; by default 8
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=200))]
-    points: Option<u32>,
-    /// Use as few points as keep the list within this percentage of the friction
-    #[arg(long, value_name = "PCT", allow_negative_numbers = true)]
-    max_error: Option<f64>,
-    /// The feed in mm/min at which the machine works
-    #[arg(
-        long,
-        value_name = "MM/MIN",
-        default_value_t = 1000.0,
-        allow_negative_numbers = true
-    )]
-    feed: f64,
-    #[command(flatten)]
-    torque: TorqueArgs,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: Format,
-    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
-    /// unless the build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
-    /// Draw speeds, curve and residuals to this SVG file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
-    /// Write the value list to this file
-    #[arg(long, short, value_name = "LIST")]
-    output: Option<PathBuf>,
-}
 
 /// Runs the command.
 pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
@@ -152,47 +86,6 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
-}
-
-impl IdentifyArgs {
-    /// What a recording tells.
-    fn identified(
-        &self,
-        trace: &Path,
-        recording: AxisRecording,
-        options: &IdentifyOptions,
-    ) -> Result<IdentifyReport, Failure> {
-        let options = IdentifyOptions {
-            measured: self.torque.measured(recording.measured),
-            ..*options
-        };
-        let identified = identify(&recording.track, &options)
-            .map_err(|error| refusal(error, &recording.findings))?;
-        Ok(IdentifyReport {
-            name: shown_path(trace),
-            axis: self.channels.axis.clone(),
-            recording,
-            identified,
-        })
-    }
-
-    /// The value list of a report, with further remarks at its head.
-    fn list_of(&self, report: &IdentifyReport, remarks: &[String]) -> String {
-        let made = IdentifiedFrom {
-            axis: report.axis.as_deref(),
-            from: &report.name,
-            unit: report.unit(),
-            faults: &[remarks, &report.faults()].concat(),
-        };
-        render_identified(&report.identified.list(), made, self.cnc_build)
-    }
-}
-
-/// Why nothing was identified, with what the channels themselves tell.
-pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
-    findings.iter().fold(error.into(), |failure: Failure, it| {
-        failure.with_help(format!("{}: {}", it.code, it.message))
-    })
 }
 
 /// What recorded circles tell, and their value list.

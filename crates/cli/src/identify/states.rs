@@ -1,8 +1,6 @@
 //! Recordings of one axis in several states: `--recording cold=FILE --recording warm=FILE` (R16.6).
 
-use std::path::PathBuf;
-
-use super::IdentifyArgs;
+use super::args::IdentifyArgs;
 use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
@@ -90,14 +88,4 @@ fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
         );
         Failure::new(message).with_help(visible_line(&help))
     })
-}
-
-/// `STATE=FILE`.
-pub(super) fn parse_state(text: &str) -> Result<(String, PathBuf), String> {
-    match text.split_once('=') {
-        Some((name, path)) if !name.trim().is_empty() && !path.is_empty() => {
-            Ok((name.trim().to_owned(), path.into()))
-        }
-        _ => Err("write the state and its recording, `warm=friction.csv`".to_owned()),
-    }
 }

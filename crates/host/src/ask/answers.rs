@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::programs::{AskedAxis, TAG, fingerprint};
+use super::axis::AskedAxis;
+use super::programs::{TAG, fingerprint};
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question, Way};
 

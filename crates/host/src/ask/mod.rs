@@ -6,10 +6,12 @@
 //! used: ten that nobody reads stop the control (507845131).
 
 mod answers;
+mod axis;
 mod motion;
 mod programs;
 mod written;
 
 pub use answers::{Answer, AnswerVerdict, read_answers};
-pub use programs::{AskedAxis, AskedFile, ask, readme};
+pub use axis::AskedAxis;
+pub use programs::{AskedFile, ask, readme};
 pub use written::{AnsweredReading, date_of, with_findings};

@@ -1,6 +1,6 @@
 //! The motions for questions that a recording answers.
 
-use super::programs::AskedAxis;
+use super::axis::AskedAxis;
 use frictcomp::readings::Question;
 
 /// The blocks of a question, and what they move. Each begins and ends where the axis stands, and goes

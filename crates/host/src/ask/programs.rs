@@ -5,8 +5,8 @@ use std::hash::Hasher;
 
 use fnv::FnvHasher;
 
+use super::axis::AskedAxis;
 use super::motion::motion;
-use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Question, Way};
 
 /// The word with which each line of an answer begins.
@@ -14,21 +14,6 @@ pub(super) const TAG: &str = "frictcomp-ask";
 
 /// What stands for a build that nobody gave.
 const NO_BUILD: &str = "?";
-
-/// The axis that is asked about.
-#[derive(Debug, Clone)]
-pub struct AskedAxis {
-    /// Its name.
-    pub name: String,
-    /// Its logical number, P-AXIS-00016; without it axis exchange is not asked.
-    pub number: Option<u32>,
-    /// Its place among the axes of the channel, from 0.
-    pub index: usize,
-    /// The build of the control.
-    pub build: Option<CncBuild>,
-    /// How far it may move, in mm or degrees, from where it stands in the positive direction and back.
-    pub travel: f64,
-}
 
 /// A program that asks.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -59,11 +59,12 @@ impl AuditReport {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }
 
-    /// The axes and kinds of which it is not known what a program makes of them.
+    /// The axes and kinds of which it is not known what a program makes of them, or on some ways only.
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let programs = self.machines.iter().flat_map(|it| it.archive.programs());
         let axes = programs.flat_map(|program| &program.axes);
-        let unknown = axes.filter(|axis| axis.effect == ProgramEffect::Unknown);
+        let unknown =
+            axes.filter(|axis| axis.effect == ProgramEffect::Unknown || axis.possible.is_some());
         unknown.map(|axis| (axis.axis.as_str(), axis.kind))
     }
 

@@ -4,6 +4,7 @@ mod program;
 mod readme;
 mod results;
 mod summary;
+mod words;
 
 pub use program::render_program;
 pub use readme::render_readme;

@@ -1,0 +1,132 @@
+//! The arguments of `identify`, and what one recording tells by them.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::channels::{AxisChannels, TorqueArgs};
+use crate::cycle::CycleArgs;
+use crate::failure::Failure;
+use crate::result::Format;
+use frictcomp::comp::CncBuild;
+use frictcomp::text::shown_path;
+use frictcomp_recordings::identify::{
+    AxisRecording, IdentifyError, IdentifyOptions, TraceFinding, identify,
+};
+use frictcomp_report::identify::IdentifyReport;
+use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+
+/// Find the friction of an axis in a recorded trace and make a value list of it
+///
+/// Record torque and commanded velocity while the axis moves back and forth at constant speeds:
+/// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`
+/// (0.1 µm or 0.0001°) and `torque` (drive units) are taken; `frictcomp trace` lists the channels of a
+/// file.
+#[derive(Debug, Args)]
+pub(crate) struct IdentifyArgs {
+    /// The recorded trace; with `--circles` one or more
+    #[arg(required_unless_present = "recording", conflicts_with = "recording")]
+    pub(super) traces: Vec<PathBuf>,
+    /// The recording of a state of the axis, cold or warm for instance: `warm=FILE`; give one for each
+    #[arg(long, value_name = "STATE=FILE", value_parser = parse_state)]
+    #[arg(conflicts_with_all = ["circles", "html"])]
+    pub(super) recording: Vec<(String, PathBuf)>,
+    /// The state in which the machine works, for which the list is; by default `warm`
+    #[arg(
+        long,
+        value_name = "STATE",
+        requires = "recording",
+        conflicts_with = "traces"
+    )]
+    pub(super) working: Option<String>,
+    /// The traces are recorded circles, at two or more feeds, instead of constant speeds
+    #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
+    pub(super) circles: bool,
+    #[command(flatten)]
+    pub(super) channels: AxisChannels,
+    #[command(flatten)]
+    pub(super) cycle: CycleArgs,
+    /// The largest number of points in the value list; by default 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=200))]
+    pub(super) points: Option<u32>,
+    /// Use as few points as keep the list within this percentage of the friction
+    #[arg(long, value_name = "PCT", allow_negative_numbers = true)]
+    pub(super) max_error: Option<f64>,
+    /// The feed in mm/min at which the machine works
+    #[arg(
+        long,
+        value_name = "MM/MIN",
+        default_value_t = 1000.0,
+        allow_negative_numbers = true
+    )]
+    pub(super) feed: f64,
+    #[command(flatten)]
+    pub(super) torque: TorqueArgs,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    pub(super) format: Format,
+    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
+    /// unless the build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    pub(super) cnc_build: Option<CncBuild>,
+    /// Draw speeds, curve and residuals to this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write an HTML report to this file
+    #[arg(long, value_name = "FILE")]
+    pub(super) html: Option<PathBuf>,
+    /// Write the value list to this file
+    #[arg(long, short, value_name = "LIST")]
+    pub(super) output: Option<PathBuf>,
+}
+
+impl IdentifyArgs {
+    /// What a recording tells.
+    pub(super) fn identified(
+        &self,
+        trace: &Path,
+        recording: AxisRecording,
+        options: &IdentifyOptions,
+    ) -> Result<IdentifyReport, Failure> {
+        let options = IdentifyOptions {
+            measured: self.torque.measured(recording.measured),
+            ..*options
+        };
+        let identified = identify(&recording.track, &options)
+            .map_err(|error| refusal(error, &recording.findings))?;
+        Ok(IdentifyReport {
+            name: shown_path(trace),
+            axis: self.channels.axis.clone(),
+            recording,
+            identified,
+        })
+    }
+
+    /// The value list of a report, with further remarks at its head.
+    pub(super) fn list_of(&self, report: &IdentifyReport, remarks: &[String]) -> String {
+        let made = IdentifiedFrom {
+            axis: report.axis.as_deref(),
+            from: &report.name,
+            unit: report.unit(),
+            faults: &[remarks, &report.faults()].concat(),
+        };
+        render_identified(&report.identified.list(), made, self.cnc_build)
+    }
+}
+
+/// Why nothing was identified, with what the channels themselves tell.
+pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
+    findings.iter().fold(error.into(), |failure: Failure, it| {
+        failure.with_help(format!("{}: {}", it.code, it.message))
+    })
+}
+
+/// `STATE=FILE`.
+fn parse_state(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, path)) if !name.trim().is_empty() && !path.is_empty() => {
+            Ok((name.trim().to_owned(), path.into()))
+        }
+        _ => Err("write the state and its recording, `warm=friction.csv`".to_owned()),
+    }
+}

@@ -107,6 +107,7 @@ const ROOMS: [(&str, &[&str]); 25] = [
     ("compare", &["contour"]),
     ("trace", &[]),
     ("identify", &["trace"]),
+    ("commission", &["trace", "identify"]),
 ];
 
 /// A package: its folder, and the one room that it is where it has no rooms.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 
 use crate::diagnostic::Code;
-use crate::interpreter::MotionKind;
+use crate::interpreter::{MotionKind, WayCondition, ways_in_words};
 
 /// A line of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
@@ -27,7 +27,10 @@ pub enum ProgramEffect {
     LeavesOn,
     /// It ends deselected, whatever it found.
     LeavesOff,
-    /// It depends on what is not known offline.
+    /// It depends on what only the machine knows, or on what it finds: the ways to each selection are
+    /// known (R14.6, R10.10).
+    Depends,
+    /// What it leaves is not known offline, nor on what it depends.
     Unknown,
 }
 
@@ -38,6 +41,7 @@ impl ProgramEffect {
             Self::Keeps => "keeps",
             Self::LeavesOn => "leaves on",
             Self::LeavesOff => "leaves off",
+            Self::Depends => "depends",
             Self::Unknown => "unknown",
         }
     }
@@ -67,6 +71,17 @@ pub struct FirstMotion {
     /// known offline. Records name it only then.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub perhaps: bool,
+    /// The ways on which it moves so, each a list of conditions that hold together; none where it
+    /// does whatever the machine answers (R14.6).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ways: Vec<Vec<WayCondition>>,
+}
+
+impl FirstMotion {
+    /// The ways in words after `if`, as seen from a file; `None` where it moves so on all.
+    pub fn condition(&self, file: &str) -> Option<String> {
+        (!self.ways.is_empty()).then(|| ways_in_words(&self.ways, file))
+    }
 }
 
 /// Whether a program moves an axis in the state that it finds (R10.1).

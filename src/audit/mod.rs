@@ -24,6 +24,7 @@ mod program;
 mod runs;
 mod scope;
 mod sequence;
+mod ways;
 mod within;
 
 pub use archive::{Archive, AxisFinding, MendedEnd};

@@ -1,35 +1,61 @@
 //! The selection at every motion of a run, so that two runs can be compared (R10.8).
 
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+
 use super::scope::Selected;
+use crate::interpreter::PossibleStates;
 
 /// Changes that are kept one by one; of the rest only a fingerprint is compared.
 const MOST: usize = 4096;
 
+/// The selection at a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Stood {
+    pub(super) selected: Selected,
+    /// A digest of the ways to each state, where more than one is possible.
+    pub(super) ways: u64,
+}
+
+impl Stood {
+    /// Of a subject of which these states are possible, if more than one is.
+    pub(super) fn new(selected: Selected, possible: Option<&PossibleStates>) -> Self {
+        let mut digest = DefaultHasher::new();
+        if let Some(possible) = possible {
+            // Blocks that are inserted move the lines.
+            possible.without_lines().hash(&mut digest);
+        }
+        Self {
+            selected,
+            ways: possible.map_or(0, |_| digest.finish()),
+        }
+    }
+}
+
 /// The selection of one kind on one axis at every motion, in the order of the run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Motions {
-    stretches: Vec<(Selected, u64)>,
+    stretches: Vec<(Stood, u64)>,
     /// A digest of what is not kept.
     rest: u64,
 }
 
 impl Motions {
     #[inline]
-    pub(super) fn note(&mut self, selected: Selected) {
+    pub(super) fn note(&mut self, stood: Stood) {
         match self.stretches.last_mut() {
-            Some((last, count)) if *last == selected && self.rest == 0 => *count += 1,
-            _ => self.change(selected),
+            Some((last, count)) if *last == stood && self.rest == 0 => *count += 1,
+            _ => self.change(stood),
         }
     }
 
     #[inline(never)]
-    fn change(&mut self, selected: Selected) {
+    fn change(&mut self, stood: Stood) {
         if self.rest == 0 && self.stretches.len() < MOST {
-            self.stretches.push((selected, 1));
+            self.stretches.push((stood, 1));
             return;
         }
         // FNV-1a.
-        let step = self.rest ^ selected.digit();
+        let step = self.rest ^ stood.selected.digit() ^ stood.ways;
         self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
     }
 
@@ -48,11 +74,11 @@ impl Motions {
             let (Some((was, left)), Some((is, more))) = (old, new) else {
                 return old.is_none() && new.is_none();
             };
-            if was != is && is != wanted {
+            if was != is && is.selected != wanted {
                 return false;
             }
             let common = left.min(more);
-            let rest = |of: Selected, count: u64| (count > common).then(|| (of, count - common));
+            let rest = |of: Stood, count: u64| (count > common).then(|| (of, count - common));
             old = rest(was, left).or_else(|| before.next().copied());
             new = rest(is, more).or_else(|| after.next().copied());
         }
@@ -66,11 +92,12 @@ mod tests {
     fn of(text: &str) -> Motions {
         let mut motions = Motions::default();
         for letter in text.chars() {
-            motions.note(match letter {
+            let selected = match letter {
                 '1' => Selected::On,
                 '0' => Selected::Off,
                 _ => Selected::Unknown,
-            });
+            };
+            motions.note(Stood::new(selected, None));
         }
         motions
     }

@@ -4,12 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
-use super::motions::Motions;
+use super::motions::{Motions, Stood};
 use super::scope::{AuditedKind, Scope, Selected};
 use super::within::Within;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome};
+use crate::interpreter::{
+    Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates,
+};
 use crate::text::Place;
 
 /// What made a selection what it is.
@@ -37,10 +39,9 @@ pub(super) struct Observed {
     pub(super) last: Option<Deed>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
-    /// The first motion before any command: the first that is sure, else the first that is possible.
+    /// The first motion in the state that the program found: the first that is sure, else the first that is
+    /// possible.
     pub(super) inherited: Option<Moved>,
-    /// The first motion word after a command in a state that is unknown all the same.
-    pub(super) doubtful: Option<Moved>,
     /// The first motion word away from its start-up state.
     pub(super) astray: Option<Moved>,
     /// The selection at every motion.
@@ -61,6 +62,8 @@ pub(super) struct Observation {
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
     pub(super) left: Vec<Selected>,
+    /// The states that are possible where it left one unknown because ways differ, by subject.
+    pub(super) possible: Vec<Option<PossibleStates>>,
     /// The subjects whose states it asked for before it set them, each with the first place.
     pub(super) asked: BTreeMap<usize, Site>,
     /// Its blocks in the main program, or in the called file that is looked at.
@@ -84,6 +87,7 @@ impl Observation {
             end: None,
             stopped: None,
             left: vec![Selected::Unknown; count],
+            possible: vec![None; count],
             asked: BTreeMap::new(),
             within: Within::default(),
             called: BTreeSet::new(),
@@ -151,7 +155,7 @@ impl Observation {
     /// Notes that the program reads the state of a subject (R1.35).
     fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
         for at in scope.of_axis(asked.axis) {
-            if scope.subjects()[at] == asked && !self.observed[at].commanded {
+            if scope.subjects()[at] == asked && executed.found.has(asked.axis, asked.kind) {
                 self.asked.entry(at).or_insert_with(|| Site {
                     file: Arc::clone(executed.file),
                     line: executed.line,
@@ -253,29 +257,30 @@ impl Observation {
             let observed = &mut self.observed[at];
             if !is_certain && let Some(before) = observed.standing {
                 // It may come before what the block may switch.
-                observed.motions.note(before);
+                observed.motions.note(Stood::new(before, None));
             }
-            observed.motions.note(selected);
-            let inherits = !observed.commanded;
-            let doubts = !inherits && selected == Selected::Unknown && is_certain;
-            let known = observed.inherited.as_ref();
-            let is_known = known.is_some_and(|it| !it.motion.perhaps || !is_certain) || !inherits;
-            if is_known
-                && (observed.doubtful.is_some() || !doubts)
-                && (observed.astray.is_some() || is_at_start_up || !is_certain)
-            {
+            let possible = executed.possible_of(subject.axis, subject.kind);
+            observed.motions.note(Stood::new(selected, possible));
+            let (axis, kind) = (subject.axis, subject.kind);
+            let is_known = !executed.found.has(axis, kind)
+                || observed.inherited.as_ref().is_some_and(|known| {
+                    let is_sure = is_certain && executed.found.is_always(axis, kind);
+                    !known.motion.perhaps || !is_sure
+                });
+            let is_seen = observed.astray.is_some() || is_at_start_up || !is_certain;
+            if is_known && is_seen {
                 continue;
             }
             let moved = moved_at(executed, self.within.line(), motion);
             let observed = &mut self.observed[at];
             if !is_known {
-                observed.inherited = Some(moved.clone());
+                let mut inherited = moved.clone();
+                inherited.motion.ways = executed.found.ways(axis, kind);
+                inherited.motion.perhaps |= !inherited.motion.ways.is_empty();
+                observed.inherited = Some(inherited);
             }
-            if doubts {
-                observed.doubtful.get_or_insert_with(|| moved.clone());
-            }
-            if !is_at_start_up && is_certain {
-                observed.astray.get_or_insert(moved);
+            if !is_seen {
+                observed.astray = Some(moved);
             }
         }
     }
@@ -287,6 +292,13 @@ impl Observation {
         self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
         self.left = scope.subjects().iter().map(of_subject).collect();
+        for states in ended.possible {
+            for at in scope.of_axis(states.axis) {
+                if scope.subjects()[at].kind == states.kind {
+                    self.possible[at] = Some(states.clone());
+                }
+            }
+        }
         let has_failed = matches!(ended.by, EndedBy::Error | EndedBy::Budget);
         if has_failed && self.stopped.is_none() {
             let said = ended.diagnostics.first();
@@ -299,9 +311,10 @@ impl Observation {
                 |said| reason(said, Some(site_of(said))),
             ));
         }
-        for (observed, left) in self.observed.iter_mut().zip(&self.left) {
+        let ends = self.left.iter().zip(&self.possible);
+        for (observed, (left, possible)) in self.observed.iter_mut().zip(ends) {
             let is_doubt = matches!(observed.last, Some(Deed::Doubt(_)));
-            if *left == Selected::Unknown && !is_doubt {
+            if *left == Selected::Unknown && possible.is_none() && !is_doubt {
                 observed.last = self.doubt.clone().map(Deed::Doubt);
             }
         }
@@ -318,6 +331,7 @@ fn moved_at(executed: &Executed<'_>, within: Option<u32>, motion: &MovedAxis) ->
             },
             motion: motion.kind,
             perhaps: motion.certainty == Certainty::Possible,
+            ways: executed.branch.unwrap_or_default().to_vec(),
         },
         within,
     }

@@ -33,8 +33,7 @@ fn before_motions<'a>(
     runs: impl Iterator<Item = &'a Observation> + Clone,
 ) -> Vec<Vec<u32>> {
     let moved = runs.clone().filter_map(|run| {
-        let observed = &run.observed[at];
-        let moved = observed.inherited.as_ref().or(observed.doubtful.as_ref());
+        let moved = run.observed[at].inherited.as_ref();
         moved.and_then(|moved| moved.within)
     });
     let firsts = runs.filter_map(|run| run.within.first_line);

@@ -11,9 +11,11 @@ use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::Observation;
 use super::runs::{Runs, Start};
 use super::scope::{AuditedKind, Scope};
-use crate::comp::{Compensation, Kind, KindSet};
+use crate::comp::{Compensation, Kind, KindSet, State};
 use crate::diagnostic::Code;
-use crate::interpreter::{Event, Interpreter, Observer, Options, StopPolicy};
+use crate::interpreter::{
+    Event, Interpreter, Observer, Options, PossibleStates, StopPolicy, WayCondition,
+};
 use crate::machine::{Machine, Setting};
 
 /// Where a program ends, for a block that has to stand before the end.
@@ -44,6 +46,10 @@ pub struct AxisAudit {
     /// The last command that made it so.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<Site>,
+    /// The states that it leaves an axis in that it found in its start-up state, each with the ways to it,
+    /// where it may leave it away from that (R14.6).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub possible: Option<PossibleStates>,
     /// Why the effect is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<WhyUnknown>,
@@ -52,13 +58,22 @@ pub struct AxisAudit {
 }
 
 impl AxisAudit {
-    /// Whether the program leaves the axis away from its start-up state, whatever it found.
+    /// Whether the program leaves the axis away from its start-up state, or does so on some ways.
     pub fn leaves_away(&self) -> bool {
         match self.effect {
             ProgramEffect::LeavesOn => !self.on_at_start_up,
             ProgramEffect::LeavesOff => self.on_at_start_up,
+            ProgramEffect::Depends => self.possible.is_some(),
             ProgramEffect::Keeps | ProgramEffect::Unknown => false,
         }
+    }
+
+    /// On which ways it leaves the axis away from its start-up state, in words as seen from a file: `if
+    /// skip level 1 is on`; `None` where it does on all of them.
+    pub fn leaves_away_when(&self, file: &str) -> Option<String> {
+        let possible = self.possible.as_ref()?;
+        let is_away = |state: State| (state == State::Inactive) == self.on_at_start_up;
+        possible.when(is_away, file)
     }
 
     /// Whether it moves the axis in the state that it finds.
@@ -226,12 +241,19 @@ impl Auditor {
             let AuditedKind { axis, kind } = self.scope.subjects()[at];
             format!("`{}` of axis `{}`", kind, self.machine.axis(axis).name)
         };
+        let found = |at: usize, is_away: bool| WayCondition::Found {
+            axis: self.name(self.scope.subjects()[at]).to_owned(),
+            compensation: self.scope.subjects()[at].kind,
+            state: self.scope.state(at, is_away),
+        };
         let audits = subjects.map(|(at, subject)| {
             let effect = runs.effect(&self.scope, at);
             let (by, reason) = match effect {
                 ProgramEffect::Keeps => (None, None),
                 ProgramEffect::Unknown => (None, Some(runs.reason(at, &name))),
-                ProgramEffect::LeavesOn | ProgramEffect::LeavesOff => (runs.command(at), None),
+                ProgramEffect::LeavesOn | ProgramEffect::LeavesOff | ProgramEffect::Depends => {
+                    (runs.command(at), None)
+                }
             };
             AxisAudit {
                 axis: self.name(*subject).to_owned(),
@@ -239,6 +261,9 @@ impl Auditor {
                 on_at_start_up: self.scope.is_on_at_start_up(*subject),
                 effect,
                 by,
+                possible: (effect == ProgramEffect::Depends)
+                    .then(|| runs.possible(&self.scope, at, &found))
+                    .flatten(),
                 reason,
                 inherits: runs.inherits(at),
             }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
-use super::observation::{Deed, Observation, Observed};
+use super::observation::{Deed, Observation};
 use super::scope::{Scope, Selected};
 use crate::interpreter::EndedBy;
 
@@ -22,7 +22,7 @@ pub(super) struct Start {
 }
 
 impl Start {
-    pub(super) fn new(is_away: bool) -> Self {
+    pub(super) const fn new(is_away: bool) -> Self {
         Self {
             is_away,
             apart: BTreeSet::new(),
@@ -32,6 +32,15 @@ impl Start {
     /// Whether a subject starts away from its start-up state.
     pub(super) fn is_away(&self, at: usize) -> bool {
         self.is_away != self.apart.contains(&at)
+    }
+
+    /// The same but for a subject.
+    pub(super) fn but(&self, at: usize) -> Self {
+        let mut other = self.clone();
+        if !other.apart.remove(&at) {
+            other.apart.insert(at);
+        }
+        other
     }
 }
 
@@ -44,11 +53,29 @@ pub(super) struct Runs {
     pub(super) between: BTreeMap<Start, Observation>,
 }
 
+/// Where the first two runs start.
+static START_UP: Start = Start::new(false);
+static AWAY: Start = Start::new(true);
+
 impl Runs {
     fn all(&self) -> impl Iterator<Item = &Observation> {
-        [&self.start_up, &self.away]
+        self.starts().map(|(_, run)| run)
+    }
+
+    /// The runs, each with where it starts.
+    pub(super) fn starts(&self) -> impl Iterator<Item = (&Start, &Observation)> {
+        [(&START_UP, &self.start_up), (&AWAY, &self.away)]
             .into_iter()
-            .chain(self.between.values())
+            .chain(&self.between)
+    }
+
+    /// The run from a start.
+    pub(super) fn from(&self, start: &Start, scope: &Scope) -> Option<&Observation> {
+        let is_away = start.is_away != (start.apart.len() == scope.subjects().len());
+        if start.apart.is_empty() || start.apart.len() == scope.subjects().len() {
+            return Some(if is_away { &self.away } else { &self.start_up });
+        }
+        self.between.get(start)
     }
 
     /// The subjects whose states the program asks for before it sets them, with the first place.
@@ -107,27 +134,23 @@ impl Runs {
             return ProgramEffect::Unknown;
         }
         let subject = scope.subjects()[at];
-        let pairs = [
-            (Start::new(false), &self.start_up),
-            (Start::new(true), &self.away),
-        ];
-        let between = self.between.iter();
-        let pairs = pairs.iter().map(|(start, run)| (start, *run));
-        let mut found = pairs.chain(between).map(|(start, run)| {
-            let found = scope.selected_at_start(subject, start.is_away(at));
-            (found, run.left[at])
-        });
-        if found.clone().all(|(found, left)| found == left) {
+        let is_lost =
+            |run: &Observation| run.left[at] == Selected::Unknown && run.possible[at].is_none();
+        if self.all().any(is_lost) {
+            return ProgramEffect::Unknown;
+        }
+        let keeps = |(start, run): (&Start, &Observation)| {
+            scope.selected_at_start(subject, start.is_away(at)) == run.left[at]
+        };
+        if self.starts().all(keeps) {
             return ProgramEffect::Keeps;
         }
-        let Some((_, first)) = found.next() else {
-            return ProgramEffect::Unknown;
-        };
+        let first = self.start_up.left[at];
         match first {
-            _ if found.any(|(_, left)| left != first) => ProgramEffect::Unknown,
+            _ if self.all().any(|run| run.left[at] != first) => ProgramEffect::Depends,
             Selected::On => ProgramEffect::LeavesOn,
             Selected::Off => ProgramEffect::LeavesOff,
-            Selected::Unknown => ProgramEffect::Unknown,
+            Selected::Unknown => ProgramEffect::Depends,
         }
     }
 
@@ -174,23 +197,12 @@ impl Runs {
     }
 
     pub(super) fn inherits(&self, at: usize) -> Inherits {
-        let (start_up, away) = (&self.start_up.observed[at], &self.away.observed[at]);
-        let first = |observed: &Observed| observed.inherited.as_ref().map(|it| it.motion.clone());
-        let between = self.between.iter();
-        let between = between.filter(|(start, _)| start.is_away(at));
-        let between = between.map(|(_, run)| &run.observed[at]);
-        let motions = std::iter::once(away).chain(between).filter_map(first);
+        let away = self.starts().filter(|(start, _)| start.is_away(at));
+        let motions = away.filter_map(|(_, run)| {
+            let moved = run.observed[at].inherited.as_ref()?;
+            Some(moved.motion.clone())
+        });
         if let Some(motion) = motions.min_by_key(|motion| motion.perhaps) {
-            return Inherits::Motion(motion);
-        }
-        // A command came first, and yet the state depends on what was found: a way that may have
-        // passed the command over.
-        let seq = |observed: &Observed| observed.doubtful.as_ref().map(|it| it.seq);
-        if let Some(moved) = away.doubtful.as_ref()
-            && seq(start_up).is_none_or(|seq| seq > moved.seq)
-        {
-            let mut motion = moved.motion.clone();
-            motion.perhaps = true;
             return Inherits::Motion(motion);
         }
         match self.stopped() {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::comp::{AxisIndex, Compensation, Kind, KindSet};
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::machine::Machine;
 
 /// A kind of compensation on an axis that is configured for it.
@@ -88,6 +88,12 @@ impl Scope {
         } else {
             Selected::On
         }
+    }
+
+    /// The state of a subject that is in its start-up state or away from it.
+    pub(super) fn state(&self, at: usize, is_away: bool) -> State {
+        let AuditedKind { axis, kind } = self.subjects[at];
+        self.found(|it| is_away && it == at).state(axis, kind)
     }
 
     /// Whether a subject is selected at the start of the control.

@@ -9,7 +9,7 @@ use super::observation::{Deed, Observation};
 use super::program::Auditor;
 use super::scope::Selected;
 use crate::comp::Kind;
-use crate::interpreter::{EndedBy, Event, Interpreter, Observer};
+use crate::interpreter::{EndedBy, Event, Interpreter, Observer, PossibleStates};
 
 /// The programs of an order, one after another on one machine.
 pub struct Sequence<'a> {
@@ -47,6 +47,9 @@ pub struct StepAxis {
     pub start: Selected,
     /// The selection at its end.
     pub end: Selected,
+    /// The states that are possible at its end, each with the ways to it, where ways differ.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub possible: Option<PossibleStates>,
     /// Whether it is selected at the start of the control.
     #[serde(skip)]
     pub start_up: Selected,
@@ -102,6 +105,7 @@ impl<'a> Sequence<'a> {
                 kind: subject.kind,
                 start: Selected::of(&start, *subject),
                 end,
+                possible: observation.possible[at].clone(),
                 start_up,
                 by: match &observed.last {
                     Some(Deed::Command(site)) => Some(site.clone()),

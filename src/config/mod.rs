@@ -9,6 +9,7 @@ mod advice;
 mod axis;
 mod error;
 mod file;
+mod forms;
 mod keys;
 mod machine;
 mod one_more_axis;
@@ -20,6 +21,8 @@ pub use advice::example;
 pub(crate) use axis::AxisTable;
 pub use error::ConfigError;
 pub(crate) use file::{ConfigFile, Variable};
+#[cfg(feature = "unstable")]
+pub use forms::{CONFIG_FORMS, Form, KeyForm, TableForm};
 #[cfg(feature = "unstable")]
 pub use keys::keys;
 pub(crate) use machine::MachineTable;

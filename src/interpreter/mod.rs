@@ -30,6 +30,7 @@ pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
+pub use programs::call_sites::{CallSite, call_sites, holds_program_end};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
 pub use run::carried_ways::CarriedWays;
 pub use run::event::{
@@ -38,7 +39,7 @@ pub use run::event::{
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub(crate) use run::possible_state::branch_in_words;
+pub(crate) use run::possible_state::ways_in_words;
 pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayCondition};
 pub(crate) use run::untouched::Found;
 pub use values::carried::{ArrayShape, Carried};

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{
-    Ended, Event, Executed, Note, NoteKind, Observer, WayCondition, branch_in_words,
+    Ended, Event, Executed, Note, NoteKind, Observer, WayCondition, ways_in_words,
 };
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
@@ -275,7 +275,7 @@ impl Recorder<'_> {
     fn limit_to(&mut self, ways: &[Vec<WayCondition>], file: &str) {
         let errors = self.said.iter_mut();
         for error in errors.filter(|said| said.code.severity() == Severity::Error) {
-            let words = branch_in_words(ways, file);
+            let words = ways_in_words(ways, file);
             error.message = format!("{}, if {words}", error.message);
         }
     }

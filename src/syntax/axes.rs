@@ -9,7 +9,7 @@ use crate::comp::Kind;
 use crate::text::TextLines;
 
 /// Number of macro definitions inside each other that are looked into.
-pub(super) const MAX_MACROS: usize = 16;
+pub(crate) const MAX_MACROS: usize = 16;
 
 /// What a program does with an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,7 +46,7 @@ pub(super) fn uses_of(block: &Block, text: &str) -> Vec<(String, AxisUse)> {
 }
 
 /// Hands over a block, and the code of the macros that it defines.
-pub(super) fn with_macros(
+pub(crate) fn with_macros(
     block: &Block,
     text: &str,
     depth: usize,

@@ -36,8 +36,8 @@ mod texts;
 mod unread;
 mod upper_case;
 
-pub(crate) use axes::is_axis_name;
 pub use axes::{AxisUse, axis_uses};
+pub(crate) use axes::{MAX_MACROS, is_axis_name, with_macros};
 pub use brackets::MAX_BRACKETS;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use control_block::{ControlBlock, Part, control_part};
@@ -74,6 +74,7 @@ pub(crate) use mask::goes_on;
 pub use names::{NameInBlock, Named, Role, names_in};
 #[cfg(feature = "unstable")]
 pub use pieces::{PieceKind, code_words, kind_at};
+pub(crate) use scan::may_call_file;
 #[cfg(feature = "unstable")]
 pub use scan::{NamedAxes, Question, Scan, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};

@@ -216,6 +216,11 @@ fn axis_place(text: &[u8], from: usize, name: &[u8]) -> Option<usize> {
     places.find(begins).map(|at| from + at)
 }
 
+/// Whether a text may call a file with `L`.
+pub(crate) fn may_call_file(text: &[u8]) -> bool {
+    call_place(text, 0).is_some()
+}
+
 /// Where an `L` may begin a call of a file.
 fn call_place(text: &[u8], from: usize) -> Option<usize> {
     let begins = |at: &usize| {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::feed_moves::FeedMoves;
 use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{EndedBy, Modal, Motion, PossibleStates, WayCondition, branch_in_words};
+use crate::interpreter::{EndedBy, Modal, Motion, PossibleStates, WayCondition, ways_in_words};
 use crate::lint::EndNote;
 use crate::machine::Machine;
 use crate::text::Position;
@@ -100,7 +100,7 @@ impl Row<'_> {
     /// The ways on which the block is executed, in words: `V.E.A == 2 (line 12), or if skip level 1 is
     /// off`; `None` where it is executed on all of them (R14.2).
     pub fn branch_in_words(&self) -> Option<String> {
-        self.branch.map(|ways| branch_in_words(ways, self.file))
+        self.branch.map(|ways| ways_in_words(ways, self.file))
     }
 }
 

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{ArrayRef, RecordBatch, RecordBatchIterator};
-use arrow_schema::{Field, Schema, SchemaRef};
+use arrow_ipc::reader::StreamReader;
+use arrow_ipc::writer::StreamWriter;
+use arrow_schema::{ArrowError, Field, Schema, SchemaRef};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
@@ -51,6 +53,24 @@ impl Table {
     pub(crate) fn columns(&self) -> Vec<String> {
         let fields = self.schema.fields().iter();
         fields.map(|field| field.name().clone()).collect()
+    }
+
+    /// The table as the bytes of a stream of Arrow.
+    pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, ArrowError> {
+        let mut writer = StreamWriter::try_new(Vec::new(), &self.schema)?;
+        for batch in &self.batches {
+            writer.write(batch)?;
+        }
+        writer.into_inner()
+    }
+
+    /// The table of such bytes.
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, ArrowError> {
+        let reader = StreamReader::try_new(bytes, None)?;
+        Ok(Self {
+            schema: reader.schema(),
+            batches: reader.collect::<Result<_, _>>()?,
+        })
     }
 
     /// A stream of the batches for whoever takes it; dropped with the capsule if nobody does.

@@ -21,7 +21,9 @@ use crate::messages::{PyMessage, PyMessages, Said};
 use crate::program::Programs;
 use crate::work::{Stop, interruptible};
 
-/// What an archive does.
+/// What the order of programs does: one row for each program, axis and kind.
+///
+/// The table has the columns of ``frictcomp audit --format csv``.
 #[pyclass(frozen, name = "Audit", module = "frictcomp")]
 pub(crate) struct PyAudit {
     table: Table,
@@ -38,7 +40,7 @@ struct Audited {
     said: Said,
 }
 
-/// Runs each program twice and says which ones leave an axis away from its start-up state, and which inherit it.
+/// Which programs leave an axis away from its start-up state, and which move it in the state that they find.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, kinds=None, limits=None))]
 pub(crate) fn audit(
@@ -148,7 +150,10 @@ fn table(report: &AuditReport) -> Table {
         ("by_line", line(|it| Some(it.axis.by.as_ref()?.line))),
         (
             "reason",
-            text(|it| Some(it.axis.reason.as_ref()?.message.clone())),
+            text(|it| {
+                let reason = it.axis.reason.as_ref().map(|it| it.message.clone());
+                reason.or_else(|| it.axis.leaves_away_when(&it.program.file))
+            }),
         ),
         (
             "inherits",
@@ -166,15 +171,19 @@ fn table(report: &AuditReport) -> Table {
             "motion",
             text(|it| Some(it.axis.inherits.motion()?.motion.as_str().to_owned())),
         ),
+        (
+            "inherits_if",
+            text(|it| it.axis.inherits.motion()?.condition(&it.program.file)),
+        ),
     ];
     let by = ["machine", "by_file", "by_line", "reason"];
-    let inherited = ["inherits_file", "inherits_line", "motion"];
+    let inherited = ["inherits_file", "inherits_line", "motion", "inherits_if"];
     Table::of(columns, &[&by[..], &inherited].concat())
 }
 
 #[pymethods]
 impl PyAudit {
-    /// The records of `audit --format ndjson`.
+    /// The records of ``frictcomp audit --format ndjson``.
     #[getter]
     fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         parsed(py, &self.records)
@@ -185,6 +194,7 @@ impl PyAudit {
         self.table.columns()
     }
 
+    /// What keeps the control from taking its lists.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)
@@ -195,11 +205,13 @@ impl PyAudit {
         self.programs
     }
 
+    /// The pairs of a program that leaves an axis away from its start-up state and one that inherits it.
     #[getter]
     fn hazards(&self) -> u64 {
         self.hazards
     }
 
+    /// Whether something is to be mended, or cannot be told.
     #[getter]
     fn has_warnings(&self) -> bool {
         self.has_warnings

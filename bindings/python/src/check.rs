@@ -20,7 +20,9 @@ use crate::messages::{PyMessage, PyMessages, Said};
 use crate::program::Programs;
 use crate::work::{Stop, interruptible};
 
-/// What programs have to say, each run from the start of the control.
+/// All messages of programs and of the programs below folders.
+///
+/// Each program runs from the start of the control. ``Error`` where one of them cannot be read.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, limits=None))]
 pub(crate) fn check(

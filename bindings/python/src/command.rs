@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use pyo3::prelude::*;
 
-/// Runs the command with its arguments, the name of the program first, and gives its exit status.
+/// Runs the command line, the name of the program first; gives its exit status.
 #[pyfunction]
 pub(crate) fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| frictcomp_cli::status(arguments))

@@ -24,11 +24,12 @@ use crate::limits::{self, PyLimits};
 use crate::machine::{machine_of, machine_options};
 use crate::messages::{PyMessage, PyMessages, Said};
 use crate::program::Programs;
+use crate::several::Several;
 use crate::states;
 use crate::words::meant;
 use crate::work::{Stop, interruptible};
 
-/// The current of one axis in each cycle.
+/// The additive current of one axis in each cycle, with the columns of ``frictcomp current``.
 #[pyclass(frozen, name = "AxisCurrent", module = "frictcomp")]
 pub(crate) struct PyAxisCurrent {
     axis: String,
@@ -44,7 +45,7 @@ pub(crate) struct PyAxisCurrent {
     cycles_at_rest: u64,
 }
 
-/// The currents of a program.
+/// The additive currents of axes over the path of a program, cycle by cycle.
 #[pyclass(frozen, name = "Currents", module = "frictcomp")]
 pub(crate) struct PyCurrents {
     t: Py<PyArray1<f64>>,
@@ -97,19 +98,23 @@ struct Computed {
     said: Said,
 }
 
-/// Runs a program and computes the additive current of its axes.
+/// The additive current of axes over the path of a program, as NumPy arrays.
+///
+/// ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
+/// ``[("X", 0.0)]``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
+/// ``max_cycles``, which a message says.
 #[pyfunction]
 #[pyo3(signature = (program, axes, *, machine=None, value_list=None, cycle_time_ms=None, reading=None, start=None, max_cycles=3_600_000, limits=None))]
 // Each is an argument of its own for Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current(
     program: &Bound<'_, PyAny>,
-    axes: Vec<String>,
+    axes: Several<String>,
     machine: Option<&Bound<'_, PyAny>>,
     value_list: Option<PathBuf>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    start: Option<Vec<(String, f64)>>,
+    start: Option<Several<(String, f64)>>,
     max_cycles: u64,
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyCurrents> {
@@ -127,11 +132,11 @@ pub(crate) fn current(
     let job = Job {
         programs: Programs::one(program)?,
         machine: machine_options(machine)?,
-        axes,
+        axes: axes.0,
         value_list,
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
         reading: meant(reading)?,
-        start: start.unwrap_or_default(),
+        start: start.map_or_else(Vec::new, |Several(places)| places),
         max_cycles: max_cycles.max(1),
         run: limits::options(limits),
     };
@@ -304,11 +309,13 @@ fn array<T: numpy::Element>(py: Python<'_>, values: Vec<T>) -> Py<PyArray1<T>> {
 
 #[pymethods]
 impl PyCurrents {
+    /// The time of each cycle since the beginning of the program in s.
     #[getter]
     fn t(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.t.clone_ref(py)
     }
 
+    /// The line of the block that is executed.
     #[getter]
     fn line(&self, py: Python<'_>) -> Py<PyArray1<u32>> {
         self.line.clone_ref(py)
@@ -322,11 +329,13 @@ impl PyCurrents {
             .collect()
     }
 
+    /// What stopped the program or the trace, and what the trace simplifies.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)
     }
 
+    /// How many motions are not in the trace, because their start or end is not known.
     #[getter]
     fn left_out(&self) -> u64 {
         self.left_out
@@ -362,39 +371,45 @@ impl PyAxisCurrent {
         &self.axis
     }
 
+    /// The commanded position in 0.1 µm or 0.0001°.
     #[getter]
     fn x(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.x.clone_ref(py)
     }
 
+    /// The commanded velocity in µm/s or 0.001°/s.
     #[getter]
     fn v(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.v.clone_ref(py)
     }
 
+    /// The weight of the decay before a reversal, 0 to 1.
     #[getter]
     fn w_before(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.w_before.clone_ref(py)
     }
 
+    /// The weight of the build-up after a reversal, 0 to 1.
     #[getter]
     fn w_after(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.w_after.clone_ref(py)
     }
 
+    /// The additive current in drive units. ``Error`` where it is not known in every cycle.
     #[getter]
     fn current(&self, py: Python<'_>) -> PyResult<Py<PyArray1<f64>>> {
         self.known(py)?;
         Ok(self.current.clone_ref(py))
     }
 
+    /// The integer that the drive gets. ``Error`` where it is not known in every cycle.
     #[getter]
     fn output(&self, py: Python<'_>) -> PyResult<Py<PyArray1<i16>>> {
         self.known(py)?;
         Ok(self.output.clone_ref(py))
     }
 
-    /// The state of each cycle, in words.
+    /// The state of friction compensation in each cycle.
     #[getter]
     fn comp<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let words = states::STATES.map(State::as_str).to_vec();
@@ -402,7 +417,7 @@ impl PyAxisCurrent {
         words.call_method1("take", (self.states.bind(py),))
     }
 
-    /// The current with a value of the caller where it is not known.
+    /// The current, and the given value in the cycles in which it is not known.
     fn filled<'py>(&self, py: Python<'py>, unknown: f64) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (current, states) = (self.current.bind(py), self.states.bind(py));
         let (current, states) = (current.try_readonly()?, states.try_readonly()?);
@@ -413,16 +428,19 @@ impl PyAxisCurrent {
         Ok(PyArray1::from_vec(py, filled.collect()))
     }
 
+    /// In how many cycles the current is not known.
     #[getter]
     fn unknown_cycles(&self) -> usize {
         self.unknown_cycles
     }
 
+    /// In how many cycles the output was cut to 16 bit.
     #[getter]
     fn saturated_cycles(&self) -> u64 {
         self.saturated_cycles
     }
 
+    /// In how many cycles at standstill it matters what the control adds there.
     #[getter]
     fn cycles_at_rest(&self) -> u64 {
         self.cycles_at_rest

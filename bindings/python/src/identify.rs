@@ -20,6 +20,7 @@ use pyo3::prelude::*;
 
 use crate::failure::{Failure, refused};
 use crate::json;
+use crate::several::Several;
 use crate::words::meant_if_given;
 use crate::work::interruptible;
 
@@ -67,7 +68,14 @@ fn switched(word: &str) -> PyResult<Switched> {
     }
 }
 
-/// Finds the friction of an axis in recordings.
+/// Finds the friction of an axis in a recording, and the points of a value list.
+///
+/// ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
+/// was on meanwhile; without them the channels tell, where they do.
+///
+/// ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
+/// the file does not. With ``circles`` the recordings are circles at two or more feeds.
+/// ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
 #[pyfunction]
 #[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0, torque_kind=None, compensation=None))]
 // Each is an argument of its own for Python.
@@ -132,14 +140,14 @@ pub(crate) enum Traces {
     /// One.
     One(PathBuf),
     /// Several.
-    Several(Vec<PathBuf>),
+    Several(Several<PathBuf>),
 }
 
 impl Traces {
     fn paths(self) -> Vec<PathBuf> {
         match self {
             Self::One(path) => vec![path],
-            Self::Several(paths) => paths,
+            Self::Several(Several(paths)) => paths,
         }
     }
 }
@@ -233,7 +241,7 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
 
 #[pymethods]
 impl PyIdentified {
-    /// The document of `identify --format json`.
+    /// The document of ``frictcomp identify --format json``.
     #[getter]
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::parsed(py, &self.record)

@@ -1,6 +1,7 @@
 //! Records as Python's own values.
 
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// What a text in JSON says, as dictionaries, lists, texts and numbers.
 pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -8,7 +9,7 @@ pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, Py
 }
 
 /// A text in JSON, which Python gets as its own values.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Json(pub(crate) String);
 
 impl<'py> IntoPyObject<'py> for Json {

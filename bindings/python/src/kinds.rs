@@ -5,14 +5,15 @@ use frictcomp::diagnostic::UnknownName;
 use pyo3::prelude::*;
 
 use crate::failure::refused;
+use crate::several::Several;
 
 /// `"FRICT"`, `"all"`, or several kinds.
-#[derive(Debug, FromPyObject)]
+#[derive(FromPyObject)]
 pub(crate) enum Kinds {
     /// One word.
     One(String),
     /// Several.
-    Several(Vec<String>),
+    Several(Several<String>),
 }
 
 impl Kinds {
@@ -25,7 +26,7 @@ impl Kinds {
         match self {
             Self::One(word) if word.eq_ignore_ascii_case("all") => Ok(KindSet::ALL),
             Self::One(word) => word.split(',').map(kind).collect(),
-            Self::Several(words) => words.iter().map(|word| kind(word)).collect(),
+            Self::Several(Several(words)) => words.iter().map(|word| kind(word)).collect(),
         }
     }
 }

@@ -3,13 +3,21 @@
 use frictcomp::SkipLevels;
 use frictcomp::session::{Limits, Options};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::failure::refused;
+use crate::several::Several;
 
 /// The deepest nesting of macros that can be allowed.
 const MACROS: u32 = 64;
 
-/// What a dry run skips and where it ends, with the numbers of the command line.
+/// What a dry run skips and where it ends; what is left out is as on the command line.
+///
+/// ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
+/// beyond them, ``values`` the values that a program holds; ``calls``, ``nesting`` and ``macros``
+/// bound the depth of calls, control blocks and macros. ``skip`` are the skip levels that are on, all
+/// others are off; without it and without ``skip`` in ``frictcomp.toml`` it is unknown whether a
+/// block with a skip mark is executed.
 #[pyclass(frozen, name = "Limits", module = "frictcomp")]
 pub(crate) struct PyLimits(Options);
 
@@ -26,7 +34,7 @@ impl PyLimits {
         calls: Option<u32>,
         nesting: Option<u32>,
         macros: Option<u32>,
-        skip: Option<Vec<u8>>,
+        skip: Option<Several<u8>>,
     ) -> PyResult<Self> {
         let mut limits = Limits::default();
         limits.blocks = blocks.unwrap_or(limits.blocks);
@@ -43,7 +51,7 @@ impl PyLimits {
                 "macros can be nested from 1 to {MACROS} deep"
             )));
         }
-        let levels = skip.map(|levels| {
+        let levels = skip.map(|Several(levels)| {
             levels.iter().try_fold(SkipLevels::NONE, |on, level| {
                 let highest = SkipLevels::HIGHEST;
                 let refuse = || refused(format!("{level} is not a level from 1 to {highest}"));
@@ -55,6 +63,35 @@ impl PyLimits {
             Options::default().with_limits(limits).with_skip(levels),
         ))
     }
+
+    fn __repr__(&self) -> String {
+        let Options { limits, skip, .. } = self.0;
+        let skip = skip.map_or_else(|| "None".to_owned(), |on| format!("{:?}", levels(on)));
+        format!(
+            "Limits(blocks={}, work={}, values={}, calls={}, nesting={}, macros={}, skip={skip})",
+            limits.blocks, limits.work, limits.values, limits.calls, limits.nesting, limits.macros,
+        )
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {
+        let Options { limits, skip, .. } = self.0;
+        let given = PyDict::new(py);
+        given.set_item("blocks", limits.blocks)?;
+        given.set_item("work", limits.work)?;
+        given.set_item("values", limits.values)?;
+        given.set_item("calls", limits.calls)?;
+        given.set_item("nesting", limits.nesting)?;
+        given.set_item("macros", limits.macros)?;
+        given.set_item("skip", skip.map(levels))?;
+        Ok(((), given))
+    }
+}
+
+/// The levels that are on.
+fn levels(on: SkipLevels) -> Vec<u32> {
+    let levels = 1..=u32::from(SkipLevels::HIGHEST);
+    let is_on = |level: &u32| u8::try_from(*level).is_ok_and(|level| on.has(level));
+    levels.filter(is_on).collect()
 }
 
 /// How programs run within limits.

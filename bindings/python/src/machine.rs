@@ -13,11 +13,19 @@ use frictcomp_host::{
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::failure::{Failure, refused};
 use crate::program::Programs;
+use crate::several::Several;
 
-/// Where the machine comes from, and what is different from its configuration.
+/// The machine that programs run on.
+///
+/// Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
+/// program upwards, as on the command line. ``config`` names another one, ``isolated`` takes none.
+/// ``startup`` takes the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+/// accepted value list for axes. ``variables`` are values that only the machine knows,
+/// ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
 #[pyclass(frozen, name = "Machine", module = "frictcomp")]
 pub(crate) struct PyMachine(MachineOptions);
 
@@ -38,7 +46,7 @@ impl PyMachine {
         config: Option<PathBuf>,
         startup: Option<PathBuf>,
         isolated: bool,
-        enable: Option<Vec<String>>,
+        enable: Option<Several<String>>,
         variables: Option<HashMap<String, Given>>,
         allow_outside: bool,
     ) -> PyResult<Self> {
@@ -55,7 +63,7 @@ impl PyMachine {
         let mut options = MachineOptions {
             configuration,
             startup,
-            enable: enable.unwrap_or_default(),
+            enable: enable.map_or_else(Vec::new, |Several(axes)| axes),
             ..MachineOptions::default()
         };
         if allow_outside {
@@ -75,6 +83,36 @@ impl PyMachine {
         }
         options.settings.sort_by(|one, other| one.0.cmp(&other.0));
         Ok(Self(options))
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {
+        let MachineOptions {
+            configuration,
+            startup,
+            enable,
+            elsewhere,
+            settings,
+            ..
+        } = &self.0;
+        let config = match configuration {
+            ConfigurationChoice::File(path) => Some(path),
+            _ => None,
+        };
+        let variables = PyDict::new(py);
+        for (name, value) in settings {
+            match value {
+                Setting::Number(number) => variables.set_item(name, number)?,
+                Setting::Text(text) => variables.set_item(name, text)?,
+            }
+        }
+        let given = PyDict::new(py);
+        given.set_item("config", config)?;
+        given.set_item("startup", startup)?;
+        given.set_item("isolated", *configuration == ConfigurationChoice::Isolated)?;
+        given.set_item("enable", enable)?;
+        given.set_item("variables", variables)?;
+        given.set_item("allow_outside", *elsewhere == Elsewhere::Allowed)?;
+        Ok(((), given))
     }
 
     fn __repr__(&self) -> String {

@@ -1,5 +1,6 @@
 //! Messages, one by one and as a table.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
@@ -9,16 +10,23 @@ use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
 use frictcomp::diagnostic::{Advice, Fix, ReachedFrom};
 use frictcomp::text::Place;
 use frictcomp::{Diagnostic, Severity};
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList, PySlice};
+use serde::{Deserialize, Serialize};
 
 use crate::arrow::{Column, Table};
 use crate::failure::raised_for;
+use crate::pickled::{self, Reduced};
+
+/// A word of a table of frictcomp, or one that was pickled.
+pub(crate) type Word = Cow<'static, str>;
 
 /// A change of the text that does what a message advises.
+///
+/// The text from ``line``, ``column`` up to ``end_line``, ``end_column`` is replaced.
 #[pyclass(frozen, get_all, eq, name = "Fix", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyFix {
     file: String,
     line: u32,
@@ -26,55 +34,68 @@ pub(crate) struct PyFix {
     end_line: u32,
     end_column: u32,
     text: String,
-    safety: &'static str,
+    safety: Word,
 }
 
 /// An end of the program that a message at its end is about.
 #[pyclass(frozen, get_all, eq, name = "End", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyEnd {
     file: String,
+    /// From 1.
     line: u32,
 }
 
-/// One message about a program or a list.
+/// One message about a program or a list, with the fields of a record of ``--format ndjson``.
+///
+/// ``str(message)`` is ``file:line:column: severity[CODE] message``.
 #[pyclass(frozen, get_all, eq, name = "Message", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyMessage {
+    /// The program of the session, from 1; None where the message is about a list.
     program: Option<u32>,
+    /// The executed block of the program, from 1.
     seq: Option<u64>,
-    code: &'static str,
-    severity: &'static str,
+    code: Word,
+    severity: Word,
     file: String,
+    /// From 1.
     line: u32,
+    /// From 1, in characters.
     column: u32,
     end_line: u32,
     end_column: u32,
+    /// The axis that it is about.
     axis: Option<String>,
     message: String,
+    /// What to do.
     help: Vec<String>,
+    /// The ends of the program that a message at its end is about.
     ends: Vec<PyEnd>,
+    /// Changes of the text, each of which alone does what is advised.
     fixes: Vec<PyFix>,
+    /// The main programs that reach the place of the message in a called program, 20 at most.
     reached_from: Vec<String>,
+    /// How many main programs reach it.
     reached_from_count: usize,
 }
 
 /// What was said.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Said {
     /// The messages in their order.
     pub(crate) messages: Vec<PyMessage>,
     /// What stands above everything else: that no machine is described (R1.37).
     pub(crate) remark: Option<String>,
     /// How many more messages there are, by severity (R2.85).
-    pub(crate) left_out: BTreeMap<&'static str, u64>,
+    pub(crate) left_out: BTreeMap<Word, u64>,
 }
 
 impl Said {
     /// So many more messages of a program are not listed.
     pub(crate) fn leave_out(&mut self, unsaid: &BTreeMap<Severity, u64>) {
         for (severity, more) in unsaid.iter().filter(|(_, more)| **more > 0) {
-            *self.left_out.entry(severity.as_str()).or_default() += more;
+            *self.left_out.entry(severity.as_str().into()).or_default() += more;
         }
     }
 
@@ -85,13 +106,13 @@ impl Said {
             let messages = self.messages.iter();
             let listed = messages.filter(|it| it.severity == word).count() as u64;
             if *all > listed {
-                self.left_out.insert(word, all - listed);
+                self.left_out.insert(word.into(), all - listed);
             }
         }
     }
 }
 
-/// Messages in their order.
+/// Messages in their order, and a table of them for pandas, polars and DuckDB.
 #[pyclass(frozen, sequence, name = "Messages", module = "frictcomp")]
 pub(crate) struct PyMessages(Said);
 
@@ -105,13 +126,22 @@ impl PyFix {
             end_line: end.line,
             end_column: end.column,
             text: fix.text.clone(),
-            safety: fix.safety.as_str(),
+            safety: fix.safety.as_str().into(),
         }
     }
 }
 
 #[pymethods]
 impl PyFix {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
     fn __repr__(&self) -> String {
         let (line, column) = (self.line, self.column);
         format!(
@@ -132,6 +162,15 @@ impl PyEnd {
 
 #[pymethods]
 impl PyEnd {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
     fn __repr__(&self) -> String {
         format!("<frictcomp.End {}:{}>", self.file, self.line)
     }
@@ -149,8 +188,8 @@ impl PyMessage {
         Self {
             program: None,
             seq: None,
-            code: said.code.as_str(),
-            severity: said.severity.as_str(),
+            code: said.code.as_str().into(),
+            severity: said.severity.as_str().into(),
             file: said.place.file.to_string(),
             line: start.line,
             column: start.column,
@@ -185,7 +224,7 @@ impl PyMessage {
 impl fmt::Display for PyMessage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (line, column) = (self.line, self.column);
-        let (file, severity, code) = (&self.file, self.severity, self.code);
+        let (file, severity, code) = (&self.file, &self.severity, &self.code);
         write!(
             f,
             "{file}:{line}:{column}: {severity}[{code}] {}",
@@ -196,6 +235,15 @@ impl fmt::Display for PyMessage {
 
 #[pymethods]
 impl PyMessage {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
     fn __str__(&self) -> String {
         self.to_string()
     }
@@ -253,8 +301,8 @@ impl PyMessages {
         let columns: Vec<Column> = vec![
             ("program", number(|it| it.program)),
             ("seq", Arc::new(seq)),
-            ("code", text(|it| Some(it.code))),
-            ("severity", text(|it| Some(it.severity))),
+            ("code", text(|it| Some(&it.code))),
+            ("severity", text(|it| Some(&it.severity))),
             ("file", text(|it| Some(&it.file))),
             ("line", number(|it| Some(it.line))),
             ("column", number(|it| Some(it.column))),
@@ -271,6 +319,15 @@ impl PyMessages {
 
 #[pymethods]
 impl PyMessages {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text).map(Self)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(&slf.get().0)?,))
+    }
+
     fn __len__(&self) -> usize {
         self.0.messages.len()
     }
@@ -303,6 +360,37 @@ impl PyMessages {
         Ok(Bound::new(py, message.clone())?.into_any())
     }
 
+    fn __contains__(&self, message: &Bound<'_, PyAny>) -> bool {
+        message
+            .cast::<PyMessage>()
+            .is_ok_and(|message| self.0.messages.contains(message.get()))
+    }
+
+    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let messages = self.0.messages.iter().rev().cloned();
+        PyList::new(py, messages)?.try_iter().map(Bound::into_any)
+    }
+
+    fn count(&self, value: &Bound<'_, PyAny>) -> usize {
+        let Ok(message) = value.cast::<PyMessage>() else {
+            return 0;
+        };
+        let messages = self.0.messages.iter();
+        messages.filter(|it| *it == message.get()).count()
+    }
+
+    #[pyo3(signature = (value, start=0, stop=isize::MAX))]
+    fn index(&self, value: &Bound<'_, PyAny>, start: isize, stop: isize) -> PyResult<usize> {
+        let part = PySlice::new(value.py(), start, stop, 1);
+        let part = part.indices(isize::try_from(self.0.messages.len()).unwrap_or(isize::MAX))?;
+        let [from, to] = [part.start, part.stop].map(|at| usize::try_from(at).unwrap_or(0));
+        let message = value.cast::<PyMessage>().ok();
+        let is_it = |at: &usize| message.is_some_and(|it| self.0.messages[*at] == *it.get());
+        (from..to)
+            .find(is_it)
+            .ok_or_else(|| PyValueError::new_err("there is no such message"))
+    }
+
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         PyList::new(py, self.0.messages.iter().cloned())?
             .try_iter()
@@ -320,6 +408,7 @@ impl PyMessages {
         self.table().stream(py)
     }
 
+    /// How many errors there are, those that are left out included.
     #[getter]
     fn errors(&self) -> u64 {
         self.count_of("error")
@@ -330,16 +419,19 @@ impl PyMessages {
         self.count_of("warning")
     }
 
+    /// How many messages of a severity are not listed: a file says so many and no more.
     #[getter]
-    fn left_out(&self) -> BTreeMap<&'static str, u64> {
+    fn left_out(&self) -> BTreeMap<Word, u64> {
         self.0.left_out.clone()
     }
 
+    /// That no machine is described, where that matters.
     #[getter]
     fn remark(&self) -> Option<&str> {
         self.0.remark.as_deref()
     }
 
+    /// Raises ``Error`` where there is a message of severity error.
     fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
         raised_for(py, self)
     }

@@ -9,14 +9,18 @@ use frictcomp_host::decode;
 use frictcomp_host::{Disk, HostError, Input, Machines, OpenText, find_programs};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
+use pyo3::types::{PyBytes, PyString};
 
 use crate::failure::Failure;
 
 /// The name of a text that stands in for no file.
 const NAMELESS: &str = "<text>";
 
-/// The text of a program, in place of its file.
+/// The text of a program, in place of a file.
+///
+/// ``path`` says for which file it stands: called programs and the configuration are looked for
+/// from its folder, and messages name it. Bytes are decoded as a file is: UTF-8, UTF-16 with its
+/// mark, else code page 1252.
 #[pyclass(frozen, name = "Text", module = "frictcomp")]
 pub(crate) struct PyText(OpenText);
 
@@ -43,6 +47,10 @@ impl PyText {
     #[getter]
     fn path(&self) -> String {
         shown_path(&self.0.path)
+    }
+
+    fn __getnewargs__(&self) -> (&str, String) {
+        (&self.0.text, self.path())
     }
 
     fn __repr__(&self) -> String {
@@ -108,7 +116,7 @@ impl Programs {
         for input in &self.inputs {
             input.probe().map_err(|error| match input {
                 Input::File(path) if looks_like_a_text(&path.to_string_lossy()) => {
-                    Failure::from(error).with_help("give a text of one line as `frictcomp.Text`")
+                    Failure::from(error).with_help("give the text of a program as `frictcomp.Text`")
                 }
                 _ => error.into(),
             })?;
@@ -118,16 +126,14 @@ impl Programs {
 }
 
 fn inputs(given: &Bound<'_, PyAny>) -> PyResult<Vec<Input>> {
-    if let Ok(list) = given.cast::<PyList>() {
-        return list.iter().map(|it| input(&it)).collect();
+    let is_one = given.is_instance_of::<PyString>() || given.is_instance_of::<PyBytes>();
+    match given.try_iter() {
+        Ok(several) if !is_one => several.map(|it| input(&it?)).collect(),
+        _ => Ok(vec![input(given)?]),
     }
-    if let Ok(tuple) = given.cast::<PyTuple>() {
-        return tuple.iter().map(|it| input(&it)).collect();
-    }
-    Ok(vec![input(given)?])
 }
 
-/// A path, or a text: a string with a line end, bytes, or `Text`.
+/// A path, or a text: bytes, or `Text`.
 fn input(given: &Bound<'_, PyAny>) -> PyResult<Input> {
     let nameless = |text: String| {
         Input::Open(OpenText {
@@ -141,11 +147,10 @@ fn input(given: &Bound<'_, PyAny>) -> PyResult<Input> {
     if let Ok(bytes) = given.cast::<PyBytes>() {
         return Ok(nameless(decode(bytes.as_bytes().to_vec())));
     }
-    if given.is_instance_of::<PyString>()
-        && let Ok(text) = given.extract::<String>()
-        && text.contains(['\n', '\r'])
-    {
-        return Ok(nameless(text));
+    if given.is_instance_of::<PyString>() && given.extract::<String>()?.contains(['\n', '\r']) {
+        return Err(Failure::new("a path has no line ends")
+            .with_help("give the text of a program as `frictcomp.Text`")
+            .into_error(given.py()));
     }
     let path: PathBuf = given.extract().map_err(|_| {
         let class = given.get_type();
@@ -153,7 +158,7 @@ fn input(given: &Bound<'_, PyAny>) -> PyResult<Input> {
             .name()
             .map_or_else(|_| "this".into(), |it| it.to_string());
         PyTypeError::new_err(format!(
-            "a program is a path, a text with line ends, bytes or `frictcomp.Text`, not `{name}`"
+            "a program is a path, bytes or `frictcomp.Text`, not `{name}`"
         ))
     })?;
     Ok(Input::File(path))

@@ -8,16 +8,23 @@ use frictcomp_host::{
 };
 use pyo3::prelude::*;
 
+use crate::arrow::Table;
 use crate::failure::Failure;
 use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_of, machine_options};
+use crate::messages::Said;
 use crate::program::Programs;
 use crate::state::{self, Start};
 use crate::timeline::{PyTimeline, Recorded, Recorder, Shown};
 use crate::work::{Stop, interruptible};
 
-/// Runs programs and gives their timeline.
+/// Runs programs one after the other in one session of the control.
+///
+/// A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
+/// the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
+/// control stops the session unless ``keep_going``. ``kinds`` adds columns such as ``X.LEAD``,
+/// ``positions`` adds ``X_pos`` in mm or degrees.
 #[pyfunction]
 #[pyo3(signature = (program, *, machine=None, state=None, keep_going=false, kinds=None, positions=false, limits=None))]
 // Each is an argument of its own for Python.
@@ -60,7 +67,7 @@ struct Job {
 
 impl Job {
     /// What was recorded.
-    fn done(self, stop: &Stop) -> Result<Recorded, Failure> {
+    fn done(self, stop: &Stop) -> Result<(Recorded, Table, Said), Failure> {
         let inputs = &self.programs.inputs;
         self.programs.probe()?;
         let loaded = machine_of(self.machine, &self.programs, self.start.axes())?;

@@ -27,6 +27,7 @@ use pyo3::prelude::*;
 
 use crate::failure::{Failure, refused};
 use crate::json;
+use crate::several::Several;
 use crate::words::{meant, meant_if_given};
 use crate::work::{Stop, interruptible};
 
@@ -42,7 +43,10 @@ pub(crate) enum Lists {
     Each(HashMap<String, PathBuf>),
 }
 
-/// Drives a circle with two simulated axes, with compensation off and on, or judges recorded ones.
+/// A circular test: the document of ``frictcomp circle --format json``.
+///
+/// Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
+/// circles are judged instead, with the radius and the feed that were commanded.
 #[pyfunction]
 #[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
 // Each is an argument of its own for Python.
@@ -56,11 +60,11 @@ pub(crate) fn circle<'py>(
     value_list: Option<Lists>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    traces: Option<Vec<PathBuf>>,
+    traces: Option<Several<PathBuf>>,
     centre: Option<&str>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let centre: PathCentre = meant(centre)?;
-    let report = if let Some(traces) = traces {
+    let report = if let Some(Several(traces)) = traces {
         let commanded = CommandedCircle {
             radius_mm,
             feed_mm_per_min,
@@ -157,14 +161,17 @@ fn seconds(py: Python<'_>, milliseconds: Option<f64>) -> PyResult<Option<f64>> {
     checked.map_err(|error| Failure::new(error.to_string()).into_error(py))
 }
 
-/// The parameters with the smallest glitch.
+/// The parameters of a value list that leave the smallest glitch on a simulated machine.
 #[pyclass(frozen, name = "Tuned", module = "frictcomp")]
 pub(crate) struct PyTuned {
     report: TuneReport,
     record: String,
 }
 
-/// Searches the value lists with the smallest glitch on a simulated machine.
+/// Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm.
+///
+/// With ``robust`` the list is also good where the contact is half or twice as stiff, or friction
+/// differs by 10 % between the directions.
 #[pyfunction]
 #[pyo3(signature = (*, plant="stiff", feeds=None, radii=None, model=None, cycle_time_ms=None, reading=None, free=None, shaping=true, cnc_build=None, robust=false))]
 // Each is an argument of its own for Python.
@@ -172,18 +179,18 @@ pub(crate) struct PyTuned {
 pub(crate) fn tune(
     py: Python<'_>,
     plant: &str,
-    feeds: Option<Vec<f64>>,
-    radii: Option<Vec<f64>>,
+    feeds: Option<Several<f64>>,
+    radii: Option<Several<f64>>,
     model: Option<&str>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    free: Option<Vec<String>>,
+    free: Option<Several<String>>,
     shaping: bool,
     cnc_build: Option<&str>,
     robust: bool,
 ) -> PyResult<PyTuned> {
-    let feeds = feeds.unwrap_or_else(|| vec![500.0, 1000.0, 2000.0, 5000.0]);
-    let radii = radii.unwrap_or_else(|| vec![100.0]);
+    let feeds = feeds.map_or_else(|| vec![500.0, 1000.0, 2000.0, 5000.0], |Several(it)| it);
+    let radii = radii.map_or_else(|| vec![100.0], |Several(it)| it);
     let cycle = seconds(py, cycle_time_ms)?.unwrap_or(Circle::default().cycle_time_s);
     let circles = radii.iter().flat_map(|&radius_mm| {
         feeds.iter().map(move |&feed_mm_per_min| Circle {
@@ -200,7 +207,7 @@ pub(crate) fn tune(
     }
     let build: Option<CncBuild> = meant_if_given(cnc_build)?;
     let (model, reading): (FrictionModel, Reading) = (meant(model)?, meant(reading)?);
-    let ranges = ranges(free.unwrap_or_default())?;
+    let ranges = ranges(free.map_or_else(Vec::new, |Several(names)| names))?;
     let plant = plant.to_owned();
     let report = interruptible(py, move |stop| {
         memory_for_simulation()?;
@@ -253,13 +260,15 @@ fn ranges(free: Vec<String>) -> PyResult<Ranges> {
 
 #[pymethods]
 impl PyTuned {
-    /// The document of `tune --format json`.
+    /// The document of ``frictcomp tune --format json``.
     #[getter]
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         json::parsed(py, &self.record)
     }
 
     /// The value list of an axis as a file of the control.
+    ///
+    /// Outputs are whole numbers unless ``cnc_build``, such as ``"3.1.3132.0"``, accepts fractions.
     #[pyo3(signature = (axis="X", *, cnc_build=None))]
     fn value_list(&self, py: Python<'_>, axis: &str, cnc_build: Option<&str>) -> PyResult<String> {
         let mut lists = PlaneAxis::ALL.into_iter().zip(&self.report.tuned.axes);

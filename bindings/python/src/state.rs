@@ -7,12 +7,13 @@ use frictcomp::session::SavedState;
 use frictcomp_host::{Ledger, OutputFiles, StateFile};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::failure::{Failure, refused};
 
-/// What a run leaves.
+/// What a run leaves and the next one starts with: states, variables, value lists.
 #[pyclass(frozen, eq, name = "State", module = "frictcomp")]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyState(Arc<SavedState>);
 
 impl PyState {
@@ -24,7 +25,7 @@ impl PyState {
 
 #[pymethods]
 impl PyState {
-    /// Reads a state file.
+    /// Reads a state file, also one of the command line.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let saved = StateFile::read(&path);
@@ -32,7 +33,7 @@ impl PyState {
         Ok(Self::new(saved))
     }
 
-    /// Writes a state file, which the command line takes.
+    /// Writes a state file, which the command line takes, too.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let state = Arc::clone(&self.0);
         let saved = py.detach(move || save(&StateFile::lock(&path)?, &state));
@@ -58,7 +59,7 @@ impl PyState {
         self.0.axes.iter().map(|axis| axis.axis.as_str()).collect()
     }
 
-    /// The kinds that are not in its start-up state, by axis: what the next program would not expect.
+    /// The axes that are not as at the start of the control, each with the kind.
     #[getter]
     fn away(&self) -> Vec<(&str, &'static str)> {
         let axes = self.0.axes.iter();

@@ -21,8 +21,8 @@ ENDLESS = "N10 $FOR V.P.I = 1, 100000000, 1\\nN20 $FOR V.P.J = 1, 10000, 1\\nN30
 LONG = "limits=frictcomp.Limits(blocks=10**12, work=10**12)"
 
 CALLS = {
-    "run": f"frictcomp.run(program, state=state, {LONG})",
-    "check": f"frictcomp.check(program, {LONG})",
+    "run": f"frictcomp.run(frictcomp.Text(program), state=state, {LONG})",
+    "check": f"frictcomp.check(frictcomp.Text(program), {LONG})",
     "audit": f"frictcomp.audit([frictcomp.Text(program, f'{{n}}.nc') for n in range(9)], {LONG})",
     "current": f"frictcomp.current(BACK_AND_FORTH, ['X'], max_cycles=10**12, {LONG})",
     "circle": "[frictcomp.circle(radius_mm=1000, feed_mm_per_min=500) for _ in range(1000)]",
@@ -42,7 +42,7 @@ try:
     {call}
 except KeyboardInterrupt:
     # Python goes on after it.
-    assert len(frictcomp.run("N10 M30\\n")) == 1
+    assert len(frictcomp.run(frictcomp.Text("N10 M30\\n"))) == 1
     print("interrupted", flush=True)
 """
 
@@ -71,7 +71,7 @@ def test_other_threads_run_meanwhile() -> None:
     done = threading.Event()
 
     def work() -> None:
-        frictcomp.run(program, limits=frictcomp.Limits(blocks=300_000))
+        frictcomp.run(frictcomp.Text(program), limits=frictcomp.Limits(blocks=300_000))
         done.set()
 
     thread = threading.Thread(target=work)
@@ -88,7 +88,7 @@ def test_runs_in_many_threads_do_not_mix() -> None:
 
     def count(switches: int) -> int:
         text = "N1 X[COMP OFF FRICT]\nN2 X[COMP ON FRICT]\n" * switches + "N3 M30\n"
-        timeline = frictcomp.run(text, machine=machine)
+        timeline = frictcomp.run(frictcomp.Text(text), machine=machine)
         blocks = polars.DataFrame(timeline)
         assert blocks.height == len(timeline) == 2 * switches + 1
         return int((blocks["X"] == "inactive").sum())

@@ -215,7 +215,7 @@ def test_a_text_is_run_as_a_file_is() -> None:
     with open(FRICTION, "rb") as file:
         data = file.read()
     of_file = polars.DataFrame(frictcomp.run(FRICTION)).drop("file")
-    texts: list[str | bytes | frictcomp.Text] = [data.decode(), data, frictcomp.Text(data, FRICTION)]
+    texts: list[bytes | frictcomp.Text] = [data, frictcomp.Text(data.decode()), frictcomp.Text(data, FRICTION)]
     for program in texts:
         timeline = frictcomp.run(program, machine="programs/demo/frictcomp.toml")
         assert polars.DataFrame(timeline).drop("file").equals(of_file)
@@ -242,7 +242,7 @@ def test_programs_run_one_after_the_other() -> None:
 
 
 def test_positions_are_missing_where_they_are_not_known() -> None:
-    text = "N10 G90 X1.5\nN20 G91 Y1\nN30 M30\n"
+    text = frictcomp.Text("N10 G90 X1.5\nN20 G91 Y1\nN30 M30\n")
     timeline = frictcomp.run(text, machine=frictcomp.Machine(enable=["X"]), positions=True)
     blocks = polars.DataFrame(timeline)
     assert blocks["X_pos"].to_list() == [1.5, 1.5, 1.5]
@@ -255,7 +255,7 @@ def test_long_programs_come_in_batches() -> None:
     lines = [f"N{n} X{n % 7}" for n in range(count)]
     lines[200_000] = "X[COMP OFF FRICT]"
     text = "\n".join([*lines, "M30"])
-    timeline = frictcomp.run(text, machine=frictcomp.Machine(enable=["X"]))
+    timeline = frictcomp.run(frictcomp.Text(text), machine=frictcomp.Machine(enable=["X"]))
     blocks = polars.DataFrame(timeline)
     assert blocks["n"].head(3).to_list() == [0, 1, 2]
     assert blocks["text"].to_list() == text.split("\n")

@@ -1,7 +1,9 @@
 //! The channels of a recorded trace on the command line.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
+use frictcomp_physics::current::Switched;
+use frictcomp_recordings::identify::{Measured, TorqueKind};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
 /// Which channels are the motion of an axis.
@@ -54,6 +56,40 @@ impl AxisChannels {
             axis: self.axis.clone(),
             torque: self.torque.clone(),
             ..self.motion.selection()
+        }
+    }
+}
+
+/// What the user knows of the recorded torque.
+#[derive(Debug, Clone, Default, Args)]
+pub(super) struct TorqueArgs {
+    /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
+    /// the speed controller; by default what the name of the channel tells
+    #[arg(long, value_name = "KIND")]
+    torque_kind: Option<TorqueKind>,
+    /// Whether friction compensation was on while recording; by default what a channel `comp` tells
+    #[arg(long, value_name = "STATE")]
+    compensation: Option<Compensation>,
+}
+
+/// On or off.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Compensation {
+    On,
+    Off,
+}
+
+impl TorqueArgs {
+    /// What is known of the torque, with what the user says about it.
+    pub(super) fn measured(&self, recorded: Measured) -> Measured {
+        let said = self.compensation.map(|state| match state {
+            Compensation::On => Switched::On,
+            Compensation::Off => Switched::Off,
+        });
+        Measured {
+            kind: self.torque_kind.or(recorded.kind),
+            compensation: said.or(recorded.compensation),
+            ..recorded
         }
     }
 }

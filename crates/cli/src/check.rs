@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
 
+use super::baseline::{Baseline, BaselineArgs};
 use super::console::{Console, Printed, Target};
 use super::execution::ExecutionArgs;
 use super::fail_on::of_axis;
@@ -19,17 +20,25 @@ use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
+use super::watch::FileWatch;
 use frictcomp::diagnostic::Severity;
 use frictcomp::session::{Causes, Findings, NoteKind, Notes};
+use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, HostError, Input, Ledger, LoadedMachine, Naming, find_programs, in_order,
-    processors, run_alone,
+    Alone, Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, HostError, Input, Ledger,
+    LoadedMachine, Naming, Revision, find_programs, in_order, is_source, main_programs, processors,
+    run_alone,
 };
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
 /// Print all messages of all programs; each program runs from the start of the control
+///
+/// A program that another one calls is checked in its callers: it is not checked by itself if it holds
+/// neither M02 nor M30 and a main program of this call executes it to its end.
 #[derive(Debug, Args)]
+// Each is a switch of its own on the command line.
+#[allow(clippy::struct_excessive_bools)]
 pub(super) struct CheckArgs {
     /// Programs and folders of programs; `-` is standard input
     #[arg(value_name = "PATH", default_value = ".")]
@@ -43,6 +52,18 @@ pub(super) struct CheckArgs {
     /// The number of programs to check at once; by default the number of processors
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    /// Check only the programs that differ from this revision of their git repository, by default
+    /// `HEAD`, and those that reach them by their calls
+    #[arg(long, value_name = "REV", num_args = 0..=1, default_missing_value = "HEAD")]
+    changed: Option<String>,
+    /// Check called programs by themselves, too
+    #[arg(long)]
+    all: bool,
+    /// Check again after each save, only what the change reaches
+    #[arg(long, conflicts_with_all = ["changed", "fix", "diff", "unknowns", "opaque", "write_baseline", "output"])]
+    watch: bool,
+    #[command(flatten)]
+    baseline: BaselineArgs,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -56,15 +77,62 @@ pub(super) struct CheckArgs {
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let console = args.listing.console(console);
-    Failures::of(console, |failures| check(args, console, failures))
+    if args.watch {
+        return watch(args, console);
+    }
+    Failures::of(console, |failures| check(args, console, (None, failures)))
 }
 
-fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+/// Checks all programs, and after each save what it reaches. Ends where it cannot watch any more.
+fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    if args.paths.iter().any(|path| path.as_os_str() == "-") {
+        let failure = Failure::new("standard input is not saved, so it cannot be watched");
+        return Err(failure.with_help("name programs or folders"));
+    }
+    let mut files = FileWatch::new()?;
+    files.watch(args.paths.iter().map(PathBuf::as_path))?;
+    let mut saved: Option<Vec<ChangedFile>> = None;
+    loop {
+        let mut machines = args.machine.machines(&Ledger::default());
+        let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+        for input in &found.inputs {
+            // Why a machine cannot be used is said by the check.
+            let _ = machines.for_folder(input.folder());
+        }
+        files.watch(machines.folders())?;
+        let done = Failures::of(console, |failures| {
+            check(args, console, (saved.take(), failures))
+        });
+        if let Err(failure) = done {
+            console.explain(&failure);
+        }
+        files.say();
+        let extensions = machines.extensions(args.paths.first().map_or(Path::new(""), |it| it));
+        saved = Some(files.next(|path| is_source(path, extensions.as_deref()))?);
+    }
+}
+
+fn check(
+    args: &CheckArgs,
+    console: Console,
+    (saved, failures): (Option<Vec<ChangedFile>>, &mut Failures),
+) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
-    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+    let Since { paths, revision } = args.since()?;
+    let found = find_programs(&paths, |folder| machines.extensions(folder));
     failures.extend(Failures::from(found.failures));
-    let inputs = found.inputs;
+    let mut inputs = found.inputs;
+    if let Some((name, revision)) = &revision {
+        let changed = ChangedPrograms::since(revision, &inputs, &mut machines, processors());
+        let changed = failures.keep(changed?);
+        console.remark(&changed_remark(changed.inputs.len(), inputs.len(), name));
+        inputs = changed.inputs;
+    }
+    if let Some(saved) = saved {
+        let changed = ChangedPrograms::of(saved, &inputs, &mut machines, processors());
+        inputs = failures.keep(changed).inputs;
+    }
     for input in &inputs {
         input.note(&ledger);
     }
@@ -105,7 +173,14 @@ fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<
     }
     say_undescribed(args, &jobs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
-    args.check_all(jobs, &mut listing, failures);
+    let mut baseline = args.baseline.open(&ledger, &mut outputs)?;
+    outputs.check()?;
+    let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
+    let read: BTreeSet<String> = ledger.files().iter().map(|it| shown_path(it)).collect();
+    let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
+    if let Some(record) = baseline.finish(console, is_checked)? {
+        listing.record(&record);
+    }
     let printed = listing.finish()?;
     if printed == Printed::Unread && failures.is_empty() {
         return Ok(super::exit::CLEAN);
@@ -115,9 +190,12 @@ fn check(args: &CheckArgs, console: Console, failures: &mut Failures) -> Result<
         console.remark(&remark);
     }
     args.machine.say_unread(&ledger, console);
-    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
-        let passed_over = passed_over(found.passed_over);
-        console.remark(&(total(listing.tally()) + &passed_over));
+    if args.listing.format == ListingFormat::Text
+        && listing.tally().files > 0
+        && !args.baseline.is_written()
+    {
+        let beside = in_callers_remark(in_callers) + &passed_over(found.passed_over);
+        console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
     if let Some(remark) = listing.unknown_remark() {
@@ -147,7 +225,60 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, cons
 /// A program and the machine that it runs on.
 type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
+/// How many programs are checked since a revision.
+fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
+    match changed {
+        0 => format!("none of {all} programs differs from `{revision}` or reaches one that does"),
+        _ => format!("{changed} of {all} programs differ from `{revision}` or reach one that does"),
+    }
+}
+
+/// What is checked: paths, and the revision with its name where only what changed is.
+struct Since {
+    paths: Vec<PathBuf>,
+    revision: Option<(String, Revision)>,
+}
+
 impl CheckArgs {
+    /// The paths, and the revision with its name where only what changed is checked. A word after
+    /// `--changed` that is no revision may be the first path.
+    fn since(&self) -> Result<Since, Failure> {
+        let Some(name) = &self.changed else {
+            return Ok(Since {
+                paths: self.paths.clone(),
+                revision: None,
+            });
+        };
+        let folder = self.paths.first().map(PathBuf::as_path);
+        let folder = folder
+            .filter(|path| path.is_dir())
+            .or(folder.and_then(Path::parent));
+        let folder = folder.unwrap_or(Path::new(""));
+        match Revision::new(folder, name) {
+            Ok(revision) => Ok(Since {
+                paths: self.paths.clone(),
+                revision: Some((name.clone(), revision)),
+            }),
+            Err(HostError::NoRevision(_)) if Path::new(name).exists() => {
+                let mut paths = vec![PathBuf::from(name)];
+                // Without a path of its own the current folder is meant, and the word takes its place.
+                paths.extend(
+                    self.paths
+                        .iter()
+                        .filter(|path| **path != Path::new("."))
+                        .cloned(),
+                );
+                let head = "HEAD".to_owned();
+                let revision = Revision::new(folder, &head)?;
+                Ok(Since {
+                    paths,
+                    revision: Some((head, revision)),
+                })
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
     fn notes(&self) -> Option<NoteKind> {
         match (self.unknowns, self.opaque) {
             (true, _) => Some(NoteKind::Unknown),
@@ -189,31 +320,28 @@ impl CheckArgs {
         Ok(())
     }
 
-    /// Checks the programs, many at once, and lists what was found in their order.
-    fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
+    /// Checks the programs, many at once, and lists what was found in their order. Gives how many of
+    /// them were checked only in their callers (R17.2).
+    fn check_all(
+        &self,
+        jobs: Vec<Job<'_>>,
+        (listing, baseline): (&mut Lister<'_>, &mut Baseline),
+        failures: &mut Failures,
+    ) -> usize {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
         let mut causes = Causes::default();
-        let workers = self.jobs.unwrap_or_else(processors);
-        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
-        let check = |(input, loaded): Job<'_>| -> Result<_, HostError> {
-            let loaded = loaded?;
-            let found = check_file(input, &loaded, &self.execution)?;
-            Ok((loaded, found))
-        };
-        in_order(jobs.into_iter(), workers, check, |checked| {
-            let (loaded, found) = match checked {
-                Ok(checked) => checked,
-                Err(error) => {
-                    failures.push(Failure::from(error));
-                    return ControlFlow::Continue(());
-                }
-            };
+        let checked = self.checked(jobs, failures);
+        let mains = self.mains(&checked);
+        for (Checked { loaded, found, .. }, is_main) in checked.into_iter().zip(&mains) {
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
                 for mut diagnostic in loaded.errors().cloned() {
                     diagnostic.reword(Some(command_line));
                     causes.say(diagnostic);
                 }
+            }
+            if !is_main {
+                continue;
             }
             listing.file();
             causes.add(found.findings);
@@ -222,16 +350,75 @@ impl CheckArgs {
             }
             listing.unknown(found.unknown);
             for (severity, more) in &found.unsaid {
-                listing.count(*severity, *more);
+                listing.count(*severity, baseline.unlisted(*severity, *more));
+            }
+        }
+        // Only now it is known which programs reach a message.
+        let mut said = causes.diagnostics().iter();
+        let _ = said.try_for_each(|said| {
+            if baseline.lists(said) {
+                listing.diagnostic(said)?;
             }
             ControlFlow::Continue(())
         });
-        // Only now it is known which programs reach a message.
-        let _ = causes
-            .diagnostics()
-            .iter()
-            .try_for_each(|said| listing.diagnostic(said));
+        mains.iter().filter(|is_main| !**is_main).count()
     }
+
+    /// What each program has to say by itself, in their order.
+    fn checked<'a>(&self, jobs: Vec<Job<'a>>, failures: &mut Failures) -> Vec<Checked<'a>> {
+        let workers = self.jobs.unwrap_or_else(processors);
+        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
+        let check = |(input, loaded): Job<'a>| -> Result<Checked<'a>, HostError> {
+            let loaded = loaded?;
+            let found = check_file(input, &loaded, &self.execution)?;
+            Ok(Checked {
+                input,
+                loaded,
+                found,
+            })
+        };
+        let mut all = Vec::with_capacity(jobs.len());
+        in_order(jobs.into_iter(), workers, check, |checked| {
+            match checked {
+                Ok(checked) => all.push(checked),
+                Err(error) => failures.push(Failure::from(error)),
+            }
+            ControlFlow::Continue(())
+        });
+        all
+    }
+
+    /// Which of the programs count by themselves.
+    fn mains(&self, checked: &[Checked<'_>]) -> Vec<bool> {
+        if self.all {
+            return vec![true; checked.len()];
+        }
+        let executed = checked.iter().map(|it| ExecutedProgram {
+            input: it.input,
+            executed_to_end: it.found.executed_to_end.clone(),
+        });
+        main_programs(&executed.collect::<Vec<_>>(), &Disk::default())
+    }
+}
+
+/// What is said of programs that were checked only in their callers.
+fn in_callers_remark(programs: usize) -> String {
+    match programs {
+        0 => String::new(),
+        1 => "; 1 called program was checked in its callers (`--all` checks it alone)".to_owned(),
+        several => {
+            format!(
+                "; {several} called programs were checked in their callers (`--all` checks them alone)"
+            )
+        }
+    }
+}
+
+/// A program that was checked by itself.
+struct Checked<'a> {
+    input: &'a Input,
+    loaded: Arc<LoadedMachine>,
+    found: Found,
 }
 
 /// What a program has to say.
@@ -243,6 +430,8 @@ struct Found {
     uncompensated: Vec<(String, Uncompensated)>,
     /// The states that are not known at its end or where their axis moves.
     unknown: BTreeSet<String>,
+    /// The files that it executed to their end.
+    executed_to_end: Vec<String>,
 }
 
 /// Runs one program from the start of the control.
@@ -273,7 +462,9 @@ fn check_file(
     let unsaid = findings.unsaid(session.counts());
     let unknown = session.unknown();
     let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    let returned = session.interpreter().returned_files();
     Ok(Found {
+        executed_to_end: returned.map(ToString::to_string).collect(),
         findings,
         unsaid,
         uncompensated,

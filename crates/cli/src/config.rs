@@ -1,9 +1,9 @@
-//! `frictcomp config show`: which configuration counts and what it makes of the machine.
+//! `frictcomp config`: which configuration counts and what it makes of the machine, and what one may say.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 use super::console::Console;
 use super::exit;
@@ -15,6 +15,7 @@ use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{AxisSet, AxisType, Origin, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, Ledger, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
+use frictcomp_report::schema::{config_schema, plant_schema};
 use frictcomp_report::visible_line;
 
 /// Show the configuration of the machine
@@ -22,6 +23,26 @@ use frictcomp_report::visible_line;
 pub(super) enum ConfigCommand {
     /// Print the machine that a program in a folder would run on
     Show(ShowArgs),
+    /// Print the JSON schema of `frictcomp.toml`, or of plant files, for editors of TOML
+    Schema(SchemaArgs),
+}
+
+/// What `config schema` is asked.
+#[derive(Debug, Args)]
+pub(super) struct SchemaArgs {
+    /// Of which file
+    #[arg(value_enum, default_value_t)]
+    of: SchemaOf,
+}
+
+/// A file that has a schema.
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum SchemaOf {
+    /// `frictcomp.toml`.
+    #[default]
+    Config,
+    /// Plant files.
+    Plant,
 }
 
 /// What `config show` is asked.
@@ -36,7 +57,20 @@ pub(super) struct ShowArgs {
 
 /// Runs the command.
 pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failure> {
-    let ConfigCommand::Show(args) = command;
+    match command {
+        ConfigCommand::Show(args) => show(args, console),
+        ConfigCommand::Schema(args) => {
+            let schema = match args.of {
+                SchemaOf::Config => config_schema(),
+                SchemaOf::Plant => plant_schema(),
+            };
+            console.print(&format!("{schema:#}\n"))?;
+            Ok(exit::CLEAN)
+        }
+    }
+}
+
+fn show(args: &ShowArgs, console: Console) -> Result<u8, Failure> {
     let mut machines = args.machine.machines(&Ledger::default());
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();

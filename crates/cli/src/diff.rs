@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::console::{Console, Printed};
+use super::diff_git;
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
+use super::failures::Failures;
 use super::machine::{MachineArgs, undescribed_remark};
 use super::outputs::Outputs;
 use super::painted::difference;
@@ -35,32 +37,37 @@ use frictcomp_report::versions::{ContoursReport, VersionsReport, render_json, re
 /// a state in only one of them, or if a version is not known as a whole: an error stops it, a state
 /// depends on what only the machine knows, or no machine is described. With `--contour` it is 1, too,
 /// if a block of the new version deviates more, or if a motion could not be driven.
+///
+/// With `--git` the programs of the work tree that differ from a revision, and those that reach them by
+/// their calls, are compared with what they were.
 #[derive(Debug, Args)]
+#[command(override_usage = "frictcomp diff [OPTIONS] <OLD> <NEW>\n       \
+    frictcomp diff [OPTIONS] --git <REV> [PATH]...")]
 pub(super) struct DiffArgs {
-    /// The old version
-    #[arg(value_name = "OLD")]
-    old: PathBuf,
-    /// The new version
-    #[arg(value_name = "NEW")]
-    new: PathBuf,
+    /// The old version and the new one; with `--git` programs and folders of programs
+    #[arg(value_name = "OLD NEW")]
+    pub(super) paths: Vec<PathBuf>,
+    /// Compare the work tree with this revision of its git repository
+    #[arg(long, value_name = "REV", conflicts_with = "html")]
+    git: Option<String>,
     /// The kinds of compensation to compare: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
-    kinds: KindSet,
+    pub(super) kinds: KindSet,
     /// Compare the contours, too: where the simulated axes leave the path farther in the new version
     #[arg(long)]
-    contour: bool,
+    pub(super) contour: bool,
     /// What a block may deviate more in the new version, in µm; by default 0.5
     #[arg(long, value_name = "UM")]
     tolerance: Option<Tolerance>,
     #[command(flatten)]
     simulation: SimulationArgs,
     #[command(flatten)]
-    result: ResultArgs,
+    pub(super) result: ResultArgs,
     /// Also write an HTML report with the changes of both versions to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     #[command(flatten)]
-    machine: MachineArgs,
+    pub(super) machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
 }
@@ -71,8 +78,19 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         Tolerance::refuse_without_contour(args.tolerance)?;
         args.simulation.refuse_without_contour()?;
     }
+    if let Some(revision) = &args.git {
+        return Failures::of(console, |failures| {
+            diff_git::run(args, revision, (console, failures))
+        });
+    }
+    let [old_path, new_path] = args.paths.as_slice() else {
+        let failure = Failure::new("two versions are compared, an old one and a new one");
+        return Err(failure.with_help(
+            "write `frictcomp diff OLD NEW`, or compare with a revision: `frictcomp diff --git HEAD`",
+        ));
+    };
     let ledger = Ledger::default();
-    let inputs = [&args.old, &args.new].map(|path| Input::new(path));
+    let inputs = [old_path, new_path].map(|path| Input::new(path));
     for input in &inputs {
         input.probe()?;
         input.note(&ledger);
@@ -88,8 +106,8 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     }
     let [old, new] = &inputs;
     let comparison = VersionComparison::new(
-        version(args, old, &machine.old)?,
-        version(args, new, &machine.new)?,
+        version_of(args, old, &machine.old)?,
+        version_of(args, new, &machine.new)?,
     );
     let contours = if args.contour {
         Some(contours(args, &inputs, (&machine, &ledger))?)
@@ -98,8 +116,8 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     };
     let is_described = machine.new.machine.is_described();
     let report = VersionsReport {
-        old: shown_path(&args.old),
-        new: shown_path(&args.new),
+        old: shown_path(old_path),
+        new: shown_path(new_path),
         remark: (!is_described)
             .then(|| undescribed_remark(&inputs))
             .flatten(),
@@ -144,7 +162,7 @@ fn remark(machine: &MachineOfVersions) -> Option<String> {
 }
 
 /// The contours of both versions.
-fn contours(
+pub(super) fn contours(
     args: &DiffArgs,
     inputs: &[Input; 2],
     (machine, ledger): (&MachineOfVersions, &Ledger),
@@ -167,7 +185,11 @@ fn contours(
 }
 
 /// What a version switches.
-fn version(args: &DiffArgs, input: &Input, loaded: &LoadedMachine) -> Result<Version, Failure> {
+pub(super) fn version_of(
+    args: &DiffArgs,
+    input: &Input,
+    loaded: &LoadedMachine,
+) -> Result<Version, Failure> {
     let alone = Alone {
         options: args.execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::AsGiven,

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 26] = [
+static EXAMPLES: [Examples; 32] = [
     examples(
         &["run"],
         [
@@ -39,6 +39,13 @@ static EXAMPLES: [Examples; 26] = [
         [
             "frictcomp golden --update programs",
             "frictcomp golden programs",
+        ],
+    ),
+    examples(
+        &["graph"],
+        [
+            "frictcomp graph programs",
+            "frictcomp graph --format dot -o calls.dot programs",
         ],
     ),
     examples(
@@ -133,6 +140,22 @@ static EXAMPLES: [Examples; 26] = [
         ],
     ),
     examples(
+        &["trend"],
+        [
+            "frictcomp trend recordings",
+            "frictcomp trend recordings --axis X --svg trend.svg",
+        ],
+    ),
+    examples(&["commission"], COMMISSION),
+    examples(&["commission", "plan"], COMMISSION),
+    examples(
+        &["commission", "run"],
+        [
+            "frictcomp commission run measuring",
+            "frictcomp commission run measuring --velocity %.SetVelo --torque %.ActTorque",
+        ],
+    ),
+    examples(
         &["explain"],
         [
             "frictcomp explain FC401",
@@ -146,6 +169,10 @@ static EXAMPLES: [Examples; 26] = [
     examples(
         &["config"],
         ["frictcomp config show", "frictcomp config show programs"],
+    ),
+    examples(
+        &["config", "schema"],
+        ["frictcomp config schema", "frictcomp config schema plant"],
     ),
     examples(
         &["config", "show"],
@@ -171,6 +198,12 @@ static EXAMPLES: [Examples; 26] = [
         ],
     ),
     examples(&["man"], ["frictcomp man", "frictcomp man --output pages"]),
+];
+
+/// Stage 1 for two axes, and for one alone.
+const COMMISSION: [&str; 2] = [
+    "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
+    "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
 ];
 
 /// What the tool itself shows.

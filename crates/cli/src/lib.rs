@@ -8,11 +8,13 @@
 
 mod ask;
 mod audit;
+mod baseline;
 mod channels;
 mod check;
 mod circle;
 mod code_page;
 mod codes;
+mod commission;
 mod completions;
 mod config;
 mod conformance;
@@ -22,6 +24,7 @@ mod current;
 mod cycle;
 mod dap;
 mod diff;
+mod diff_git;
 mod drive;
 mod examples;
 mod execution;
@@ -31,6 +34,7 @@ mod fail_on;
 mod failure;
 mod failures;
 mod golden;
+mod graph;
 mod html;
 mod identify;
 mod init;
@@ -47,6 +51,7 @@ mod outputs;
 mod painted;
 mod progress;
 mod quiet;
+mod recorded_files;
 mod result;
 mod run;
 mod settings;
@@ -56,10 +61,12 @@ mod sole_file;
 mod start;
 mod stiction;
 mod trace;
+mod trend;
 mod tune;
 mod values;
 mod verify;
 mod vocabulary;
+mod watch;
 mod wildcards;
 
 use std::ffi::OsString;
@@ -103,6 +110,7 @@ enum Command {
     Check(check::CheckArgs),
     Audit(audit::AuditArgs),
     Golden(golden::GoldenArgs),
+    Graph(graph::GraphArgs),
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
     Drive(drive::DriveArgs),
@@ -116,6 +124,9 @@ enum Command {
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
+    Trend(trend::TrendArgs),
+    #[command(subcommand)]
+    Commission(commission::CommissionCommand),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Lsp(lsp::LspArgs),
@@ -230,6 +241,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Check(args) => check::run(args, console),
         Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
+        Command::Graph(args) => graph::run(args, console),
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),
         Command::Drive(args) => drive::run(args, console),
@@ -243,6 +255,8 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Verify(args) => verify::run(args, console),
         Command::Ask(args) => ask::run(args, console),
         Command::Conformance(args) => conformance::run(args, console),
+        Command::Trend(args) => trend::run(args, console),
+        Command::Commission(command) => commission::run(command, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

@@ -179,6 +179,11 @@ impl Lister<'_> {
         }
     }
 
+    /// Writes a record of another kind, where the format has records.
+    pub(super) fn record(&mut self, record: &Value) {
+        self.listing.record(record);
+    }
+
     /// Writes the end of the list.
     pub(super) fn finish(&mut self) -> Result<Printed, Failure> {
         self.listing.finish().map_err(Failure::output)?;

@@ -19,12 +19,13 @@ use super::settings;
 use super::severities::SeverityArgs;
 use super::start::StartArgs;
 use super::values;
+use super::watch::FileWatch;
 use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::session::{Session, StopPolicy, undescribed};
 use frictcomp_host::{
-    Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings, expect_axes,
-    open_session, run_programs, switched_axes,
+    ChangedPrograms, Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile,
+    Surroundings, expect_axes, is_source, open_session, processors, run_programs, switched_axes,
 };
 use frictcomp_report::html::GivenForRun;
 use frictcomp_report::{
@@ -72,6 +73,9 @@ pub(super) struct RunArgs {
     /// Also write an HTML report with charts and the annotated source to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Run again after each save of a program, a list or the configuration that the run reads
+    #[arg(long, conflicts_with_all = ["state", "output", "html"])]
+    watch: bool,
     /// The lowest severity that gives exit status 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     fail_on: FailOn,
@@ -164,6 +168,46 @@ struct Start<'a> {
 pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     args.check_options()?;
     let console = if args.quiet { console.quiet() } else { console };
+    if args.watch {
+        watch(args, console)
+    } else {
+        run_once(args, console)
+    }
+}
+
+/// Runs the programs, and again after each save that one of them reaches. Ends where it cannot watch any
+/// more.
+fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+    if args.files.iter().any(|path| path.as_os_str() == "-") {
+        let failure = Failure::new("standard input is not saved, so it cannot be watched");
+        return Err(failure.with_help("name programs"));
+    }
+    let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
+    let mut files = FileWatch::new()?;
+    files.watch(args.files.iter().map(PathBuf::as_path))?;
+    loop {
+        if let Err(failure) = run_once(args, console) {
+            console.explain(&failure);
+        }
+        loop {
+            let mut machines = args.machine.machines(&Ledger::default());
+            for input in &inputs {
+                // Why a machine cannot be used was said by the run.
+                let _ = machines.for_folder(input.folder());
+            }
+            files.watch(machines.folders())?;
+            files.say();
+            let saved = files.next(|path| is_source(path, None))?;
+            let (changed, _) = ChangedPrograms::of(saved, &inputs, &mut machines, processors());
+            if !changed.inputs.is_empty() {
+                break;
+            }
+        }
+    }
+}
+
+/// Runs the programs one after the other.
+fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
     for input in &inputs {
         input.probe()?;

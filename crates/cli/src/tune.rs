@@ -17,7 +17,7 @@ use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::lists::{AxisType, ListHead, Points};
 use frictcomp::machine::Axis;
-use frictcomp::text::{Place, Span, shown_path};
+use frictcomp::text::{Place, Span};
 use frictcomp_host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
 use frictcomp_physics::circle::Aim;
 use frictcomp_physics::circle::Checked;
@@ -269,12 +269,7 @@ fn axis_lists(
     outputs: &mut Outputs,
     ledger: &Ledger,
 ) -> Result<Vec<AxisFile>, Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::new(format!(
-            "the folder `{}` cannot be made: {error}",
-            shown_path(folder)
-        ))
-    })?;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;
     let linear: Vec<&Axis> = loaded
         .machine

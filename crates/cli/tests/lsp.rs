@@ -1,5 +1,7 @@
 //! The language server, as a client sees it.
 
+#[path = "lsp/calls.rs"]
+mod calls;
 #[path = "lsp/fixes.rs"]
 mod fixes;
 mod folder;

@@ -455,6 +455,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "check",
         "audit",
         "golden",
+        "graph",
         "diff",
         "lists",
         "drive",
@@ -468,11 +469,16 @@ fn every_help_ends_with_two_examples_that_work() {
         "trace",
         "identify",
         "verify",
+        "trend",
+        "commission",
+        "commission plan",
+        "commission run",
         "explain",
         "codes",
         "lsp",
         "dap",
         "config",
+        "config schema",
         "config show",
         "init",
         "completions",
@@ -535,9 +541,25 @@ fn example_folder() -> Bench {
         ),
         ("trace.csv", "t,x,v\n0,0,0\n0.001,1,100\n"),
     ]);
+    bench.write(
+        "frictcomp.toml",
+        "[[axis]]\nname = \"X\"\nmax_velocity = 12000\nmax_acceleration = 2\n\
+         [[axis]]\nname = \"Y\"\nmax_velocity = 12000\nmax_acceleration = 2\n\
+         [[axis]]\nname = \"Z\"\n",
+    );
     let friction = fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let friction = friction.expect("a recording").replace("SetVelo", "v");
-    bench.write("friction.csv", &friction.replace("ActTorque", "torque"));
+    fs::create_dir_all(bench.folder().join("measuring/recordings")).expect("a folder");
+    bench.write(
+        "measuring/plan-1.json",
+        r#"{"schema":1,"plan":{"stage":"off","axes":[],"approach":1000,"programs":[]},"lists":[]}"#,
+    );
+    let friction = friction.replace("ActTorque", "torque");
+    bench.write("friction.csv", &friction);
+    fs::create_dir(bench.folder().join("recordings")).expect("a folder");
+    for date in ["2026-03-01", "2027-03-01"] {
+        bench.write(&format!("recordings/x-{date}.csv"), &friction);
+    }
     let machine = root().join("programs/machines/mill3");
     for list in fs::read_dir(machine).expect("a machine") {
         let list = list.expect("a list").path();

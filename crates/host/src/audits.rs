@@ -14,7 +14,7 @@ use super::watch::{Done, LineTracker, Reached};
 use super::workers::{in_order, processors};
 use frictcomp::audit::{Archive, Auditor, ProgramAudit, Sequence, Step};
 use frictcomp::comp::{Kind, KindSet};
-use frictcomp::interpreter::{Branches, Event, Interpreter, Observer, Options};
+use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
 use frictcomp::text::SourceFile;
 
 /// Blocks between two looks at the clock.
@@ -37,7 +37,7 @@ impl AuditOptions {
     pub fn new(run: Options) -> Self {
         Self {
             // Its own runs tell the states apart that programs find.
-            run: run.with_branches(Branches::Passed),
+            run,
             kinds: KindSet::of(Kind::Frict),
             workers: processors(),
         }

@@ -222,6 +222,23 @@ impl Machines {
         &self.disk
     }
 
+    /// The folders in which the programs of the machines, and what they call, may lie.
+    pub fn folders(&self) -> impl Iterator<Item = &Path> {
+        self.loaded().flat_map(|loaded| {
+            let project = loaded
+                .origin
+                .as_ref()
+                .map(|_| loaded.reach.project.as_path());
+            let dirs = loaded.reach.program_dirs.iter().map(PathBuf::as_path);
+            project.into_iter().chain(dirs)
+        })
+    }
+
+    /// The files that were read for machines and programs so far.
+    pub(super) fn files_read(&self) -> Vec<PathBuf> {
+        self.ledger.files()
+    }
+
     /// Has a configuration count for the programs of a folder, unless the user chose another one.
     pub(super) fn settle(&mut self, folder: &Path, configuration: Option<PathBuf>) {
         self.nearest.insert(folder.to_owned(), configuration);

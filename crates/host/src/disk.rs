@@ -1,11 +1,13 @@
 //! The disk that programs, lists and configurations are read from: that of the system, with texts in
 //! place of some of its files (R12.2), or one in memory (R13.3).
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::discovery::relative;
 use super::input::reopen;
 use super::memory_disk::MemoryDisk;
 use super::open_text::OpenText;
@@ -26,8 +28,20 @@ pub struct Disk(Kind);
 enum Kind {
     /// That of the system, with texts in place of files, by their real paths.
     System(SharedMap<PathBuf, Arc<String>>),
+    /// That of the system, as some of its files were in a revision.
+    Revision(Arc<RevisedFiles>),
     /// Texts and nothing else.
     Memory(Arc<MemoryDisk>),
+}
+
+/// What a revision has in place of files of the system, by their real paths.
+#[derive(Debug, Default)]
+struct RevisedFiles {
+    texts: BTreeMap<PathBuf, Arc<String>>,
+    /// Files that the revision does not have.
+    absent: BTreeSet<PathBuf>,
+    /// The names of the texts, by their folders.
+    names: BTreeMap<PathBuf, BTreeSet<OsString>>,
 }
 
 impl Default for Disk {
@@ -51,6 +65,41 @@ impl Disk {
         Self(Kind::System(texts))
     }
 
+    /// The disk of the system with the texts that some files had in a revision, and without the files
+    /// that it does not have.
+    pub fn of_revision(
+        texts: impl IntoIterator<Item = OpenText>,
+        absent: impl IntoIterator<Item = PathBuf>,
+    ) -> Self {
+        let system = Self::default();
+        let mut revised = RevisedFiles::default();
+        for OpenText { path, text } in texts {
+            let path = system.place_of(&path);
+            if let (Some(folder), Some(name)) = (path.parent(), path.file_name()) {
+                let names = revised.names.entry(folder.to_owned()).or_default();
+                names.insert(name.to_owned());
+            }
+            revised.texts.insert(path, text);
+        }
+        let absent = absent.into_iter().map(|path| system.place_of(&path));
+        revised.absent = absent.collect();
+        Self(Kind::Revision(Arc::new(revised)))
+    }
+
+    /// A path of the system as it is seen from the current folder.
+    pub fn named(path: &Path) -> PathBuf {
+        let here = Self::place(Path::new("."));
+        relative(&Self::place(path), &here)
+    }
+
+    /// Whether a revision does not have a file of the system.
+    fn is_absent(&self, path: &Path) -> bool {
+        match &self.0 {
+            Kind::Revision(revised) => revised.absent.contains(&self.place_of(path)),
+            Kind::System(_) | Kind::Memory(_) => false,
+        }
+    }
+
     /// The one path that all names of a file of the system lead to.
     pub fn place(path: &Path) -> PathBuf {
         Self::default().place_of(path)
@@ -67,6 +116,7 @@ impl Disk {
         match &self.0 {
             Kind::System(open) if open.is_empty() => None,
             Kind::System(open) => open.get(&self.place_of(path)),
+            Kind::Revision(revised) => revised.texts.get(&self.place_of(path)),
             Kind::Memory(disk) => disk.text(path),
         }
     }
@@ -76,7 +126,7 @@ impl Disk {
     pub fn lines(&self, name: &str) -> Option<Box<dyn LineSource + '_>> {
         match (self.text(Path::new(name)), &self.0) {
             (Some(text), _) => Some(Box::new(TextLines::new(text))),
-            (None, Kind::System(_)) => reopen(name),
+            (None, Kind::System(_) | Kind::Revision(_)) => reopen(name),
             (None, Kind::Memory(_)) => None,
         }
     }
@@ -85,6 +135,9 @@ impl Disk {
     pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
         if let Kind::Memory(disk) = &self.0 {
             return disk.entry(path);
+        }
+        if self.is_absent(path) {
+            return Err(io::ErrorKind::NotFound.into());
         }
         match std::fs::metadata(path) {
             // What is open and was never saved lies where its name says.
@@ -105,7 +158,8 @@ impl Disk {
     pub(super) fn real(&self, path: &Path) -> io::Result<PathBuf> {
         match &self.0 {
             Kind::Memory(disk) => disk.real(path),
-            Kind::System(_) => match or_here(path).canonicalize() {
+            _ if self.is_absent(path) => Err(io::ErrorKind::NotFound.into()),
+            Kind::System(_) | Kind::Revision(_) => match or_here(path).canonicalize() {
                 Err(_) if self.text(path).is_some() => Ok(self.place_of(path)),
                 real => real,
             },
@@ -117,7 +171,7 @@ impl Disk {
     pub fn absolute(&self, path: &Path) -> Option<PathBuf> {
         match &self.0 {
             Kind::Memory(_) => Some(MemoryDisk::absolute(path)),
-            Kind::System(_) => std::path::absolute(or_here(path))
+            Kind::System(_) | Kind::Revision(_) => std::path::absolute(or_here(path))
                 .ok()
                 .map(|path| normal(&path)),
         }
@@ -130,7 +184,13 @@ impl Disk {
         }
         let entries = std::fs::read_dir(or_here(folder)).into_iter().flatten();
         let mut names: Vec<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
+        if let Kind::Revision(revised) = &self.0 {
+            let folder = self.place_of(folder);
+            names.retain(|name| !revised.absent.contains(&folder.join(name)));
+            names.extend(revised.names.get(&folder).into_iter().flatten().cloned());
+        }
         names.sort();
+        names.dedup();
         names
     }
 
@@ -141,7 +201,8 @@ impl Disk {
     pub(super) fn read(&self, path: &Path) -> io::Result<String> {
         match (self.text(path), &self.0) {
             (Some(text), _) => Ok(text.to_string()),
-            (None, Kind::System(_)) => read_bytes(path).map(decode),
+            (None, _) if self.is_absent(path) => Err(io::ErrorKind::NotFound.into()),
+            (None, Kind::System(_) | Kind::Revision(_)) => read_bytes(path).map(decode),
             (None, Kind::Memory(disk)) => Err(match disk.entry(path)? {
                 Entry::Folder => io::ErrorKind::IsADirectory.into(),
                 Entry::File | Entry::Special => io::ErrorKind::NotFound.into(),
@@ -197,5 +258,33 @@ mod tests {
         assert_eq!(Disk::default().text(&path("a.nc")), None);
         assert_eq!(disk.entry(&path("new.nc")).ok(), Some(Entry::File));
         assert!(disk.real(&path("new.nc")).unwrap().ends_with("new.nc"));
+    }
+
+    #[test]
+    fn a_revision_has_other_files() {
+        // R17.4
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        for name in ["same.nc", "changed.nc", "new.nc"] {
+            std::fs::write(path(name), "today").unwrap();
+        }
+        let open = |name: &str| OpenText {
+            path: path(name),
+            text: Arc::new("before".to_owned()),
+        };
+        let texts = [open("changed.nc"), open("gone.nc"), open("old/deep.nc")];
+        let disk = Disk::of_revision(texts, [path("new.nc")]);
+        let read = |name: &str| disk.read(&path(name)).ok();
+        assert_eq!(read("same.nc").as_deref(), Some("today"));
+        for name in ["changed.nc", "gone.nc", "old/deep.nc"] {
+            assert_eq!(read(name).as_deref(), Some("before"), "{name}");
+            assert!(disk.is_file(&path(name)), "{name}");
+        }
+        assert_eq!(
+            (read("new.nc"), disk.is_file(&path("new.nc"))),
+            (None, false)
+        );
+        let names = disk.names(root.path());
+        assert_eq!(names, ["changed.nc", "gone.nc", "same.nc"]);
     }
 }

@@ -99,6 +99,23 @@ pub enum HostError {
         /// What it is instead.
         message: String,
     },
+    /// No command `git`.
+    #[error("the command `git` is not there, which knows the revisions")]
+    NoGit,
+    /// A folder in no repository, or in one that git does not trust.
+    #[error("`{}` is in no git repository that can be read: {reason}", shown_path(.folder))]
+    NoRepository {
+        /// The folder.
+        folder: PathBuf,
+        /// What git says.
+        reason: String,
+    },
+    /// A name of no revision.
+    #[error("there is no revision `{0}` in the git repository")]
+    NoRevision(String),
+    /// What git could not do.
+    #[error("git could not say what differs: {0}")]
+    Git(String),
     /// A folder that is not there.
     #[error("there is no folder `{}`", shown_path(.0))]
     NoFolder(PathBuf),
@@ -249,6 +266,12 @@ impl HostError {
             Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
             Self::PartlyWritten { failed, .. } => return failed.help(),
             Self::Unsettled { .. } => "check the disk before you rely on them",
+            Self::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
+            Self::NoRepository { .. } => "go to the work tree of the programs",
+            Self::NoRevision(_) => {
+                "`git log --oneline` names them; a clone with little history gets more with \
+                 `git fetch --unshallow`"
+            }
             Self::FolderAsList(_) => "name the file in it",
             Self::NoFolder(_) => "name the folder of the programs",
             Self::LeadsOut(_) => "put the file itself there, or name its folder",

@@ -51,6 +51,11 @@ pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
     }
 }
 
+/// Whether a file is one that users write: a program, a list or a configuration, by its name.
+pub fn is_source(path: &Path, extensions: Option<&[String]>) -> bool {
+    FileKind::of(path).is_some() || is_program(path, extensions)
+}
+
 /// Whether a file is a list of the control by its name.
 pub(super) fn is_list(path: &Path) -> bool {
     has_extension(path, &["lis"])

@@ -87,6 +87,20 @@ impl ProgramFinder {
             .and_then(|path| path.parent())
             .unwrap_or(Path::new(""))
             .to_owned();
+        self.locate_from(name, beside)
+    }
+
+    /// The file that a program in a folder means by a name. It is not read.
+    pub(super) fn place(&mut self, name: &str, folder: &Path) -> Result<PathBuf, NoProgram> {
+        let path = self.locate_from(name, folder.to_owned())?;
+        // Going by the name alone, `..` after a link leads to a different file.
+        let real = self.disk.real(&path);
+        let plain = normal(&path);
+        let is_same = real.is_ok_and(|real| self.disk.real(&plain).is_ok_and(|it| it == real));
+        Ok(if is_same { plain } else { path })
+    }
+
+    fn locate_from(&mut self, name: &str, beside: PathBuf) -> Result<PathBuf, NoProgram> {
         // A path of the control's own disk means nothing here, its last part does.
         let slashed = name.replace('\\', "/");
         let last = slashed.rsplit('/').next().unwrap_or(&slashed);

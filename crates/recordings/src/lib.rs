@@ -2,7 +2,7 @@
 //!
 //! In go the bytes of a recording from Scope, SINUMERIK or a plain table; a [`trace::TraceReader`] gives
 //! its channels with their times. [`identify`] finds friction curves and value lists in them, and
-//! judges a value list by them.
+//! judges a value list by them. [`commission`] plans the programs that are recorded.
 //!
 //! ```
 //! use frictcomp_recordings::trace::{Choice, TraceReader};
@@ -14,5 +14,6 @@
 //! # Ok::<(), frictcomp_recordings::trace::TraceProblem>(())
 //! ```
 
+pub mod commission;
 pub mod identify;
 pub mod trace;

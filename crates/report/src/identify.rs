@@ -213,6 +213,11 @@ struct SegmentRecord {
 
 /// The same for machines: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
 pub fn render_json(report: &IdentifyReport) -> String {
+    to_pretty(&record(report))
+}
+
+/// The record of an identification.
+pub(super) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
     const PER_MM: f64 = 1000.0;
     let found = &report.identified;
     let fit = |fit: &Fit| FitRecord {
@@ -223,7 +228,7 @@ pub fn render_json(report: &IdentifyReport) -> String {
         fv: fit.viscous,
         chi_square: fit.chi_square,
     };
-    to_pretty(&Document {
+    Document {
         schema: 1,
         axis: report.axis.as_deref(),
         points: found
@@ -265,5 +270,5 @@ pub fn render_json(report: &IdentifyReport) -> String {
             .collect(),
         remarks: &report.recording.remarks,
         diagnostics: report.findings().collect(),
-    })
+    }
 }

@@ -100,9 +100,7 @@ impl Interpreter {
             self.replace_possible();
         }
         self.remember_last(at);
-        if !self.work.asked.get_mut().is_empty() {
-            self.work.aside.asked.append(self.work.asked.get_mut());
-        }
+        self.work.gather_asked();
         let step = if is_over || self.work.too_deep {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::event::EndedBy;
@@ -87,8 +88,28 @@ impl Interpreter {
             Some(())
         });
         if again.is_none() {
+            self.note_return();
             self.leave();
         }
+    }
+
+    /// Notes a call of a whole file that comes back from its end (R17.2).
+    fn note_return(&mut self) {
+        let Some(frame) = self.state.control.frames.running() else {
+            return;
+        };
+        let (unit, section) = (frame.unit, frame.section);
+        let is_whole = frame.level > 0 && frame.passage.is_none();
+        if is_whole && self.programs.index(unit).main == Some(section) {
+            self.programs.unit_mut(unit).returned = true;
+        }
+    }
+
+    /// The called files that were executed to their end.
+    pub fn returned_files(&self) -> impl Iterator<Item = &Arc<str>> {
+        let units = self.programs.units().iter().skip(1);
+        let returned = units.filter(|unit| unit.returned);
+        returned.map(|unit| unit.index.source.name())
     }
 
     /// Leaves programs down to the one that is returned to.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::unit::Unit;
 use crate::interpreter::run::at::{At, Shown};
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -176,15 +177,19 @@ impl Interpreter {
         })
     }
 
-    /// Blocks that no run of the program reached, for their syntax.
-    pub(in crate::interpreter) fn check_all_unexecuted(&mut self, notes: &mut Collected) {
-        let Some(unit) = self.programs.units().first() else {
-            return;
-        };
-        for other in unit.index.other_mains() {
+    /// Blocks that no run of the program and of the files that it calls reached, for their syntax.
+    pub(in crate::interpreter) fn check_all_unexecuted(&self, notes: &mut Collected) {
+        let main = self.programs.units().first();
+        for other in main.into_iter().flat_map(|unit| unit.index.other_mains()) {
             notes.push(other);
         }
-        let file = unit.index.source.name().clone();
+        for unit in self.programs.units() {
+            self.check_unexecuted_of(unit, notes);
+        }
+    }
+
+    fn check_unexecuted_of(&self, unit: &Unit, notes: &mut Collected) {
+        let file = unit.index.source.name();
         let mut unread_up_to = 0;
         for place in 0..unit.index.entries.len() {
             let entry = Span::new(place, place).start;
@@ -206,7 +211,7 @@ impl Interpreter {
             if let Some(raw) = reader.next(&mut block)
                 && !self.is_skipped(&block)
             {
-                self.check_unexecuted(&file, &raw, &block, notes);
+                self.check_unexecuted(file, &raw, &block, notes);
             }
         }
     }

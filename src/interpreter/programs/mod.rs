@@ -1,6 +1,7 @@
 //! The texts of a run: the index of each, and what calls find.
 
 pub(super) mod builder;
+pub(super) mod call_sites;
 pub(super) mod file_names;
 pub(super) mod finder;
 pub(super) mod index;

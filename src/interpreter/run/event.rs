@@ -188,6 +188,13 @@ impl Executed<'_> {
         words.chain(self.also_moved.iter().copied())
     }
 
+    /// The states of a kind of an axis that are possible after it, where ways differ.
+    #[inline]
+    pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
+        let mut possible = self.possible.iter();
+        possible.find(|it| it.axis == axis && it.kind == kind)
+    }
+
     /// How its axis words move.
     #[inline]
     fn word_kind(&self) -> MotionKind {

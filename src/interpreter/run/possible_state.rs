@@ -62,6 +62,15 @@ pub enum WayCondition {
         /// The line of its first block.
         line: u32,
     },
+    /// The state in which an axis is found.
+    Found {
+        /// The name of the axis.
+        axis: String,
+        /// The kind of compensation.
+        compensation: Kind,
+        /// The state.
+        state: State,
+    },
 }
 
 /// What is asked in a block.
@@ -91,6 +100,13 @@ impl Serialize for PossibleState {
     }
 }
 
+impl Serialize for PossibleStates {
+    /// The states; what they are of stands outside.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.states.serialize(serializer)
+    }
+}
+
 fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(text)
 }
@@ -114,6 +130,44 @@ impl PossibleStates {
             return format!("{}, on more ways than can be named", states.join(" or "));
         }
         named.collect::<Vec<_>>().join(", ")
+    }
+
+    /// When a state holds, as seen from a file: `if skip level 1 is on`, or `unless …` for the state on all
+    /// other ways.
+    pub(crate) fn when(&self, is_it: impl Fn(State) -> bool, file: &str) -> Option<String> {
+        let (those, others): (Vec<_>, Vec<_>) = self.states.iter().partition(|it| is_it(it.state));
+        let those = those.first()?;
+        if let Some(words) = those.words(file) {
+            return Some(format!("if {words}"));
+        }
+        let others = others.first().and_then(|others| others.words(file));
+        Some(match others {
+            Some(words) => format!("unless {}", words.replace(", or if ", ", or ")),
+            None => "on more ways than can be named".to_owned(),
+        })
+    }
+
+    /// The ways to a state; `None` where it is the state otherwise.
+    pub(crate) fn ways(&self, state: State) -> Option<&[Vec<WayCondition>]> {
+        let found = self.states.iter().find(|it| it.state == state)?;
+        found.ways.as_deref()
+    }
+
+    /// The same whatever the lines of the conditions.
+    pub(crate) fn without_lines(&self) -> Self {
+        let mut copy = self.clone();
+        let ways = copy.states.iter_mut().flat_map(|state| &mut state.ways);
+        for condition in ways.flatten().flatten() {
+            match condition {
+                WayCondition::Condition(asked)
+                | WayCondition::Case(asked)
+                | WayCondition::Loop(asked)
+                | WayCondition::Probe(asked) => asked.line = 0,
+                WayCondition::Skip { line, .. } => *line = 0,
+                WayCondition::Found { .. } => {}
+            }
+        }
+        copy
     }
 
     /// Whether one condition decides.
@@ -141,8 +195,8 @@ impl PossibleState {
     }
 }
 
-/// The ways on which a block is executed, as words after `if`, as seen from a file.
-pub(crate) fn branch_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
+/// Ways as words after `if`, as seen from a file.
+pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
     in_words(&ways[..named], ways.len() - named, file)
 }
@@ -188,6 +242,16 @@ impl WayCondition {
                 let word = if *executed { "off" } else { "on" };
                 format!("skip level {level} is {word}")
             }
+            Self::Found {
+                axis,
+                compensation: Kind::Frict,
+                state,
+            } => format!("{axis} is {state} at the start"),
+            Self::Found {
+                axis,
+                compensation,
+                state,
+            } => format!("{compensation} of {axis} is {state} at the start"),
         }
     }
 }

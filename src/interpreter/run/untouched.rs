@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
-use super::possible_state::{branch_in_words, ways_of};
+use super::possible_state::{WayCondition, ways_in_words, ways_of};
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Kind, KindSet};
 
@@ -100,7 +100,26 @@ pub(crate) struct FoundStates<'a> {
 impl FoundStates<'_> {
     /// Whether a kind of an axis may still be in the state that the program found.
     pub(crate) fn has(self, axis: AxisIndex, kind: Kind) -> bool {
-        !self.untouched.of((axis, kind), self.reach).is_never()
+        match self.untouched.0.get(&(axis, kind)) {
+            None => true,
+            Some(ways) => !ways.is_never() && !ways.and(self.reach).is_never(),
+        }
+    }
+
+    /// Whether it is on all ways.
+    pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
+        let untouched = self.untouched.0.get(&(axis, kind));
+        self.reach.is_always() && untouched.is_none_or(WaySet::is_always)
+    }
+
+    /// The ways on which a kind of an axis still is in that state, each a list of conditions that hold
+    /// together; none where it is on all of them, or on no way.
+    pub(crate) fn ways(self, axis: AxisIndex, kind: Kind) -> Vec<Vec<WayCondition>> {
+        let ways = self.untouched.of((axis, kind), self.reach);
+        if ways.is_always() {
+            return Vec::new();
+        }
+        ways_of(&ways, self.conditions)
     }
 
     /// The ways on which a kind of an axis still is in that state, as seen from a file.
@@ -111,7 +130,7 @@ impl FoundStates<'_> {
         } else if ways.is_always() {
             Found::Always
         } else {
-            Found::If(branch_in_words(&ways_of(&ways, self.conditions), file))
+            Found::If(ways_in_words(&ways_of(&ways, self.conditions), file))
         }
     }
 }

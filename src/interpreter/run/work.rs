@@ -98,6 +98,15 @@ impl Work {
         self.changes.clear();
     }
 
+    /// Hands what the block asked over to what is told of it.
+    #[inline]
+    pub(in crate::interpreter) fn gather_asked(&mut self) {
+        let asked = self.asked.get_mut();
+        if !asked.is_empty() {
+            self.aside.asked.append(asked);
+        }
+    }
+
     pub(in crate::interpreter) fn clear(&mut self) {
         self.outcomes.clear();
         self.changes.clear();

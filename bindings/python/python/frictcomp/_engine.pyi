@@ -1,4 +1,4 @@
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -33,7 +33,7 @@ __all__ = [
 
 _Path: TypeAlias = str | PathLike[str]
 _Program: TypeAlias = str | bytes | PathLike[str] | Text
-_Kinds: TypeAlias = str | Sequence[str]
+_Kinds: TypeAlias = str | Iterable[str]
 _State: TypeAlias = Literal["active", "ineffective", "inactive", "unconfigured", "unknown"]
 _Severity: TypeAlias = Literal["error", "warning", "info"]
 # With the keys of the records: `state`, `ways`, `more`.
@@ -71,7 +71,7 @@ class Machine:
         *,
         startup: _Path | None = None,
         isolated: bool = False,
-        enable: Sequence[str] | None = None,
+        enable: Iterable[str] | None = None,
         variables: Mapping[str, float | str] | None = None,
         allow_outside: bool = False,
     ) -> Machine: ...
@@ -166,7 +166,11 @@ class Message:
 
 @final
 class Messages:
-    """Messages in their order, and a table of them for pandas, polars and DuckDB."""
+    """Messages in their order, and a table of them for pandas, polars and DuckDB.
+
+    It has the methods of a ``Sequence`` and is not registered as one: polars reads a ``Sequence`` item
+    by item, and not as a table.
+    """
 
     @property
     def errors(self) -> int:
@@ -187,6 +191,10 @@ class Messages:
     @overload
     def __getitem__(self, index: slice, /) -> list[Message]: ...
     def __iter__(self) -> Iterator[Message]: ...
+    def __reversed__(self) -> Iterator[Message]: ...
+    def __contains__(self, message: object, /) -> bool: ...
+    def count(self, value: object) -> int: ...
+    def index(self, value: object, start: int = 0, stop: int = ...) -> int: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
@@ -312,7 +320,7 @@ class Limits:
         calls: int | None = None,
         nesting: int | None = None,
         macros: int | None = None,
-        skip: Sequence[int] | None = None,
+        skip: Iterable[int] | None = None,
     ) -> Limits: ...
 
 @final
@@ -428,7 +436,7 @@ class Identified:
         """The value list as a file of the control."""
 
 def run(
-    program: _Program | Sequence[_Program],
+    program: _Program | Iterable[_Program],
     *,
     machine: Machine | _Path | None = None,
     state: State | _Path | None = None,
@@ -439,14 +447,14 @@ def run(
 ) -> Timeline:
     """Runs programs one after the other in one session of the control.
 
-    A program is a path, or a text: a ``str`` with a line end, ``bytes``, or ``Text``. ``state`` is
-    what an earlier run left; the path of a state file is read and, at the end, written, as
-    ``--state`` does. An error of the control stops the session unless ``keep_going``. ``kinds``
-    adds columns such as ``X.LEAD``, ``positions`` adds ``X_pos`` in mm or degrees.
+    A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
+    the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
+    control stops the session unless ``keep_going``. ``kinds`` adds columns such as ``X.LEAD``,
+    ``positions`` adds ``X_pos`` in mm or degrees.
     """
 
 def check(
-    programs: _Program | Sequence[_Program],
+    programs: _Program | Iterable[_Program],
     *,
     machine: Machine | _Path | None = None,
     limits: Limits | None = None,
@@ -457,7 +465,7 @@ def check(
     """
 
 def audit(
-    programs: _Program | Sequence[_Program],
+    programs: _Program | Iterable[_Program],
     *,
     machine: Machine | _Path | None = None,
     kinds: _Kinds | None = None,
@@ -467,13 +475,13 @@ def audit(
 
 def current(
     program: _Program,
-    axes: Sequence[str],
+    axes: Iterable[str],
     *,
     machine: Machine | _Path | None = None,
     value_list: _Path | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    start: Sequence[tuple[str, float]] | None = None,
+    start: Iterable[tuple[str, float]] | None = None,
     max_cycles: int = 3_600_000,
     limits: Limits | None = None,
 ) -> Currents:
@@ -493,7 +501,7 @@ def circle(
     value_list: _Path | Mapping[str, _Path] | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    traces: Sequence[_Path] | None = None,
+    traces: Iterable[_Path] | None = None,
     centre: Literal["common", "own"] | None = None,
 ) -> Any:
     """A circular test: the document of ``frictcomp circle --format json``.
@@ -505,12 +513,12 @@ def circle(
 def tune(
     *,
     plant: str = "stiff",
-    feeds: Sequence[float] | None = None,
-    radii: Sequence[float] | None = None,
+    feeds: Iterable[float] | None = None,
+    radii: Iterable[float] | None = None,
     model: str | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    free: Sequence[str] | None = None,
+    free: Iterable[str] | None = None,
     shaping: bool = True,
     cnc_build: str | None = None,
     robust: bool = False,
@@ -522,7 +530,7 @@ def tune(
     """
 
 def identify(
-    traces: _Path | Sequence[_Path],
+    traces: _Path | Iterable[_Path],
     *,
     axis: str | None = None,
     time: str | None = None,

@@ -7,22 +7,22 @@ use frictcomp::comp::Kind;
 use frictcomp::interpreter::PossibleState;
 use frictcomp::session::SavedState;
 use frictcomp::timeline::{Footing, Record, Sink, StateView};
+use serde::{Deserialize, Serialize};
 
 use super::PyProgramRun;
 use super::rows::{Rows, Shown};
 use crate::arrow::Table;
 use crate::json::Json;
-use crate::messages::{PyMessage, Said};
+use crate::messages::{PyMessage, Said, Word};
 use crate::state::PyState;
 use crate::work::Stop;
 
-/// What a session left behind.
+/// What a session left behind, beside its blocks and its messages.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Recorded {
-    pub(crate) table: Table,
     pub(crate) axes: Vec<String>,
     pub(crate) programs: Vec<PyProgramRun>,
-    pub(crate) said: Said,
-    pub(crate) friction: BTreeMap<String, &'static str>,
+    pub(crate) friction: BTreeMap<String, Word>,
     /// The states that are possible where ways differ, by axis.
     pub(crate) possible: Json,
     pub(crate) opaque: BTreeMap<String, u64>,
@@ -55,19 +55,23 @@ impl Recorder {
     }
 
     /// What was recorded, with the state at the end and how many programs did not run.
-    pub(crate) fn finish(self, end: StateView<'_>, state: SavedState, unrun: usize) -> Recorded {
-        Recorded {
+    pub(crate) fn finish(
+        self,
+        end: StateView<'_>,
+        state: SavedState,
+        unrun: usize,
+    ) -> (Recorded, Table, Said) {
+        let recorded = Recorded {
             axes: end.axes().map(|(_, name)| name.to_owned()).collect(),
             friction: friction(end),
             possible: possible(end),
-            table: self.rows.into_table(end),
             programs: self.programs,
-            said: self.said,
             opaque: self.opaque,
             is_assumed: self.is_assumed,
             state: PyState::new(state),
             unrun,
-        }
+        };
+        (recorded, self.rows.into_table(end), self.said)
     }
 
     fn messages(&mut self, record: &Record<'_>) {
@@ -124,7 +128,7 @@ impl Sink for Recorder {
                 self.messages(record);
                 self.rows.end();
                 if let Some(run) = self.programs.last_mut() {
-                    run.by = Some(end.by.as_str());
+                    run.by = Some(end.by.as_str().into());
                     run.blocks = end.seq;
                     run.end = friction(end.state);
                     run.possible = possible(end.state);
@@ -141,10 +145,13 @@ impl Sink for Recorder {
 }
 
 /// Friction compensation of each listed axis.
-fn friction(state: StateView<'_>) -> BTreeMap<String, &'static str> {
+fn friction(state: StateView<'_>) -> BTreeMap<String, Word> {
     let axes = state.axes();
-    axes.map(|(axis, name)| (name.to_owned(), state.state(axis, Kind::Frict).as_str()))
-        .collect()
+    axes.map(|(axis, name)| {
+        let word = state.state(axis, Kind::Frict).as_str();
+        (name.to_owned(), word.into())
+    })
+    .collect()
 }
 
 /// The states of friction compensation that are possible where ways differ, by axis (R14.2).

@@ -7,12 +7,15 @@ use gen_lsp_types::{
     WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 
+use super::calls::ProjectCalls;
 use super::client::Client;
 use super::commands::COMMANDS;
 use super::pages::SCHEME;
 
 /// The answer to `initialize`.
-pub(super) fn offer(client: &Client) -> InitializeResult {
+pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {
+    let has_project = calls.are_known().then_some(true);
+    let shows_calls = has_project.filter(|_| client.settings.outlines());
     let outlines = client.settings.outlines().then_some(true);
     let finds_names = client.settings.finds_names().then_some(true);
     InitializeResult {
@@ -28,7 +31,12 @@ pub(super) fn offer(client: &Client) -> InitializeResult {
                 .into(),
             ),
             hover_provider: Some(true.into()),
-            code_lens_provider: Some(CodeLensOptions::default()),
+            code_lens_provider: Some(CodeLensOptions {
+                resolve_provider: has_project,
+                ..CodeLensOptions::default()
+            }),
+            call_hierarchy_provider: shows_calls.map(Into::into),
+            workspace_symbol_provider: shows_calls.map(Into::into),
             code_action_provider: Some(
                 CodeActionOptions {
                     code_action_kinds: Some(vec![

@@ -4,6 +4,7 @@ use gen_lsp_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 
 use super::analysis::limits;
+use super::calls;
 use super::commands::SHOW_TIMELINE;
 use super::documents::{Document, Kind};
 use super::encoding::whole_line;
@@ -35,6 +36,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
         left(run, &name).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
     lenses.push(said(left));
     lenses.extend(inherited(view, document).map(said));
+    lenses.extend(calls::lens(view, document));
     lenses.push(CodeLens {
         range: whole_line(0),
         command: Some(Command {

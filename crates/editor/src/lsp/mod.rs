@@ -10,6 +10,7 @@
 mod actions;
 mod analysis;
 mod asked;
+mod calls;
 mod capabilities;
 mod checks;
 mod client;

@@ -124,6 +124,15 @@ pub(super) fn definition(view: &View, params: &DefinitionParams) -> Option<Locat
     Some(location(view, document, mention))
 }
 
+/// The file of the program that is called at a place.
+pub(super) fn called_at(view: &View, place: &TextDocumentPositionParams) -> Option<PathBuf> {
+    let (document, _, found) = at(view, place, Settings::outlines)?;
+    match &found.name {
+        Name::File(name) => called(view, document, name),
+        Name::Program(_) | Name::Label(..) => None,
+    }
+}
+
 /// The file of a called program: beside the caller, otherwise the one that the check of the caller
 /// read, wherever the configuration says that programs are.
 fn called(view: &View, document: &Document, name: &str) -> Option<PathBuf> {

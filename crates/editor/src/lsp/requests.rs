@@ -1,10 +1,11 @@
 //! Which questions there are, and who answers them.
 
 use gen_lsp_types::{
-    CodeActionRequest, CodeLensRequest, CompletionRequest, DefinitionRequest,
-    DocumentSymbolRequest, ExecuteCommandRequest, FoldingRangeRequest, HoverRequest,
-    InlayHintRequest, PrepareRenameRequest, ReferencesRequest, RenameRequest, Request,
-    TextDocumentContentRequest,
+    CallHierarchyIncomingCallsRequest, CallHierarchyOutgoingCallsRequest,
+    CallHierarchyPrepareRequest, CodeActionRequest, CodeLensRequest, CodeLensResolveRequest,
+    CompletionRequest, DefinitionRequest, DocumentSymbolRequest, ExecuteCommandRequest,
+    FoldingRangeRequest, HoverRequest, InlayHintRequest, PrepareRenameRequest, ReferencesRequest,
+    RenameRequest, Request, TextDocumentContentRequest, WorkspaceSymbolRequest,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -13,7 +14,7 @@ use serde_json::Value;
 use super::custom::{StatesRequest, TimelineRequest};
 use super::refusal::Refusal;
 use super::view::View;
-use super::{actions, commands, completion, custom, hints, hover, lens, navigation, pages};
+use super::{actions, calls, commands, completion, custom, hints, hover, lens, navigation, pages};
 
 /// Answers a question with parameters that may be anything.
 pub(super) type Answerer = fn(&View, Value) -> Result<Value, Refusal>;
@@ -42,7 +43,7 @@ pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
     Some((known.needs, known.answerer))
 }
 
-static KNOWN: [Known; 15] = [
+static KNOWN: [Known; 20] = [
     known::<HoverRequest>(Needs::Check, |view, params| {
         answer(view, params, hover::hover)
     }),
@@ -86,6 +87,22 @@ static KNOWN: [Known; 15] = [
     known::<TextDocumentContentRequest>(Needs::Texts, |_, params| {
         let content = pages::content(&serde_json::from_value(params)?);
         Ok(serde_json::to_value(content)?)
+    }),
+    known::<CallHierarchyPrepareRequest>(Needs::Check, |view, params| {
+        answer(view, params, calls::prepare)
+    }),
+    known::<CallHierarchyIncomingCallsRequest>(Needs::Time, |view, params| {
+        answer(view, params, calls::incoming)
+    }),
+    known::<CallHierarchyOutgoingCallsRequest>(Needs::Time, |view, params| {
+        answer(view, params, calls::outgoing)
+    }),
+    known::<WorkspaceSymbolRequest>(Needs::Time, |view, params| {
+        answer(view, params, calls::symbols)
+    }),
+    known::<CodeLensResolveRequest>(Needs::Time, |view, params| {
+        let lens = calls::resolved(view, serde_json::from_value(params)?);
+        Ok(serde_json::to_value(lens)?)
     }),
     known::<ExecuteCommandRequest>(Needs::Time, |view, params| {
         let shown = commands::execute(view, serde_json::from_value(params)?)?;

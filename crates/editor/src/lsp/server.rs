@@ -23,6 +23,7 @@ use serde_json::Value;
 
 use super::analysis::{Analysis, Job};
 use super::asked::{self, Asked};
+use super::calls::ProjectCalls;
 use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
@@ -86,7 +87,7 @@ pub fn serve(connection: &Connection) -> io::Result<Farewell> {
         Err(farewell) => return Ok(farewell),
     };
     let mut server = Server::new(connection, &params)?;
-    server.send(Response::new_ok(id, offer(&server.client)));
+    server.send(Response::new_ok(id, offer(&server.client, &server.calls)));
     Ok(server.listen())
 }
 
@@ -121,6 +122,7 @@ struct Server<'c> {
     connection: &'c Connection,
     client: Arc<Client>,
     documents: Documents,
+    calls: ProjectCalls,
     analyses: SharedMap<String, Arc<Analysis>>,
     users: Users,
     board: Board,
@@ -141,11 +143,14 @@ impl<'c> Server<'c> {
         let (client, wrong) = Client::new(params);
         let (sender, done) = unbounded();
         let here = || std::env::current_dir().ok();
-        let folder = project(params).or_else(here).unwrap_or_default();
+        let project = project(params);
+        let calls = ProjectCalls::new(project.clone());
+        let folder = project.or_else(here).unwrap_or_default();
         let server = Self {
             connection,
             client: Arc::new(client),
             documents: Documents::new(folder),
+            calls,
             analyses: SharedMap::default(),
             users: Users::default(),
             board: Board::default(),
@@ -267,6 +272,7 @@ impl<'c> Server<'c> {
                 client: Arc::clone(&self.client),
                 documents: self.documents.clone(),
                 analyses: self.analyses.clone(),
+                calls: self.calls.clone(),
                 cancel,
             },
         });
@@ -315,7 +321,11 @@ impl<'c> Server<'c> {
             "textDocument/didClose" => read(params).map(|it| self.closed(it)),
             "workspace/didChangeWatchedFiles" => read(params).map(|it| self.files_changed(&it)),
             "workspace/didChangeConfiguration" => read(params).map(|it| self.settings_changed(&it)),
-            // What is not known and need not be: `$/setTrace`, `textDocument/didSave`.
+            "textDocument/didSave" => {
+                self.calls.forget();
+                Ok(())
+            }
+            // What is not known and need not be: `$/setTrace`.
             _ => Ok(()),
         };
         if let Err(error) = told {
@@ -371,6 +381,7 @@ impl<'c> Server<'c> {
     }
 
     fn files_changed(&mut self, params: &DidChangeWatchedFilesParams) {
+        self.calls.forget();
         let events = params.changes.iter();
         let changed: Vec<_> = events.filter_map(|it| path_of(&it.uri.0)).collect();
         // A new file may be what was not found before.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use gen_lsp_types::{Position, Uri};
 
 use super::analysis::{Analysis, Run};
+use super::calls::ProjectCalls;
 use super::client::Client;
 use super::documents::{Document, Documents};
 use super::lane::Cancel;
@@ -21,6 +22,8 @@ pub(super) struct View {
     pub(super) documents: Documents,
     /// What was found in the open texts, by their URIs.
     pub(super) analyses: SharedMap<String, Arc<Analysis>>,
+    /// Which programs of the project call which.
+    pub(super) calls: ProjectCalls,
     /// Whether the client still wants to know.
     pub(super) cancel: Cancel,
 }

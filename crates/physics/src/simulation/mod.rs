@@ -25,5 +25,6 @@ pub use drives::Drives;
 pub use friction::{Friction, FrictionModel, GmsElement, UnknownFrictionModel};
 pub use parameters::{DriveParameters, PEAK_FORCE, RATED_FORCE_N};
 pub use plant::{Plant, Preset, UnknownPreset};
+pub use plant_keys::PLANT_FORMS;
 pub use plant_list::plant_list;
 pub(crate) use plant_list::plant_list_at;

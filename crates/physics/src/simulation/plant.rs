@@ -50,7 +50,7 @@ impl Preset {
     pub const ALL: [Self; 3] = [Self::Stiff, Self::Mid, Self::Soft];
 
     /// The name on the command line and in plant files.
-    pub fn as_str(self) -> &'static str {
+    pub const fn as_str(self) -> &'static str {
         match self {
             Self::Stiff => "stiff",
             Self::Mid => "mid",

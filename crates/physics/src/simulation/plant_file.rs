@@ -44,24 +44,21 @@ pub(super) struct StictionTable {
 
 /// The whole file.
 const PLANT: Shape = Shape {
-    name: "plant",
+    name: keys::FILE,
     keys: Some(&keys::FILE_KEYS),
 };
 
 /// The tables `[x]` and `[y]`.
 const AXIS: Shape = Shape {
-    name: "[x] and [y]",
+    name: keys::AXIS_TABLE,
     keys: Some(&keys::AXIS_KEYS),
 };
 
 /// The tables `[stiction]`, `[x.stiction]` and `[y.stiction]`.
 const STICTION: Shape = Shape {
-    name: "[stiction]",
+    name: keys::STICTION_TABLE,
     keys: Some(&keys::STICTION_KEYS),
 };
-
-/// Elements of the Maxwell-slip model at most.
-const MAX_ELEMENTS: usize = 20;
 
 impl PlantFile {
     /// What the file says. What the values must be to each other is not looked at.
@@ -214,10 +211,11 @@ fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
         return Ok(None);
     };
     let place = table.given(keys::ELEMENTS).unwrap_or_else(|| table.whole());
-    if pairs.is_empty() || pairs.len() > MAX_ELEMENTS {
+    if pairs.is_empty() || pairs.len() > keys::MAX_ELEMENTS {
         let message = format!(
-            "`gms` has {} elements; it takes 1 to {MAX_ELEMENTS}",
-            pairs.len()
+            "`gms` has {} elements; it takes 1 to {}",
+            pairs.len(),
+            keys::MAX_ELEMENTS
         );
         return Err(ConfigError::at(&place, message));
     }

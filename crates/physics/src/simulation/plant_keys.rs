@@ -1,5 +1,22 @@
 //! The keys of a plant file, each once, with its unit and its range.
 
+use super::plant::Preset;
+use frictcomp::config::{Form, KeyForm, TableForm};
+
+/// The names of the presets.
+const PRESETS: [&str; Preset::ALL.len()] = {
+    let mut names = [""; Preset::ALL.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = Preset::ALL[at].as_str();
+        at += 1;
+    }
+    names
+};
+
+/// Elements of the Maxwell-slip model at most.
+pub(super) const MAX_ELEMENTS: usize = 20;
+
 /// A key whose value is one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
@@ -180,3 +197,99 @@ pub(super) const FILE_KEYS: [&str; COUNT + 4] = {
     }
     keys
 };
+
+/// The name of a whole plant file in messages.
+pub(super) const FILE: &str = "plant";
+/// The headers of `[x]` and `[y]`, and of `[stiction]`.
+pub(super) const AXIS_TABLE: &str = "[x] and [y]";
+pub(super) const STICTION_TABLE: &str = "[stiction]";
+
+const fn of(facts: Facts) -> KeyForm {
+    KeyForm {
+        key: facts.key,
+        form: Form::Within(facts.range),
+        meaning: facts.unit,
+    }
+}
+
+const fn key(key: &'static str, form: Form, meaning: &'static str) -> KeyForm {
+    KeyForm { key, form, meaning }
+}
+
+const AXIS_FORMS: [KeyForm; COUNT] = {
+    let mut forms = [key("", Form::Text, ""); COUNT];
+    let mut at = 0;
+    while at < Quantity::ALL.len() {
+        forms[at] = of(Quantity::ALL[at].facts());
+        at += 1;
+    }
+    let elements = "share and stiffness in N/m of each element";
+    forms[COUNT - 3] = key(ELEMENTS, Form::Pairs(Some(MAX_ELEMENTS)), elements);
+    forms[COUNT - 2] = key(ATTRACTION, Form::Positive, "N/s");
+    forms[COUNT - 1] = key(
+        STICTION,
+        Form::Table(STICTION_TABLE),
+        "stiction compensation",
+    );
+    forms
+};
+
+const STICTION_FORMS: [KeyForm; StictionKey::ALL.len()] = {
+    let mut forms = [key("", Form::Text, ""); StictionKey::ALL.len()];
+    let mut at = 0;
+    while at < forms.len() {
+        forms[at] = of(StictionKey::ALL[at].facts());
+        at += 1;
+    }
+    forms
+};
+
+const FILE_FORMS: [KeyForm; COUNT + 4] = {
+    let mut forms = [key("", Form::Text, ""); COUNT + 4];
+    forms[0] = key(NAME, Form::Text, "what the plant is called in reports");
+    forms[1] = key(
+        BASE,
+        Form::OneOf(&PRESETS),
+        "the plant that gives the missing values",
+    );
+    forms[2] = key(AXES[0], Form::Table(AXIS_TABLE), "what differs for X");
+    forms[3] = key(AXES[1], Form::Table(AXIS_TABLE), "what differs for Y");
+    let mut at = 0;
+    while at < COUNT {
+        forms[at + 4] = AXIS_FORMS[at];
+        at += 1;
+    }
+    forms
+};
+
+const fn table(header: &'static str, keys: &'static [KeyForm]) -> TableForm {
+    TableForm {
+        header,
+        keys,
+        free: None,
+        required: &[],
+    }
+}
+
+/// The tables of a plant file, the file itself first.
+pub static PLANT_FORMS: [TableForm; 3] = [
+    table(FILE, &FILE_FORMS),
+    table(AXIS_TABLE, &AXIS_FORMS),
+    table(STICTION_TABLE, &STICTION_FORMS),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_that_is_read_has_a_form() {
+        // R17.6
+        let formed =
+            |table: &TableForm| -> Vec<&str> { table.keys.iter().map(|it| it.key).collect() };
+        let [file, axis, stiction] = &PLANT_FORMS;
+        assert_eq!(formed(file), FILE_KEYS);
+        assert_eq!(formed(axis), AXIS_KEYS);
+        assert_eq!(formed(stiction), STICTION_KEYS);
+    }
+}

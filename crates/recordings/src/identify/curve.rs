@@ -53,7 +53,7 @@ impl FrictionCurve {
 }
 
 /// The value of straight lines, held outside.
-pub(super) fn along(points: &[[f64; 2]], x: f64) -> f64 {
+pub(crate) fn along(points: &[[f64; 2]], x: f64) -> f64 {
     let after = points.partition_point(|point| point[0] < x);
     match (after.checked_sub(1).map(|at| points[at]), points.get(after)) {
         (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (x - x0) / (x1 - x0),

@@ -17,6 +17,22 @@ pub struct Track {
     pub step_s: f64,
 }
 
+impl Track {
+    /// The samples from a time in s on.
+    #[must_use]
+    pub fn since(mut self, time_s: f64) -> Self {
+        let before = self.times_s.partition_point(|it| *it < time_s);
+        let cut = |column: &mut Vec<f64>| drop(column.drain(..before.min(column.len())));
+        cut(&mut self.times_s);
+        cut(&mut self.torques);
+        [&mut self.velocities, &mut self.positions]
+            .into_iter()
+            .flatten()
+            .for_each(cut);
+        self
+    }
+}
+
 /// Why a track cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]

@@ -4,7 +4,7 @@ use super::subject::AuditReport;
 use crate::csv::field;
 use frictcomp::audit::Site;
 
-const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion\n";
+const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion,inherits_if\n";
 
 /// One row a program, axis and kind, quoted as RFC 4180 says.
 pub fn render_csv(report: &AuditReport) -> String {
@@ -15,7 +15,10 @@ pub fn render_csv(report: &AuditReport) -> String {
                 let motion = axis.inherits.motion();
                 let (by_file, by_line) = place(axis.by.as_ref());
                 let (in_file, in_line) = place(motion.map(|motion| &motion.site));
-                let reason = axis.reason.as_ref().map_or("", |it| it.message.as_str());
+                let when = axis.leaves_away_when(&program.file);
+                let reason = axis.reason.as_ref().map(|it| it.message.as_str());
+                let reason = reason.or(when.as_deref()).unwrap_or_default();
+                let condition = motion.and_then(|motion| motion.condition(&program.file));
                 let fields = [
                     machine.origin.as_deref().unwrap_or_default(),
                     &program.file,
@@ -29,6 +32,7 @@ pub fn render_csv(report: &AuditReport) -> String {
                     in_file,
                     &in_line,
                     motion.map_or("", |motion| motion.motion.as_str()),
+                    condition.as_deref().unwrap_or_default(),
                 ];
                 for (at, text) in fields.into_iter().enumerate() {
                     if at > 0 {

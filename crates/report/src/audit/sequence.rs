@@ -26,6 +26,10 @@ pub fn step_line(step: &Step) -> String {
         } else if axis.end != axis.start_up {
             let _ = write!(part, "{name} stays {}", axis.end.as_str());
         }
+        if let Some(possible) = &axis.possible {
+            let words = possible.in_words(&step.file);
+            let _ = write!(part, " ({})", visible_line(&words));
+        }
         if let Some(away) = moves_away(step, axis) {
             if part.is_empty() {
                 let _ = write!(part, "{name}");

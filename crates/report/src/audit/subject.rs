@@ -88,6 +88,8 @@ pub enum Word {
     Both,
     /// It leaves the axis away from its start-up state.
     Leaves,
+    /// It does so on some ways.
+    Depends,
     /// It is not known offline.
     Unknown,
     /// It moves the axis in the state that it finds.
@@ -96,15 +98,16 @@ pub enum Word {
     Perhaps,
     /// It leaves the axis in its start-up state, and does not move it before that.
     StartUp,
-    /// It neither switches nor moves the axis before it is set.
+    /// It neither takes the axis away from its start-up state nor moves it before it is set.
     Keeps,
 }
 
 impl Word {
     /// Every word, the most dangerous first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Both,
         Self::Leaves,
+        Self::Depends,
         Self::Unknown,
         Self::Inherits,
         Self::Perhaps,
@@ -116,11 +119,12 @@ impl Word {
     pub fn of(axis: &AxisAudit) -> Self {
         match axis.effect {
             _ if axis.leaves_away() && axis.is_inheritor() => Self::Both,
+            ProgramEffect::Depends if axis.leaves_away() => Self::Depends,
             _ if axis.leaves_away() => Self::Leaves,
             _ if axis.is_unknown() => Self::Unknown,
             _ if axis.is_inheritor() => Self::Inherits,
             _ if axis.may_inherit() => Self::Perhaps,
-            ProgramEffect::Keeps => Self::Keeps,
+            ProgramEffect::Keeps | ProgramEffect::Depends => Self::Keeps,
             _ => Self::StartUp,
         }
     }
@@ -130,6 +134,7 @@ impl Word {
         match self {
             Self::Both => "both",
             Self::Leaves => "leaves",
+            Self::Depends => "depends",
             Self::Unknown => "unknown",
             Self::Inherits => "inherits",
             Self::Perhaps => "perhaps",
@@ -145,13 +150,18 @@ impl Word {
                 "moves the axis as it finds it, and leaves it away from its start-up state"
             }
             Self::Leaves => "leaves the axis away from its start-up state",
+            Self::Depends => {
+                "leaves the axis away from its start-up state, depending on a condition below"
+            }
             Self::Unknown => "it is not known offline what the program leaves or inherits",
             Self::Inherits => "moves the axis in the state that it finds",
             Self::Perhaps => "may move the axis in the state that it finds",
             Self::StartUp => {
                 "leaves the axis in its start-up state, and does not move it before that"
             }
-            Self::Keeps => "neither switches nor moves the axis before it is set",
+            Self::Keeps => {
+                "neither takes the axis away from its start-up state nor moves it before it is set"
+            }
         }
     }
 }

@@ -236,10 +236,12 @@ fn verb(count: usize, finding: &AxisFinding, (one, several): (&str, &str)) -> St
 
 fn leaver(program: &ProgramAudit, axis: &AxisAudit) -> String {
     let file = visible_line(&program.file);
+    let when = axis.leaves_away_when(&program.file);
+    let when = when.map_or(String::new(), |when| format!(", {}", visible_line(&when)));
     match &axis.by {
-        Some(by) if *by.file == *program.file => format!("{file}:{}", by.line),
-        Some(by) => format!("{file} (at {}:{})", visible_line(&by.file), by.line),
-        None => format!("{file} (at its end)"),
+        Some(by) if *by.file == *program.file => format!("{file}:{}{when}", by.line),
+        Some(by) => format!("{file} (at {}:{}){when}", visible_line(&by.file), by.line),
+        None => format!("{file} (at its end){when}"),
     }
 }
 
@@ -248,7 +250,11 @@ fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> String {
         return visible_line(&program.file).into_owned();
     };
     let may = if motion.perhaps { "may move" } else { "moves" };
-    let pace = way(motion.motion);
+    let condition = motion.condition(&program.file);
+    let condition = condition.map_or(String::new(), |words| {
+        format!(", if {}", visible_line(&words))
+    });
+    let pace = format!("{}{condition}", way(motion.motion));
     let (file, line) = (visible_line(&motion.site.file), motion.site.line);
     if *motion.site.file == *program.file {
         format!("{file}:{line} ({may}{pace})")

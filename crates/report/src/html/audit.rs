@@ -258,7 +258,7 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
     let rows = programs[..shown].iter().map(|program| {
         let cells: Vec<Markup> = findings
             .iter()
-            .map(|finding| cell(&program.axes[finding.at], marks))
+            .map(|finding| cell(&program.file, &program.axes[finding.at], marks))
             .collect();
         Row::new(&program.file, cells)
     });
@@ -275,7 +275,7 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
 }
 
 /// What a program does to an axis, with links to where.
-fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
+fn cell(file: &str, axis: &AxisAudit, marks: &Marks) -> Markup {
     let link = |site: Option<&Site>, text: &str| {
         site.map_or_else(|| html! { (text) }, |site| marks.link(site, text))
     };
@@ -285,7 +285,7 @@ fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
         Word::Both => html! {
             (link(axis.by.as_ref(), "leaves")) ", " (link(inherits, "inherits"))
         },
-        Word::Leaves => link(axis.by.as_ref(), word.as_str()),
+        Word::Leaves | Word::Depends => link(axis.by.as_ref(), word.as_str()),
         Word::Unknown => {
             let reason = axis.reason.as_ref().and_then(|reason| reason.site.as_ref());
             link(reason, word.as_str())
@@ -293,13 +293,17 @@ fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
         Word::Inherits | Word::Perhaps => link(inherits, word.as_str()),
         Word::StartUp | Word::Keeps => html! { (word.as_str()) },
     };
+    let content = html! {
+        (content)
+        @if let Some(when) = axis.leaves_away_when(file) { " (" (when) ")" }
+    };
     cell_word(word, &content)
 }
 
 /// A word, told apart by more than colour.
 fn cell_word(word: Word, content: &Markup) -> Markup {
     let class = match word {
-        Word::Both | Word::Leaves => "state away",
+        Word::Both | Word::Leaves | Word::Depends => "state away",
         Word::Unknown => "state unknown",
         Word::Inherits | Word::Perhaps => "state inactive",
         Word::StartUp => "state active",

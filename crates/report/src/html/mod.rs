@@ -9,6 +9,7 @@
 mod assumptions;
 mod audit;
 mod circle;
+mod commission;
 mod contour;
 mod digest;
 mod given;
@@ -27,6 +28,7 @@ mod ways;
 
 pub use audit::render_audit;
 pub use circle::render_circle;
+pub use commission::{Acceptance, render_acceptance};
 pub use contour::render_contour;
 pub use digest::RunDigest;
 pub use given::{GivenForRun, RunInputs};

@@ -1,8 +1,10 @@
 //! What the results of the tool look like as charts.
 
 mod circle;
+mod commission;
 mod contour;
 mod current;
+mod friction;
 mod identification;
 mod lists;
 mod trace;
@@ -10,8 +12,10 @@ mod tuning;
 mod units;
 
 pub use circle::circle;
+pub use commission::{friction_of_axis, glitches_by_feed};
 pub use contour::ContourPicture;
 pub use current::{AxisPlot, AxisSample, CurrentPlot};
+pub use friction::{friction_states, friction_trend};
 pub use identification::{friction_curve, residuals_over_position, segments_on_trace};
 pub use lists::{value_curve, value_curves};
 pub use trace::channels;

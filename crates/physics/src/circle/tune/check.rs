@@ -15,7 +15,7 @@ use crate::simulation::DriveParameters;
 pub(super) const CHECKED: usize = 25;
 
 /// Accelerations that are searched are at most this factor apart.
-const APART: f64 = 2.5;
+const APART: f64 = 1.5;
 
 /// Where within its CNC cycle an axis reverses.
 const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];

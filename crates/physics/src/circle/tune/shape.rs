@@ -40,23 +40,23 @@ const DISTANCE: f64 = 20.0;
 /// Cycles of `reversal_lookahead` for a step of 1.
 const LOOKAHEAD: f64 = 10.0;
 
-/// Later than the unshaped list, where the search begins, in cycles.
-const LATER: f64 = 3.0;
+/// How much later than the unshaped list each search begins, in cycles: it ends in another valley.
+const LATER: [f64; RUNS] = [0.0, 10.0, 20.0];
 
 /// The outputs alone scale the table.
 const UNSCALED: i16 = 1000;
 
-/// Searches that begin with other random numbers: each ends in another valley.
+/// Searches that begin at other places.
 const RUNS: usize = 3;
 
 /// Generations of each, before the best of them goes on alone.
 const TRIAL: usize = 40;
 
 /// Generations at most, of all searches together.
-const MOST: usize = 220;
+const MOST: usize = 300;
 
 /// Generations without a gain after which the search ends.
-const IDLE: usize = 40;
+const IDLE: usize = 60;
 
 /// What counts as a gain, as a part.
 const GAIN: f64 = 0.001;
@@ -97,13 +97,16 @@ impl ShapeSearch {
         ranges: &Ranges,
         points: Points,
     ) -> Self {
-        let mut mean = vec![0.0; FREE];
-        mean.extend([LATER / DELAY, 0.0, 0.0]);
-        Self {
-            runs: [0, 1, 2].map(|seed| Run {
-                evolution: Evolution::new(mean.clone(), STEP, seed),
+        let begin = |run: usize| {
+            let mut mean = vec![0.0; FREE];
+            mean.extend([LATER[run] / DELAY, 0.0, 0.0]);
+            Run {
+                evolution: Evolution::new(mean, STEP, run as u64),
                 least: f64::INFINITY,
-            }),
+            }
+        };
+        Self {
+            runs: std::array::from_fn(begin),
             current: 0,
             start: Candidate {
                 scaling_factor: UNSCALED,

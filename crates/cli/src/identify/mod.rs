@@ -1,23 +1,24 @@
 //! `frictcomp identify`: from a recorded trace to a value list.
 
-use std::path::PathBuf;
+mod states;
 
-use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
 
-use super::channels::AxisChannels;
-use super::console::Console;
-use super::cycle::CycleArgs;
-use super::exit;
-use super::failure::Failure;
-use super::outputs::{Outputs, write_text};
-use super::result::Format;
+use clap::Args;
+
+use crate::channels::{AxisChannels, TorqueArgs};
+use crate::console::Console;
+use crate::cycle::CycleArgs;
+use crate::exit;
+use crate::failure::Failure;
+use crate::outputs::{Outputs, write_text};
+use crate::result::Format;
 use frictcomp::comp::CncBuild;
 use frictcomp::text::shown_path;
 use frictcomp_host::{Ledger, OutputFile, read_axis};
-use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, Measured, TorqueKind, TraceFinding, Track,
-    Wanted, identify, identify_measured_circles,
+    AxisRecording, IdentifyError, IdentifyOptions, Measured, TraceFinding, Track, Wanted, identify,
+    identify_measured_circles,
 };
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_identification;
@@ -34,10 +35,22 @@ use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 /// (0.1 µm or 0.0001°) and `torque` (drive units) are taken; `frictcomp trace` lists the channels of a
 /// file.
 #[derive(Debug, Args)]
-pub(super) struct IdentifyArgs {
+pub(crate) struct IdentifyArgs {
     /// The recorded trace; with `--circles` one or more
-    #[arg(required = true)]
+    #[arg(required_unless_present = "recording", conflicts_with = "recording")]
     traces: Vec<PathBuf>,
+    /// The recording of a state of the axis, cold or warm for instance: `warm=FILE`; give one for each
+    #[arg(long, value_name = "STATE=FILE", value_parser = states::parse_state)]
+    #[arg(conflicts_with_all = ["circles", "html"])]
+    recording: Vec<(String, PathBuf)>,
+    /// The state in which the machine works, for which the list is; by default `warm`
+    #[arg(
+        long,
+        value_name = "STATE",
+        requires = "recording",
+        conflicts_with = "traces"
+    )]
+    working: Option<String>,
     /// The traces are recorded circles, at two or more feeds, instead of constant speeds
     #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
     circles: bool,
@@ -59,13 +72,8 @@ pub(super) struct IdentifyArgs {
         allow_negative_numbers = true
     )]
     feed: f64,
-    /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
-    /// the speed controller; by default what the name of the channel tells
-    #[arg(long, value_name = "KIND")]
-    torque_kind: Option<TorqueKind>,
-    /// Whether friction compensation was on while recording; by default what a channel `comp` tells
-    #[arg(long, value_name = "STATE")]
-    compensation: Option<Compensation>,
+    #[command(flatten)]
+    torque: TorqueArgs,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
@@ -85,8 +93,11 @@ pub(super) struct IdentifyArgs {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
     let options = options(args)?;
+    if !args.recording.is_empty() {
+        return states::run(args, &options, console);
+    }
     let ledger = Ledger::default();
     args.traces
         .iter()
@@ -124,28 +135,9 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         return Err(Failure::new(message)
             .with_help("give one trace of constant speeds, or `--circles` for several circles"));
     };
-    let recording = read(trace)?;
-    let options = IdentifyOptions {
-        measured: args.measured(recording.measured),
-        ..options
-    };
-    let identified = identify(&recording.track, &options)
-        .map_err(|error| refusal(error, &recording.findings))?;
-    let report = IdentifyReport {
-        name: shown_path(trace),
-        axis: args.channels.axis.clone(),
-        recording,
-        identified,
-    };
+    let report = args.identified(trace, read(trace)?, &options)?;
     if let Some(mut list) = list {
-        let made = IdentifiedFrom {
-            axis: report.axis.as_deref(),
-            from: &report.name,
-            unit: report.unit(),
-            faults: &report.faults(),
-        };
-        let found = report.identified.list();
-        write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;
+        write_text(&mut list, &args.list_of(&report, &[]))?;
     }
     if let Some(mut svg) = svg {
         write_text(&mut svg, &friction_curve(&report).render(Frame::Alone))?;
@@ -162,30 +154,42 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     Ok(exit::CLEAN)
 }
 
-/// On or off.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Compensation {
-    On,
-    Off,
-}
-
 impl IdentifyArgs {
-    /// What is known of the torque, with what the user says about it.
-    fn measured(&self, recorded: Measured) -> Measured {
-        let said = self.compensation.map(|state| match state {
-            Compensation::On => Switched::On,
-            Compensation::Off => Switched::Off,
-        });
-        Measured {
-            kind: self.torque_kind.or(recorded.kind),
-            compensation: said.or(recorded.compensation),
-            ..recorded
-        }
+    /// What a recording tells.
+    fn identified(
+        &self,
+        trace: &Path,
+        recording: AxisRecording,
+        options: &IdentifyOptions,
+    ) -> Result<IdentifyReport, Failure> {
+        let options = IdentifyOptions {
+            measured: self.torque.measured(recording.measured),
+            ..*options
+        };
+        let identified = identify(&recording.track, &options)
+            .map_err(|error| refusal(error, &recording.findings))?;
+        Ok(IdentifyReport {
+            name: shown_path(trace),
+            axis: self.channels.axis.clone(),
+            recording,
+            identified,
+        })
+    }
+
+    /// The value list of a report, with further remarks at its head.
+    fn list_of(&self, report: &IdentifyReport, remarks: &[String]) -> String {
+        let made = IdentifiedFrom {
+            axis: report.axis.as_deref(),
+            from: &report.name,
+            unit: report.unit(),
+            faults: &[remarks, &report.faults()].concat(),
+        };
+        render_identified(&report.identified.list(), made, self.cnc_build)
     }
 }
 
 /// Why nothing was identified, with what the channels themselves tell.
-fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
+pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
     findings.iter().fold(error.into(), |failure: Failure, it| {
         failure.with_help(format!("{}: {}", it.code, it.message))
     })
@@ -198,7 +202,9 @@ fn circles(
     list: Option<OutputFile>,
 ) -> Result<OnCirclesReport, Failure> {
     let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
-    let measured = recordings.iter().map(|it| args.measured(it.measured));
+    let measured = recordings
+        .iter()
+        .map(|it| args.torque.measured(it.measured));
     // What is known least of any recording.
     let measured = measured.reduce(Measured::common).unwrap_or_default();
     let report = OnCirclesReport {

@@ -1,0 +1,101 @@
+"""Results go to other processes and come back; what takes several values takes any iterable."""
+
+from __future__ import annotations
+
+import multiprocessing
+import pickle
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy
+import polars
+import pytest
+from conftest import programs
+
+import frictcomp
+
+UNDECIDED = "N10 $IF V.E.A == 1\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X1 F100\nM30\n"
+
+
+def test_a_timeline_comes_back_whole() -> None:
+    # R13.13
+    machine = frictcomp.Machine(isolated=True, enable=("X",))
+    timeline = frictcomp.run(frictcomp.Text(UNDECIDED), machine=machine, positions=True)
+    back = pickle.loads(pickle.dumps(timeline))
+    assert polars.DataFrame(back).equals(polars.DataFrame(timeline))
+    assert list(back.messages) == list(timeline.messages) and len(back.messages)
+    assert (back.axes, back.columns, len(back)) == (timeline.axes, timeline.columns, len(timeline))
+    assert back.friction == timeline.friction == {"X": "unknown"}
+    assert back.possible == timeline.possible and back.possible
+    assert back.state == timeline.state
+    assert (back.opaque, back.is_assumed, back.unrun) == (timeline.opaque, timeline.is_assumed, 0)
+    for one, other in zip(back.programs, timeline.programs, strict=True):
+        assert (one.file, one.by, one.blocks) == (other.file, other.by, other.blocks)
+        assert (one.start, one.end, one.possible) == (other.start, other.end, other.possible)
+
+
+def test_a_pool_of_processes_runs_an_archive() -> None:
+    # R13.13
+    files = programs("programs/demo/order")
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        timelines = pool.map(frictcomp.run, files)
+    for file, timeline in zip(files, timelines, strict=True):
+        here = frictcomp.run(file)
+        assert polars.DataFrame(timeline).equals(polars.DataFrame(here)), file
+        assert list(timeline.messages) == list(here.messages)
+
+
+def test_what_a_run_is_given_can_be_pickled(tmp_path: Path) -> None:
+    # R13.13
+    text = frictcomp.Text("X[COMP OFF FRICT]\nV.P.A = V.E.B\nM30\n", "a.nc")
+    machine = frictcomp.Machine(isolated=True, enable=["X"], variables={"V.E.B": 3, "V.E.C": "x"})
+    limits = frictcomp.Limits(blocks=2, skip=[1, 10])
+    for given in (machine, limits, text):
+        assert repr(pickle.loads(pickle.dumps(given))) == repr(given)
+    there = [pickle.loads(pickle.dumps(it)) for it in (text, machine, limits)]
+    said = [
+        list(frictcomp.run(program, machine=on, limits=within).messages)
+        for program, on, within in ((text, machine, limits), there)
+    ]
+    assert said[0] == said[1]
+    assert any(it.code == "FC910" for it in said[0]), "two blocks are the limit"
+    config = tmp_path / "frictcomp.toml"
+    config.write_text('[[axis]]\nname = "Y"\nfrict_comp = true\n')
+    of_file = pickle.loads(pickle.dumps(frictcomp.Machine(config)))
+    assert frictcomp.run(text, machine=of_file).axes == ["Y"]
+
+
+def test_messages_are_a_sequence() -> None:
+    # R13.13
+    messages = frictcomp.check("programs/demo")
+    assert isinstance(messages, Sequence) and len(messages) > 1
+    first, second = messages[0], messages[1]
+    assert first in messages and "FC401" not in messages
+    assert messages.index(second) == 1 and messages.count(first) == 1
+    assert messages.index(second, -len(messages)) == 1
+    assert list(reversed(messages)) == list(messages)[::-1]
+    with pytest.raises(ValueError):
+        messages.index(first, 1)
+    assert pickle.loads(pickle.dumps(first)) == first
+    back = pickle.loads(pickle.dumps(messages))
+    assert list(back) == list(messages) and back.left_out == messages.left_out
+
+
+def test_several_values_are_any_iterable() -> None:
+    # R13.13
+    files = programs("programs/demo/order")
+    listed = frictcomp.check(files)
+    assert list(frictcomp.check(it for it in files)) == list(listed)
+    assert list(frictcomp.check(Path(it) for it in files)) == list(listed)
+    tuned = frictcomp.tune(feeds=numpy.array([2000.0, 5000.0]), shaping=False)
+    assert tuned.record == frictcomp.tune(feeds=[2000, 5000], shaping=False).record
+    with pytest.raises(TypeError):
+        frictcomp.Machine(enable="XY")
+
+
+def test_a_path_has_no_line_end() -> None:
+    # R13.13
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.run("programs/demo/friction.nc\n")
+    assert "a path has no line ends" in str(caught.value)
+    assert "frictcomp.Text" in str(caught.value)

@@ -1,0 +1,25 @@
+//! `frictcomp commission`: from measuring programs to a list that is proved.
+
+mod plan;
+mod reading;
+mod run;
+
+use clap::Subcommand;
+
+use super::console::Console;
+use super::failure::Failure;
+
+/// Commission the friction compensation of one or two axes
+#[derive(Debug, Subcommand)]
+pub(super) enum CommissionCommand {
+    Plan(plan::PlanArgs),
+    Run(run::RunArgs),
+}
+
+/// Runs the command.
+pub(super) fn run(command: &CommissionCommand, console: Console) -> Result<u8, Failure> {
+    match command {
+        CommissionCommand::Plan(args) => plan::run(args, console),
+        CommissionCommand::Run(args) => run::run(args, console),
+    }
+}

@@ -1,0 +1,475 @@
+//! `frictcomp commission run`: recordings to lists, and what is missing (R16.2, R16.9).
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::plan::{named, plan_name};
+use super::reading::ReadingArgs;
+use crate::console::Console;
+use crate::exit;
+use crate::failure::{Failure, shown};
+use crate::machine::value_list;
+use crate::outputs::{Outputs, write_text};
+use crate::recorded_files::recordings_in;
+use crate::result::Format;
+use frictcomp::comp::CncBuild;
+use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
+use frictcomp_host::{Ledger, read_text, sha256_of, sha256_of_text};
+use frictcomp_recordings::commission::{
+    BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult,
+    Stage, before_after,
+};
+use frictcomp_report::commission::{
+    AxisVerdict, PlanFile, Results, ResultsReport, Round, render_results, render_results_json,
+};
+use frictcomp_report::html::{Acceptance, render_acceptance};
+use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::{TextChange, render_unified, visible_line};
+
+/// Take the recordings of measuring programs: friction, lists, circles before and after
+///
+/// Reads the plans in a folder and every recording in its folder `recordings`, which is told by its
+/// signature. Says what is missing and what is not used, writes a provisional list of each axis to the folder
+/// `lists`, and judges the lists of stage 2 by the circles with and without them. Run it again with more
+/// recordings: what is known already is kept in `results.json`.
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// The folder of the plan
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    #[command(flatten)]
+    reading: ReadingArgs,
+    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
+    /// build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    /// Write the acceptance report to this file, for a browser and for paper
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// The name of the machine in the report
+    #[arg(long, value_name = "NAME", requires = "html")]
+    machine: Option<String>,
+    /// The date of the recordings in the report
+    #[arg(long, value_name = "DATE", requires = "html")]
+    date: Option<String>,
+    /// The list of an axis before the commissioning, with which the report compares that of stage 2:
+    /// `X=old.lis`
+    #[arg(long, value_name = "AXIS=LIST", requires = "html")]
+    before: Vec<String>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    let plans = plans(&args.folder, &ledger)?;
+    let paths = recordings_in(&args.folder.join("recordings"))?;
+    paths.iter().for_each(|path| ledger.reads("trace", path));
+    let known = known(&args.folder.join(RESULTS));
+    let mut kept = 0;
+    let mut results = Vec::new();
+    for path in &paths {
+        let sha256 = sha256_of(path)?;
+        let file = path.file_name().map(|it| it.to_string_lossy().into_owned());
+        let file = file.unwrap_or_default();
+        let same = |it: &&RecordingResult| {
+            it.file == file
+                && it.sha256 == sha256
+                && it.read_with == read_with(args, &plans, it.program)
+        };
+        if let Some(result) = known.iter().find(same) {
+            kept += 1;
+            results.push(result.clone());
+            continue;
+        }
+        let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
+        let (program, found) = args.reading.read(path, &of_plans);
+        results.push(RecordingResult {
+            file,
+            sha256,
+            read_with: read_with(args, &plans, program),
+            program,
+            found,
+        });
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    outputs.print("the result")?;
+    let axes = lists(args, &plans, &results, &mut outputs)?;
+    let rounds = rounds(&plans, &results, &ledger)?;
+    let report = ResultsReport {
+        plans,
+        results,
+        kept,
+        axes,
+        rounds,
+    };
+    if let Some(path) = &args.html {
+        let given = acceptance(args, &report, &ledger)?;
+        let mut html = outputs.file("--html", path)?;
+        render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
+    }
+    let mut file = outputs.file("results.json", &args.folder.join(RESULTS))?;
+    let content = Results {
+        schema: Results::SCHEMA,
+        recordings: report.results.clone(),
+    };
+    let text =
+        serde_json::to_string_pretty(&content).map_err(|error| Failure::new(error.to_string()))?;
+    write_text(&mut file, &text)?;
+    outputs.check()?;
+    console.print(&match args.format {
+        Format::Text => console.fitted(&render_results(&report)),
+        Format::Json => render_results_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(if report.is_complete() {
+        exit::CLEAN
+    } else {
+        exit::FOUND
+    })
+}
+
+/// What the report has beyond the results.
+fn acceptance(
+    args: &RunArgs,
+    report: &ResultsReport,
+    ledger: &Ledger,
+) -> Result<Acceptance, Failure> {
+    let mut changes = Vec::new();
+    for used in report.rounds.last().iter().flat_map(|it| &it.lists) {
+        let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
+        let Some(before) = before else { continue };
+        ledger.reads("value list", &before);
+        let (old, new) = (read_text(&before)?, read_text(Path::new(&used.file))?);
+        let change = TextChange {
+            before: (&shown(&before), &old),
+            after: (&used.file, &new),
+        };
+        let patch = render_unified(change);
+        let same = "no line differs".to_owned();
+        changes.push((
+            used.axis.clone(),
+            if patch.is_empty() { same } else { patch },
+        ));
+    }
+    let axes: Vec<&str> = changes.iter().map(|it| it.0.as_str()).collect();
+    let unused = args
+        .before
+        .iter()
+        .filter_map(|it| it.split_once('='))
+        .find(|it| !axes.contains(&it.0.trim()));
+    if let Some((axis, _)) = unused {
+        let message = format!(
+            "`--before` names `{}`, of which stage 2 has no list",
+            visible_line(axis)
+        );
+        return Err(Failure::new(message).with_help("leave it out until stage 2 is planned"));
+    }
+    Ok(Acceptance {
+        machine: args.machine.clone(),
+        date: args.date.clone(),
+        changes,
+    })
+}
+
+/// The file of the results.
+const RESULTS: &str = "results.json";
+
+/// The plans of stage 1, where it is there, and of each round of stage 2.
+fn plans(folder: &Path, ledger: &Ledger) -> Result<Vec<PlanFile>, Failure> {
+    let mut plans = Vec::new();
+    for round in 1.. {
+        let path = folder.join(plan_name(round));
+        if !path.exists() && round > 1 {
+            break;
+        }
+        if !path.exists() {
+            continue;
+        }
+        ledger.reads("plan", &path);
+        let plan: PlanFile = serde_json::from_str(&read_text(&path)?).map_err(|error| {
+            let message = format!("`{}` is no plan: {error}", shown(&path));
+            Failure::new(message).with_help("`frictcomp commission plan` writes it")
+        })?;
+        if plan.schema != PlanFile::SCHEMA {
+            let message = format!(
+                "`{}` has the form {}, and {} is read",
+                shown(&path),
+                plan.schema,
+                PlanFile::SCHEMA
+            );
+            return Err(Failure::new(message).with_help("plan again with this version"));
+        }
+        plans.push(plan);
+    }
+    if plans.is_empty() {
+        let message = format!("the folder `{}` has no `plan-1.json`", shown(folder));
+        return Err(Failure::new(message)
+            .with_help("`frictcomp commission plan -o FOLDER` writes it with the programs"));
+    }
+    Ok(plans)
+}
+
+/// The results of an earlier run; none where they are not there or not understood.
+fn known(path: &Path) -> Vec<RecordingResult> {
+    let text = read_text(path).ok();
+    let read = text.and_then(|text| serde_json::from_str::<Results>(&text).ok());
+    read.filter(|it| it.schema == Results::SCHEMA)
+        .map(|it| it.recordings)
+        .unwrap_or_default()
+}
+
+/// The SHA-256 of all that decides how a recording is read, but the recording itself: version, options and
+/// the plan of its program, all plans where its program is not known.
+fn read_with(args: &RunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
+    let has = |plan: &&PlanFile| {
+        let mut programs = plan.plan.programs.iter();
+        program.is_none_or(|number| programs.any(|it| it.number == number))
+    };
+    let plans: Vec<&Plan> = plans.iter().filter(has).map(|it| &it.plan).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
+}
+
+fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
+    let plan = plans
+        .iter()
+        .find(|it| it.plan.programs.iter().any(|it| it.number == number));
+    plan.map(|it| it.plan.stage)
+}
+
+/// A provisional list for each axis of stage 1 whose friction was recorded and nothing speaks against.
+fn lists(
+    args: &RunArgs,
+    plans: &[PlanFile],
+    results: &[RecordingResult],
+    outputs: &mut Outputs,
+) -> Result<Vec<AxisVerdict>, Failure> {
+    let first = plans.iter().filter(|it| it.plan.stage == Stage::Off);
+    let mut verdicts = Vec::new();
+    for axis in first.flat_map(|it| &it.plan.axes) {
+        let (source, notes) = source_of(axis, plans, results);
+        let mut verdict = AxisVerdict {
+            axis: axis.name.clone(),
+            list: None,
+            from: None,
+            notes,
+        };
+        if let Some((result, found)) = source {
+            let text = list_text(args, axis, result, found);
+            let path = write_list(&args.folder.join("lists"), &axis.name, &text, outputs)?;
+            verdict.list = Some(shown(&path));
+            verdict.from = Some(result.file.clone());
+        }
+        verdicts.push(verdict);
+    }
+    Ok(verdicts)
+}
+
+/// The text of the list of an axis.
+fn list_text(
+    args: &RunArgs,
+    axis: &MeasuredAxis,
+    result: &RecordingResult,
+    found: &FrictionFound,
+) -> String {
+    let remarks = [
+        "Provisional: for stage 2 of the commissioning, until recorded circles show it".to_owned(),
+        format!("SHA-256 of the recording: {}", result.sha256),
+    ];
+    let made = IdentifiedFrom {
+        axis: Some(&axis.name),
+        from: &result.file,
+        unit: "drive units",
+        faults: &remarks,
+    };
+    render_identified(&list_of(found), made, args.cnc_build)
+}
+
+/// Writes a list under a name that its content decides, so that no list takes the place of another one.
+fn write_list(
+    folder: &Path,
+    axis: &str,
+    text: &str,
+    outputs: &mut Outputs,
+) -> Result<PathBuf, Failure> {
+    let sum = sha256_of_text(text);
+    let path = folder.join(format!(
+        "{axis}-provisional-{}.lis",
+        sum.get(..8).unwrap_or(&sum)
+    ));
+    if read_text(&path).is_ok_and(|there| there == text) {
+        return Ok(path);
+    }
+    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
+    let mut file = outputs.list("the provisional list", &path)?;
+    write_text(&mut file, text)?;
+    Ok(path)
+}
+
+/// The recording that the list of an axis is made of, the last one by its name; or the reasons against a list.
+fn source_of<'a>(
+    axis: &MeasuredAxis,
+    plans: &[PlanFile],
+    results: &'a [RecordingResult],
+) -> (
+    Option<(&'a RecordingResult, &'a FrictionFound)>,
+    Vec<String>,
+) {
+    if !axis.followers.is_empty() {
+        let followers = axis.followers.join(", ");
+        let note = format!(
+            "a gantry: the motors of {followers} share the friction, and their torque is not read"
+        );
+        return (None, vec![note]);
+    }
+    let frictions = results.iter().filter_map(|it| match &it.found {
+        Found::Friction(found) if found.axis == axis.name && found.against.is_empty() => {
+            Some((it, found))
+        }
+        _ => None,
+    });
+    let of_stage = |stage: Stage| {
+        let is_so = move |it: &RecordingResult| {
+            it.program.and_then(|number| stage_of(plans, number)) == Some(stage)
+        };
+        frictions.clone().filter(move |(it, _)| is_so(it))
+    };
+    let Some((last, found)) = of_stage(Stage::Off).last() else {
+        return (
+            None,
+            vec!["no recording of its constant speeds can be used".to_owned()],
+        );
+    };
+    let other = of_stage(Stage::Off)
+        .chain(of_stage(Stage::On))
+        .find(|(_, it)| !found.is_steady_with(it));
+    if let Some((other, it)) = other {
+        let apart = found.apart_from(it).map_or_else(
+            || "have no speed in common".to_owned(),
+            |part| format!("differ by {:.0} % of the friction", part * 100.0),
+        );
+        let note = format!("{} and {} {apart}: repeat both warm", last.file, other.file);
+        return (None, vec![note]);
+    }
+    (Some((last, found)), Vec::new())
+}
+
+/// The list of a friction, with everything but the points as the control assumes it.
+fn list_of(found: &FrictionFound) -> FrictionList {
+    let points = found
+        .table
+        .iter()
+        .map(|&[input, output]| TablePoint { input, output });
+    FrictionList {
+        position_delay: 0,
+        reversal_lookahead: 0,
+        scaling_factor: 1000,
+        delay_cycles: 0,
+        max_points: DEFAULT_MAX_POINTS,
+        table: points.collect(),
+    }
+}
+
+/// The rounds of stage 2, each judged by its own recordings and by the lists that were accepted before it.
+fn rounds(
+    plans: &[PlanFile],
+    results: &[RecordingResult],
+    ledger: &Ledger,
+) -> Result<Vec<Round>, Failure> {
+    let mut rounds: Vec<Round> = Vec::new();
+    let second = plans.iter().filter(|it| it.plan.stage == Stage::On);
+    for (number, plan) in (2..).zip(second) {
+        let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
+        let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
+        let circles = before_after(results, is_off, is_on);
+        let mut against = None;
+        if !circles.is_empty() {
+            let mut reasons = feeds_against(plan, &circles, &rounds);
+            reasons.extend(lists_against(plan, plans, results, ledger)?);
+            against = Some(reasons);
+        }
+        rounds.push(Round {
+            number,
+            lists: plan.lists.clone(),
+            circles,
+            against,
+        });
+    }
+    Ok(rounds)
+}
+
+/// Feeds at which the lists of a round leave more than there was without them, or than those that were
+/// accepted last, and feeds that are not recorded.
+fn feeds_against(plan: &PlanFile, circles: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
+    let accepted = earlier.iter().rev().find(|it| it.is_accepted());
+    let at = |circles: &[BeforeAfter], feed: f64| {
+        let mut circles = circles.iter();
+        circles.find(|it| it.feed.total_cmp(&feed).is_eq()).cloned()
+    };
+    let mut against = Vec::new();
+    for feed in plan.plan.programs.iter().filter_map(Program::feed) {
+        let Some(now) = at(circles, feed) else {
+            against.push(format!("F{feed} is not recorded both off and on"));
+            continue;
+        };
+        let old = accepted.and_then(|round| Some((round.number, at(&round.circles, feed)?.on_um)));
+        if now.is_worse() {
+            against.push(format!(
+                "at F{feed} {:.1} µm are left, more than the {:.1} µm without it",
+                now.on_um, now.off_um
+            ));
+        } else if let Some((round, before)) = old.filter(|it| now.on_um > it.1) {
+            against.push(format!(
+                "at F{feed} {:.1} µm are left, more than the {before:.1} µm of round {round}",
+                now.on_um
+            ));
+        }
+    }
+    against
+}
+
+/// Lists of a round that are no longer those that were recorded, or add too much.
+fn lists_against(
+    plan: &PlanFile,
+    plans: &[PlanFile],
+    results: &[RecordingResult],
+    ledger: &Ledger,
+) -> Result<Vec<String>, Failure> {
+    let mut against = Vec::new();
+    for used in &plan.lists {
+        let path = PathBuf::from(&used.file);
+        if !path.exists() || sha256_of(&path)? != used.sha256 {
+            against.push(format!(
+                "the list of {} that was recorded is no longer `{}`",
+                used.axis, used.file
+            ));
+            continue;
+        }
+        let list = value_list(&path, ledger)?;
+        let (source, _) = plan
+            .plan
+            .axes
+            .iter()
+            .find(|it| it.name == used.axis)
+            .map_or((None, Vec::new()), |axis| source_of(axis, plans, results));
+        let Some((_, friction)) = source else {
+            against.push(format!(
+                "the friction of {} is not known, so its current cannot be compared",
+                used.axis
+            ));
+            continue;
+        };
+        let strongest = friction.strongest(&list);
+        if let Some((speed, part)) = strongest.filter(|it| it.1 > MOST_CURRENT) {
+            against.push(format!(
+                "at {speed:.3} mm/s the list of {} adds {part:.2} times the measured friction; {MOST_CURRENT} are the most",
+                used.axis
+            ));
+        }
+    }
+    Ok(against)
+}

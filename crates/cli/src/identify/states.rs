@@ -1,0 +1,103 @@
+//! Recordings of one axis in several states: `--recording cold=FILE --recording warm=FILE` (R16.6).
+
+use std::path::PathBuf;
+
+use super::IdentifyArgs;
+use crate::console::Console;
+use crate::exit;
+use crate::failure::Failure;
+use crate::outputs::{Outputs, write_text};
+use crate::result::Format;
+use frictcomp_host::{Ledger, read_axis};
+use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
+use frictcomp_report::fitted;
+use frictcomp_report::pictures::friction_states;
+use frictcomp_report::states::{StatesReport, render_json, render_text};
+use frictcomp_report::svg::Frame;
+use frictcomp_report::visible_line;
+
+/// The state for which the list is, where none is named.
+const WORKING: &str = "warm";
+
+/// Identifies each state; the list is that of the one in which the machine works.
+pub(super) fn run(
+    args: &IdentifyArgs,
+    options: &IdentifyOptions,
+    console: Console,
+) -> Result<u8, Failure> {
+    let working = working(args)?;
+    let ledger = Ledger::default();
+    for (_, path) in &args.recording {
+        ledger.reads("trace", path);
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    let list = args.output.as_deref();
+    let list = list
+        .map(|path| outputs.list("--output", path))
+        .transpose()?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    outputs.print("the result")?;
+    outputs.check()?;
+    let cycle = args.cycle.seconds()?;
+    let states = args.recording.iter().map(|(name, path)| {
+        let recording = read_axis(path, &args.channels.selection(), cycle)?;
+        Ok((name.clone(), args.identified(path, recording, options)?))
+    });
+    let states = states.collect::<Result<Vec<_>, Failure>>()?;
+    let found: Vec<_> = states.iter().map(|(_, it)| &it.identified).collect();
+    let report = StatesReport {
+        compared: ComparedStates::of(&found, working),
+        states,
+        working,
+    };
+    if let (Some(mut list), Some((_, state))) = (list, report.states.get(working)) {
+        write_text(&mut list, &args.list_of(state, &[report.spread()]))?;
+    }
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &friction_states(&report).render(Frame::Alone))?;
+    }
+    let mut target = console.stdout();
+    target.text(&match args.format {
+        Format::Text => fitted(&render_text(&report), target.look.width),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+/// The place of the state for which the list is.
+fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
+    let names: Vec<&str> = args
+        .recording
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let twice = names.iter().enumerate();
+    if let Some((_, name)) = twice.clone().find(|(at, name)| names[..*at].contains(name)) {
+        let message = format!("the state `{}` was given twice", visible_line(name));
+        return Err(Failure::new(message).with_help("give each state a name of its own"));
+    }
+    let wanted = args.working.as_deref().unwrap_or(WORKING);
+    let found = names.iter().position(|name| *name == wanted);
+    found.ok_or_else(|| {
+        let message = format!(
+            "there is no recording of the state `{}`",
+            visible_line(wanted)
+        );
+        let help = format!(
+            "say with `--working` in which state the machine works: {}",
+            names.join(", ")
+        );
+        Failure::new(message).with_help(visible_line(&help))
+    })
+}
+
+/// `STATE=FILE`.
+pub(super) fn parse_state(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, path)) if !name.trim().is_empty() && !path.is_empty() => {
+            Ok((name.trim().to_owned(), path.into()))
+        }
+        _ => Err("write the state and its recording, `warm=friction.csv`".to_owned()),
+    }
+}

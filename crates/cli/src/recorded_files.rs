@@ -1,0 +1,31 @@
+//! The recordings in a folder.
+
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use frictcomp::text::shown_path;
+
+/// Endings of recordings.
+const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
+
+/// The recordings of a folder, by their names.
+pub(super) fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |error: std::io::Error| {
+        Failure::new(format!(
+            "cannot read the folder `{}`: {error}",
+            shown_path(folder)
+        ))
+    };
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let ending = path
+            .extension()
+            .map(|it| it.to_string_lossy().to_lowercase());
+        if ending.is_some_and(|it| RECORDINGS.contains(&it.as_str())) {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}

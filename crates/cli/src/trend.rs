@@ -1,0 +1,188 @@
+//! `frictcomp trend`: the friction of an axis over the dates of its recordings (R16.6).
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::channels::{AxisChannels, TorqueArgs};
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::identify::refusal;
+use super::outputs::{Outputs, write_text};
+use super::recorded_files::recordings_in;
+use super::result::Format;
+use frictcomp::text::shown_path;
+use frictcomp_host::{Ledger, read_axis};
+use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
+use frictcomp_report::pictures::friction_trend;
+use frictcomp_report::svg::Frame;
+use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_text};
+
+/// Follow the friction of an axis over the dates of its recordings
+///
+/// Takes every recording of constant speeds in a folder whose name holds a date, `x-2026-03-01.csv`, and
+/// says where Fc, Fs, the viscous part or the offset changed by more than 3 combined errors and 5 %. Give
+/// recordings of the same state, warm for instance, of one axis.
+#[derive(Debug, Args)]
+pub(super) struct TrendArgs {
+    /// The folder with the recordings
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    #[command(flatten)]
+    channels: AxisChannels,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    #[command(flatten)]
+    torque: TorqueArgs,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Draw the parameters over the dates to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
+    let paths = recordings_in(&args.folder)?;
+    let ledger = Ledger::default();
+    paths.iter().for_each(|path| ledger.reads("trace", path));
+    let mut outputs = Outputs::new(&ledger, console);
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    outputs.print("the result")?;
+    outputs.check()?;
+    let mut report = TrendReport {
+        axis: args.channels.axis.clone(),
+        unit: String::new(),
+        dates: Vec::new(),
+        changes: Vec::new(),
+        left_out: Vec::new(),
+    };
+    for path in &paths {
+        match args.dated(path) {
+            Ok((dated, unit)) if report.unit.is_empty() || report.unit == unit => {
+                report.unit = unit;
+                report.dates.push(dated);
+            }
+            Ok((_, unit)) => {
+                let reason = format!("its torque is in {unit}, that of others in {}", report.unit);
+                report.left_out.push((shown_path(path), reason));
+            }
+            Err(failure) => report.left_out.push((shown_path(path), failure.message)),
+        }
+    }
+    report.dates.sort_by(|one, other| one.date.cmp(&other.date));
+    if report.dates.len() < 2 {
+        let message = format!(
+            "{} of the {} recordings in `{}` tell the friction of a date; a trend needs two",
+            report.dates.len(),
+            paths.len(),
+            shown_path(&args.folder)
+        );
+        let said = report.left_out.iter();
+        return Err(said.fold(Failure::new(message), |failure, (file, reason)| {
+            failure.with_help(format!("{file}: {reason}"))
+        }));
+    }
+    let levels: Vec<FrictionLevels> = report.dates.iter().map(|it| it.levels).collect();
+    report.changes = friction_changes(&levels);
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &friction_trend(&report).render(Frame::Alone))?;
+    }
+    console.print(&match args.format {
+        Format::Text => console.fitted(&render_text(&report)),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+impl TrendArgs {
+    /// The friction of a recording with its date, and the unit of its torque.
+    fn dated(&self, path: &Path) -> Result<(DatedFriction, String), Failure> {
+        let name = path.file_name().map(|it| it.to_string_lossy().into_owned());
+        let (date, day) = date_in(&name.unwrap_or_default())
+            .ok_or_else(|| Failure::new("its name has no date such as 2026-03-01"))?;
+        let cycle = self.cycle.seconds()?;
+        let recording = read_axis(path, &self.channels.selection(), cycle)?;
+        let options = IdentifyOptions {
+            measured: self.torque.measured(recording.measured),
+            ..IdentifyOptions::default()
+        };
+        let found = identify(&recording.track, &options)
+            .map_err(|error| refusal(error, &recording.findings))?;
+        let levels = FrictionLevels::of(&found).ok_or_else(|| {
+            Failure::new("its friction has another form than Fc, Fs and fv give it")
+        })?;
+        let unit = recording
+            .torque_unit
+            .unwrap_or_else(|| "drive units".to_owned());
+        let file = shown_path(path);
+        Ok((
+            DatedFriction {
+                date,
+                day,
+                file,
+                levels,
+            },
+            unit,
+        ))
+    }
+}
+
+/// The first date in a name, `2026-03-01`, and the days since 1970-01-01.
+fn date_in(name: &str) -> Option<(String, f64)> {
+    const FORM: &str = "0000-00-00";
+    let starts = name.char_indices().map(|(at, _)| at);
+    let texts = starts.filter_map(|at| name.get(at..at + FORM.len()));
+    texts
+        .filter_map(|text| Some((text.to_owned(), day_of(text)?)))
+        .next()
+}
+
+/// The days from 1970-01-01 to a date of the Gregorian calendar.
+fn day_of(date: &str) -> Option<f64> {
+    let mut parts = date.splitn(3, '-');
+    let mut part = |length: usize| {
+        let text = parts.next()?;
+        let is_number = text.len() == length && text.bytes().all(|it| it.is_ascii_digit());
+        is_number.then(|| text.parse::<i32>().ok()).flatten()
+    };
+    let (year, month, day) = (part(4)?, part(2)?, part(2)?);
+    let is_leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    let february = if is_leap { 29 } else { 28 };
+    let months = [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    let before = usize::try_from(month - 1).ok()?;
+    if !(1..=*months.get(before)?).contains(&day) || year < 1 {
+        return None;
+    }
+    let earlier = year - 1;
+    let leaps = earlier / 4 - earlier / 100 + earlier / 400;
+    let days = earlier * 365 + leaps + months[..before].iter().sum::<i32>() + day - 1;
+    // As many days are before 1970-01-01.
+    Some(f64::from(days - 719_162))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::date_in;
+
+    /// R16.6: the date of a recording is the first one in its name.
+    #[test]
+    fn a_date_is_found_in_a_name() {
+        let found = |name: &str| date_in(name).map(|(date, day)| format!("{date} {day}"));
+        assert_eq!(found("x-1970-01-01.csv").as_deref(), Some("1970-01-01 0"));
+        assert_eq!(
+            found("ü2024-02-29_x.csv").as_deref(),
+            Some("2024-02-29 19782")
+        );
+        assert_eq!(
+            found("99-2026-13-01 2026-03-01.txt").as_deref(),
+            Some("2026-03-01 20513")
+        );
+        assert_eq!(found("2023-02-29.csv"), None);
+        assert_eq!(found("friction_x.csv"), None);
+    }
+}

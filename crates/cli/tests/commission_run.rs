@@ -1,0 +1,514 @@
+//! `frictcomp commission run` on recordings of a simulated machine, whose parameters it does not see.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "rows and times of recordings that the tests make themselves"
+)]
+#![allow(dead_code, reason = "the recorder serves other tests, too")]
+
+#[path = "../../recordings/tests/identify/plant.rs"]
+mod plant;
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::circle::{Circle, CircularTest, Direction, Job, Method};
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
+use plant::Bench;
+
+const AXIS: &str = "frict_comp = true\nvalue_list = \"zero.lis\"\nmax_velocity = 20000\nmax_acceleration = 2\nmax_jerk = 50\n";
+
+const ZERO: &str = "\
+frict_comp.mode 3
+frict_comp.position_delay 0
+frict_comp.table_entries 2
+frict_comp.table[0].in 0
+frict_comp.table[0].out 0
+frict_comp.table[1].in 10000
+frict_comp.table[1].out 0
+";
+
+const PLAN: [&str; 13] = [
+    "commission",
+    "plan",
+    "--axis",
+    "X,Y",
+    "--travel",
+    "X0..100,Y-50..50",
+    "--feeds",
+    "2000,3000,4000,5000",
+    "--radius",
+    "40",
+    "--slowest",
+    "0.5",
+    "-o",
+];
+
+const FEEDS: [f64; 4] = [2000.0, 3000.0, 4000.0, 5000.0];
+
+fn call(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the tool starts")
+}
+
+fn said(output: &Output) -> String {
+    let bytes = [&output.stdout[..], &output.stderr[..]].concat();
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A folder with the machine and the programs of stage 1 in `m`.
+fn planned() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let machine = format!("[[axis]]\nname = \"X\"\n{AXIS}[[axis]]\nname = \"Y\"\n{AXIS}");
+    std::fs::write(folder.path().join("frictcomp.toml"), machine).expect("a machine");
+    std::fs::write(folder.path().join("zero.lis"), ZERO).expect("a list");
+    let output = call(folder.path(), &[&PLAN[..], &["m"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    std::fs::create_dir(folder.path().join("m/recordings")).expect("a folder");
+    folder
+}
+
+fn put(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join("m/recordings").join(name), text).expect("written");
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = call(folder, &[&["commission", "run", "m"], arguments].concat());
+    (output.status.code(), said(&output))
+}
+
+/// Positions of X and Y in mm and their speeds in mm/s as a program commands them, a row a ms.
+fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
+    let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time-ms", "1"];
+    let output = call(folder, &[&["current", program], &arguments[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let head: Vec<&str> = text.lines().next().expect("a head").split(',').collect();
+    let columns = [("x.X", 1e-4), ("x.Y", 1e-4), ("v.X", 1e-3), ("v.Y", 1e-3)];
+    let at = |name: &str| head.iter().position(|it| *it == name).expect("a column");
+    let columns = columns.map(|(name, unit)| (at(name), unit));
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        columns.map(|(at, unit)| cells[at].parse::<f64>().expect("a number") * unit)
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// A recording of the constant speeds of X or Y, with its friction multiplied.
+fn friction(axis: usize, factor: f64) -> String {
+    static TRACKS: LazyLock<[plant::Recorded; 2]> = LazyLock::new(|| {
+        let folder = planned();
+        [("m/01-friction-X.nc", 2), ("m/02-friction-Y.nc", 3)].map(|(program, column)| {
+            let rows = driven(folder.path(), program);
+            let speeds: Vec<f64> = rows.iter().map(|it| it[column]).collect();
+            let bench = Bench {
+                seed: 7,
+                noise_n: 20.0,
+                ..Bench::default()
+            };
+            bench.record_along(&speeds)
+        })
+    });
+    let recorded = &TRACKS[axis];
+    let mut text = String::from("t,v,x,torque\n");
+    for at in 0..recorded.t.len() {
+        let torque = (recorded.torque[at] * factor).round();
+        writeln!(
+            text,
+            "{:.3},{:.0},{:.0},{torque}",
+            recorded.t[at], recorded.v[at], recorded.x[at]
+        )
+        .expect("text");
+    }
+    text
+}
+
+/// The plant of the circles: a stiff machine with 10 % more mass on X.
+fn machine() -> Plant {
+    let mut plant = Preset::Stiff.plant();
+    plant.x.mass_kg *= 1.1;
+    plant
+}
+
+/// Radial deviations in mm over the angle, counter-clockwise and clockwise, without a list or with one.
+fn deviations(feed: f64, list: Option<&FrictionList>) -> [Vec<f64>; 2] {
+    let test = CircularTest {
+        circle: Circle {
+            radius_mm: 40.0,
+            feed_mm_per_min: feed,
+            cycle_time_s: 0.001,
+        },
+        plant: machine(),
+        model: FrictionModel::default(),
+        compensation: [list, list].map(|it| it.cloned().map(Method::Current)),
+        reading: Reading::default(),
+    };
+    Direction::ALL.map(|direction| {
+        let compensation = if list.is_some() {
+            Switched::On
+        } else {
+            Switched::Off
+        };
+        let lap = test
+            .run(Job {
+                compensation,
+                direction,
+            })
+            .expect("a lap");
+        lap.profile
+            .deviations_m()
+            .iter()
+            .map(|it| it * 1000.0)
+            .collect()
+    })
+}
+
+/// A recording of a program of circles: its commanded path with deviations from the circle and noise of
+/// 0.3 µm.
+fn circles(folder: &Path, program: &str, [ccw, cw]: &[Vec<f64>; 2]) -> String {
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut noise = || 0.0006 * (random.f64() + random.f64() + random.f64() - 1.5);
+    let mut text = String::from("t,x,y\n");
+    let mut before = 0.0_f64;
+    for (at, [x, y, ..]) in driven(folder, program).iter().enumerate() {
+        let (east, north) = (x - 50.0, *y);
+        let (radius, angle) = (east.hypot(north), north.atan2(east).rem_euclid(TAU));
+        let profile = if (angle - before).rem_euclid(TAU) < TAU / 2.0 {
+            ccw
+        } else {
+            cw
+        };
+        before = angle;
+        let place = (angle / TAU * profile.len() as f64) as usize % profile.len();
+        let is_on_circle = (radius - 40.0).abs() < 0.01;
+        let off = if is_on_circle {
+            profile[place] / radius
+        } else {
+            0.0
+        };
+        let [x, y] = [x + off * east + noise(), y + off * north + noise()];
+        writeln!(text, "{:.3},{x:.4},{y:.4}", at as f64 * 0.001).expect("text");
+    }
+    text
+}
+
+/// The list in a file that the command wrote.
+fn list_in(path: &Path) -> FrictionList {
+    let text = std::fs::read_to_string(path).expect("a list");
+    let value = |key: &str| {
+        let mut lines = text
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix(key));
+        lines.next().and_then(|it| it.trim().parse::<f64>().ok())
+    };
+    let points = (0..).map_while(|at| {
+        let [input, output] =
+            ["in", "out"].map(|it| value(&format!("frict_comp.table[{at}].{it} ")));
+        Some(TablePoint {
+            input: input?,
+            output: output?,
+        })
+    });
+    FrictionList {
+        position_delay: 0,
+        reversal_lookahead: 0,
+        scaling_factor: 1000,
+        delay_cycles: 0,
+        max_points: 20,
+        table: points.collect(),
+    }
+}
+
+/// The provisional list of an axis in `m/lists`.
+fn provisional(folder: &Path, axis: &str) -> String {
+    let entries = std::fs::read_dir(folder.join("m/lists")).expect("lists");
+    let names = entries.map(|it| {
+        it.expect("an entry")
+            .file_name()
+            .to_string_lossy()
+            .into_owned()
+    });
+    let mut names: Vec<String> = names.filter(|it| it.starts_with(axis)).collect();
+    assert_eq!(names.len(), 1, "{names:?}");
+    format!("m/lists/{}", names.remove(0))
+}
+
+/// R16.2, R16.9: from the recordings of stage 1 to provisional lists, from those of stage 2 to their
+/// acceptance; what is missing is named, what is known is kept, a changed recording is read again.
+#[test]
+fn from_recordings_to_accepted_lists() {
+    let folder = planned();
+    let folder = folder.path();
+    let (status, text) = run(folder, &[]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(
+        text.contains("missing: a recording of 01-friction-X.nc") && text.contains("X: no list"),
+        "{text}"
+    );
+    // The names tell nothing, the content does.
+    put(folder, "a.csv", &friction(1, 1.0));
+    put(folder, "b.csv", &friction(0, 1.0));
+    let (status, text) = run(folder, &[]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(
+        text.contains("X: provisional list m/lists/X-provisional-")
+            && text.contains(".lis, from b.csv"),
+        "{text}"
+    );
+    assert!(
+        text.contains("missing: a recording of 03-circle-2000.nc"),
+        "{text}"
+    );
+    assert!(text.contains("no list is accepted: stage 2"), "{text}");
+    let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
+    let (status, checked) = (call(folder, &["lists", &lists[0]]), "lists");
+    assert_eq!(
+        status.status.code(),
+        Some(0),
+        "{checked}: {}",
+        said(&status)
+    );
+    // Fc 512.5 N, Fs 632.5 N, fv 4 N s/mm at 5 N a drive unit.
+    let list = list_in(&folder.join(&lists[0]));
+    assert!(list.table.len() > 4);
+    for point in &list.table {
+        let speed = point.input / 1000.0;
+        let expected = (512.5 + 120.0 * (-speed.max(0.5) / 3.0).exp() + 4.0 * speed) / 5.0;
+        assert!(
+            (point.output / expected - 1.0).abs() < 0.03,
+            "{point:?}: {expected}"
+        );
+    }
+    let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at]));
+    let stage_2 = [&PLAN[..], &["m", "--value-list", &x, "--value-list", &y]].concat();
+    let output = call(folder, &stage_2);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    for (at, feed) in FEEDS.into_iter().enumerate() {
+        let off = format!("m/{:02}-circle-{feed}.nc", at + 3);
+        put(
+            folder,
+            &format!("off{feed}.csv"),
+            &circles(folder, &off, &deviations(feed, None)),
+        );
+        let on = format!("m/{:02}-circle-{feed}.nc", at + 66);
+        put(
+            folder,
+            &format!("on{feed}.csv"),
+            &circles(folder, &on, &deviations(feed, Some(&list))),
+        );
+    }
+    let (status, text) = run(folder, &[]);
+    assert!(text.contains("10 recordings, 2 of them known"), "{text}");
+    assert!(
+        text.contains("accepted: X m/lists/X-provisional-")
+            && text.contains("each of the 4 recorded feeds"),
+        "{text}"
+    );
+    assert!(
+        text.contains("missing: a recording of 64-friction-X.nc"),
+        "{text}"
+    );
+    assert_eq!(status, Some(1), "two recordings are missing: {text}");
+    let output = call(folder, &["commission", "run", "m", "--format", "json"]);
+    let record: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a record");
+    let compared = record["rounds"][0]["circles"].as_array().expect("circles");
+    assert_eq!(compared.len(), 4);
+    for circle in compared {
+        let [off, on] = ["off_um", "on_um"].map(|key| circle[key].as_f64().expect("a number"));
+        assert!(off > 15.0 && on < 0.6 * off, "{circle}");
+    }
+    let report = [
+        "--html",
+        "report.html",
+        "--machine",
+        "M <1>",
+        "--before",
+        "X=zero.lis",
+    ];
+    let (_, text) = run(folder, &report);
+    assert!(text.contains("10 recordings, 10 of them known"), "{text}");
+    check_report(folder);
+    // Other lists are another round: no recording of round 2 is taken for one of round 3.
+    let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];
+    let output = call(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let (_, text) = run(folder, &[]);
+    assert!(
+        !text.contains("round 3") && text.contains("missing: a recording of 82-circle-2000.nc"),
+        "{text}"
+    );
+    put(
+        folder,
+        "zero2000.csv",
+        &circles(folder, "m/82-circle-2000.nc", &deviations(2000.0, None)),
+    );
+    let (status, text) = run(folder, &[]);
+    let (_, third) = text.split_once("round 3: ").expect("a round");
+    assert!(
+        third.contains("not accepted")
+            && third.contains("at F2000")
+            && third.contains("F3000 is not recorded"),
+        "{text}"
+    );
+    assert_eq!(status, Some(1), "{text}");
+    std::fs::remove_file(folder.join("m/plan-3.json")).expect("removed");
+    std::fs::remove_file(folder.join("m/recordings/zero2000.csv")).expect("removed");
+    put(
+        folder,
+        "off2000.csv",
+        &std::fs::read_to_string(folder.join("m/recordings/on2000.csv")).expect("text"),
+    );
+    let (_, text) = run(folder, &[]);
+    assert!(text.contains("10 recordings, 9 of them known"), "{text}");
+    assert!(
+        text.contains(
+            "not accepted, the lists of before stay: F2000 is not recorded both off and on"
+        ),
+        "{text}"
+    );
+}
+
+/// R16.5: the report is a page with machine, verdict, circles, an axis a page, the change of a list, and the
+/// SHA-256 of each recording; it says that nothing in it is predicted.
+fn check_report(folder: &Path) {
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..Default::default()
+    };
+    roxmltree::Document::parse_with_options(&page, options).expect("well-formed");
+    for words in [
+        "Friction compensation of M &lt;1&gt;",
+        "date not stated",
+        "none is predicted",
+        "Accepted: at each of the 4 recorded feeds the lists of round 2",
+        "64-friction-X.nc",
+        "Axis X",
+        "Axis Y",
+        "+++ m/lists/X-provisional-",
+        "No list of before was given",
+        "class=\"own-page\"",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let results = std::fs::read_to_string(folder.join("m/results.json")).expect("results");
+    let results: serde_json::Value = serde_json::from_str(&results).expect("a record");
+    for recording in results["recordings"].as_array().expect("recordings") {
+        assert!(page.contains(recording["sha256"].as_str().expect("a sum")));
+    }
+    let (status, text) = run(folder, &["--html", "r.html", "--before", "Z=zero.lis"]);
+    assert!(
+        status == Some(2) && text.contains("`--before` names `Z`"),
+        "{text}"
+    );
+}
+
+/// R16.9: recordings that do not fit together make no list, each with its reason.
+#[test]
+fn what_speaks_against_a_list_is_named() {
+    let good = friction(0, 1.0);
+    let rows = |change: &dyn Fn(&[f64]) -> String, head: &str| {
+        let mut text = format!("{head}\n");
+        for line in good.lines().skip(1) {
+            let cells: Vec<f64> = line
+                .split(',')
+                .map(|it| it.parse().expect("a number"))
+                .collect();
+            writeln!(text, "{}", change(&cells)).expect("text");
+        }
+        text
+    };
+    let head = "t,v,x,torque";
+    let slow = rows(
+        &|it| format!("{:.5},{},{},{}", it[0] / 0.9, it[1] * 0.9, it[2], it[3]),
+        head,
+    );
+    let switched = rows(
+        &|it| format!("{},{},{},{},1", it[0], it[1], it[2], it[3]),
+        "t,v,x,torque,comp",
+    );
+    let still = rows(
+        &|it| format!("{},{},{},{}", it[0], it[1], it[2], (it[0] * 1e6) as i64 % 7),
+        head,
+    );
+    let unsigned: String = good
+        .lines()
+        .enumerate()
+        .filter(|(at, _)| *at == 0 || *at > 14_000)
+        .map(|(_, it)| format!("{it}\n"))
+        .collect();
+    let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
+    for (files, words) in [
+        (
+            vec![("a.csv", &slow)],
+            "not used: it was driven at 90.0 % of the planned speeds",
+        ),
+        (
+            vec![("a.csv", &switched)],
+            "not used: its program has compensation off, and the recording says otherwise",
+        ),
+        (vec![("a.csv", &still)], "not used:"),
+        (
+            vec![("a.csv", &unsigned)],
+            "not used: it has no signature; say `--role a.csv=NUMBER`",
+        ),
+        (vec![("a.csv", &torqueless)], "torque"),
+        (
+            vec![("a.csv", &good), ("b.csv", &friction(0, 1.2))],
+            "b.csv and a.csv differ by",
+        ),
+    ] {
+        let folder = planned();
+        for (name, text) in files {
+            put(folder.path(), name, text);
+        }
+        let (status, text) = run(folder.path(), &[]);
+        assert_eq!(status, Some(1), "{words}: {text}");
+        assert!(
+            text.contains(words) && text.contains("X: no list"),
+            "{words}: {text}"
+        );
+        assert!(!folder.path().join("m/lists").exists(), "{words}");
+    }
+    let folder = planned();
+    put(folder.path(), "a.csv", &unsigned);
+    let (_, text) = run(folder.path(), &["--role", "a.csv=1"]);
+    assert!(text.contains("X: provisional list"), "{text}");
+    put(folder.path(), "a.csv", &good);
+    let (_, text) = run(folder.path(), &["--role", "a.csv=2"]);
+    assert!(
+        text.contains("its strokes are the number 1, and `--role` says 2")
+            && text.contains("Y: no list"),
+        "{text}"
+    );
+}
+
+/// R16.2: without a plan, or without recordings, nothing is invented.
+#[test]
+fn without_a_plan_there_is_nothing_to_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("m")).expect("a folder");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(
+        status == Some(2) && text.contains("has no `plan-1.json`"),
+        "{text}"
+    );
+    std::fs::write(folder.path().join("m/plan-1.json"), "{}").expect("written");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(status == Some(2) && text.contains("is no plan"), "{text}");
+    let folder = planned();
+    std::fs::remove_dir(folder.path().join("m/recordings")).expect("removed");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(status == Some(2) && text.contains("recordings"), "{text}");
+}

@@ -1,0 +1,273 @@
+//! Which programs of the project call which: the tree of callers, programs by their names, and from how
+//! many programs one is reached (R17.2).
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use gen_lsp_types::{
+    BaseSymbolInformation, CallHierarchyIncomingCall, CallHierarchyIncomingCallsParams,
+    CallHierarchyItem, CallHierarchyOutgoingCall, CallHierarchyOutgoingCallsParams,
+    CallHierarchyPrepareParams, CodeLens, Command, Location, Range, SymbolKind, Uri,
+    WorkspaceSymbol, WorkspaceSymbolParams,
+};
+use serde_json::{Value, json};
+
+use super::documents::{Document, Kind};
+use super::encoding::whole_line;
+use super::navigation::called_at;
+use super::uri::path_of;
+use super::view::View;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    CallGraph, Disk, FoundCall, GraphProgram, Input, Ledger, MachineOptions, Machines,
+    find_programs, processors,
+};
+
+/// Number of programs that an answer names at most.
+const MOST_SYMBOLS: usize = 500;
+
+/// Number of programs that a lens names.
+const MOST_NAMED: usize = 5;
+
+/// The calls of the programs of a project as they are saved, found when first asked for.
+#[derive(Debug, Clone)]
+pub(super) struct ProjectCalls {
+    /// The folder that the client names; nothing is searched without one.
+    folder: Option<PathBuf>,
+    /// Rises with each save.
+    saves: Arc<AtomicU64>,
+    /// The calls that were found last.
+    found: Arc<Mutex<Option<FoundCalls>>>,
+}
+
+/// Calls, and the number of saves before they were found.
+type FoundCalls = (u64, Arc<CallGraph>);
+
+impl ProjectCalls {
+    /// Those of a folder.
+    pub(super) fn new(folder: Option<PathBuf>) -> Self {
+        Self {
+            folder,
+            saves: Arc::default(),
+            found: Arc::default(),
+        }
+    }
+
+    /// Whether there is a folder.
+    pub(super) fn are_known(&self) -> bool {
+        self.folder.is_some()
+    }
+
+    /// A file was saved: the calls are found anew when they are asked for.
+    pub(super) fn forget(&self) {
+        // The calls may be on their way: the server does not wait for them.
+        self.saves.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// The calls, with the texts that are open in place of their files.
+    fn graph(&self, disk: &Disk) -> Option<Arc<CallGraph>> {
+        let folder = self.folder.as_ref()?;
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let saves = self.saves.load(Ordering::Relaxed);
+        if let Some((at, graph)) = &*found
+            && *at == saves
+        {
+            return Some(Arc::clone(graph));
+        }
+        let ledger = Ledger::default();
+        let mut machines = Machines::new(MachineOptions::default(), &ledger).on_disk(disk);
+        let paths = [folder.clone()];
+        let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
+        // What cannot be read calls nothing; its check says so.
+        let (graph, _) = CallGraph::of(&inputs, &mut machines, processors());
+        let graph = Arc::new(graph);
+        *found = Some((saves, Arc::clone(&graph)));
+        Some(graph)
+    }
+}
+
+/// The position of the program of a URI.
+fn position(graph: &CallGraph, uri: &Uri) -> Option<usize> {
+    let path = path_of(&uri.0)?;
+    let (name, place) = (path.file_name()?, Disk::place(&path));
+    graph.programs().iter().position(|program| {
+        let path = path_of_program(program);
+        // Names first: a look at the disk takes its time.
+        let path = path.filter(|it| {
+            it.file_name()
+                .is_some_and(|it| it.eq_ignore_ascii_case(name))
+        });
+        path.is_some_and(|path| Disk::place(path) == place)
+    })
+}
+
+fn path_of_program(program: &GraphProgram) -> Option<&Path> {
+    match &program.input {
+        Input::File(path) => Some(path),
+        Input::Open(_) | Input::Stdin => None,
+    }
+}
+
+fn item(view: &View, path: &Path) -> CallHierarchyItem {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    CallHierarchyItem {
+        name: name.into_owned(),
+        kind: SymbolKind::File,
+        tags: None,
+        detail: path.parent().map(shown_path),
+        uri: view.documents.uri(path),
+        range: whole_line(0),
+        selection_range: whole_line(0),
+        data: None,
+    }
+}
+
+fn item_of(view: &View, program: &GraphProgram) -> Option<CallHierarchyItem> {
+    path_of_program(program).map(|path| item(view, path))
+}
+
+/// The program at a place: the one that is called there, else that of the text.
+pub(super) fn prepare(
+    view: &View,
+    params: &CallHierarchyPrepareParams,
+) -> Option<Vec<CallHierarchyItem>> {
+    let place = &params.text_document_position_params;
+    let document = view.document(&place.text_document.uri)?;
+    if document.kind != Kind::Program {
+        return None;
+    }
+    let path = called_at(view, place).unwrap_or_else(|| document.path.clone());
+    Some(vec![item(view, &path)])
+}
+
+/// The programs that call a program, with the lines of their calls.
+pub(super) fn incoming(
+    view: &View,
+    params: &CallHierarchyIncomingCallsParams,
+) -> Option<Vec<CallHierarchyIncomingCall>> {
+    let graph = view.calls.graph(&view.documents.disk())?;
+    let called = position(&graph, &params.item.uri)?;
+    let programs = graph.programs();
+    let callers = programs[called].called_by.iter().map(|at| &programs[*at]);
+    let calls = callers.filter_map(|caller| {
+        Some(CallHierarchyIncomingCall {
+            from: item_of(view, caller)?,
+            from_ranges: lines(caller, called),
+        })
+    });
+    Some(calls.collect())
+}
+
+/// The programs that a program calls, with the lines of its calls.
+pub(super) fn outgoing(
+    view: &View,
+    params: &CallHierarchyOutgoingCallsParams,
+) -> Option<Vec<CallHierarchyOutgoingCall>> {
+    let graph = view.calls.graph(&view.documents.disk())?;
+    let programs = graph.programs();
+    let caller = &programs[position(&graph, &params.item.uri)?];
+    let mut seen = BTreeSet::new();
+    let targets = caller.calls.iter().map(|call| call.program);
+    let targets = targets.filter(|program| seen.insert(*program));
+    let calls = targets.filter_map(|program| {
+        Some(CallHierarchyOutgoingCall {
+            to: item_of(view, &programs[program])?,
+            from_ranges: lines(caller, program),
+        })
+    });
+    Some(calls.collect())
+}
+
+/// The lines on which a program calls another one.
+fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
+    let calls = caller.calls.iter();
+    let calls = calls.filter(|call: &&FoundCall| call.program == program);
+    calls
+        .map(|call| whole_line(call.line.saturating_sub(1)))
+        .collect()
+}
+
+/// The programs of the project whose names hold some letters.
+pub(super) fn symbols(view: &View, params: &WorkspaceSymbolParams) -> Option<Vec<WorkspaceSymbol>> {
+    let graph = view.calls.graph(&view.documents.disk())?;
+    let wanted = params.query.to_lowercase();
+    let paths = graph.programs().iter().filter_map(path_of_program);
+    let found = paths.filter_map(|path| {
+        let name = path.file_name()?.to_string_lossy().into_owned();
+        let is_wanted = name.to_lowercase().contains(&wanted);
+        is_wanted.then(|| WorkspaceSymbol {
+            location: Location {
+                uri: view.documents.uri(path),
+                range: whole_line(0),
+            }
+            .into(),
+            data: None,
+            base_symbol_information: BaseSymbolInformation {
+                name,
+                kind: SymbolKind::File,
+                tags: None,
+                container_name: path.parent().map(shown_path),
+            },
+        })
+    });
+    Some(found.take(MOST_SYMBOLS).collect())
+}
+
+/// The lens that says from how many programs a program is reached; its words come when the client asks
+/// for them, since the calls of the project may have to be found first.
+pub(super) fn lens(view: &View, document: &Document) -> Option<CodeLens> {
+    view.calls.are_known().then(|| CodeLens {
+        range: whole_line(0),
+        command: None,
+        data: Some(json!({ "reached": document.uri })),
+    })
+}
+
+/// The same lens with its words.
+pub(super) fn resolved(view: &View, mut lens: CodeLens) -> CodeLens {
+    let uri = lens.data.as_ref().and_then(|data| data.get("reached"));
+    let uri = uri.and_then(Value::as_str).map(Uri::from);
+    if let Some(uri) = uri {
+        lens.command = Some(Command {
+            title: reached(view, &uri),
+            ..Command::default()
+        });
+    }
+    lens
+}
+
+/// From which programs a program is reached: those at the top, which nobody calls.
+fn reached(view: &View, uri: &Uri) -> String {
+    let none = || "called by no program of the project".to_owned();
+    let Some(graph) = view.calls.graph(&view.documents.disk()) else {
+        return none();
+    };
+    let Some(at) = position(&graph, uri) else {
+        return none();
+    };
+    let reaching = graph.callers(at);
+    let programs = graph.programs();
+    let is_top = |at: &&usize| programs[**at].called_by.is_empty();
+    let mut top: Vec<usize> = reaching.iter().filter(is_top).copied().collect();
+    if top.is_empty() {
+        // All of them call each other in a circle.
+        top = reaching;
+    }
+    let names = top.iter().take(MOST_NAMED).filter_map(|at| {
+        let name = path_of_program(&programs[*at])?.file_name()?;
+        Some(name.to_string_lossy().into_owned())
+    });
+    let names: Vec<String> = names.collect();
+    let more = if top.len() > MOST_NAMED {
+        ", \u{2026}"
+    } else {
+        ""
+    };
+    match top.len() {
+        0 => none(),
+        1 => format!("reached from {}", names.join(", ")),
+        count => format!("reached from {count} programs: {}{more}", names.join(", ")),
+    }
+}

@@ -1,0 +1,35 @@
+//! Fingerprints of files.
+
+use std::io::Read;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::error::HostError;
+use super::read::open_regular;
+
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 16;
+
+/// The SHA-256 of the bytes of a file in hexadecimal digits.
+///
+/// # Errors
+/// It cannot be read, or is not a regular file.
+pub fn sha256_of(path: &Path) -> Result<String, HostError> {
+    let failed = |error| HostError::read(path, error);
+    let (mut file, _) = open_regular(path).map_err(failed)?;
+    let mut digest = Sha256::new();
+    let mut piece = vec![0; PIECE];
+    loop {
+        match file.read(&mut piece).map_err(failed)? {
+            0 => break,
+            length => digest.update(&piece[..length]),
+        }
+    }
+    Ok(format!("{:x}", digest.finalize()))
+}
+
+/// The SHA-256 of a text in hexadecimal digits.
+pub fn sha256_of_text(text: &str) -> String {
+    format!("{:x}", Sha256::digest(text))
+}

@@ -1,0 +1,224 @@
+//! The result of a recorded measuring program, and what speaks against using it (R16.2, R16.9).
+
+use serde::{Deserialize, Serialize};
+
+use crate::identify::{Identified, along};
+use frictcomp::lists::FrictionList;
+use frictcomp_physics::circle::{RecordedCircle, Recording};
+use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
+
+/// Friction of the same program in two recordings may differ by this part, and so may the start and
+/// the end of one.
+const STEADY: f64 = 0.1;
+
+/// What differs between the directions, and is no constant weight, may be this part of the friction.
+const EVEN: f64 = 0.2;
+
+/// A measured speed is the planned one within this part.
+const ON_FEED: f64 = 0.02;
+
+/// The ratios of the recorded to the planned speeds scatter by less than this part, where only an override
+/// differs.
+const ONE_RATIO: f64 = 0.05;
+
+/// The friction of an axis in a recorded program.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrictionFound {
+    /// The axis.
+    pub axis: String,
+    /// Speed in mm/s or °/s, friction and its standard error, slowest first.
+    pub speeds: Vec<[f64; 3]>,
+    /// Torque that is the same in both directions.
+    pub offset: f64,
+    /// The recorded speeds as a part of the planned ones.
+    pub override_part: Option<f64>,
+    /// The points of a value list: µm/s or 0.001°/s, drive units.
+    pub table: Vec<[f64; 2]>,
+    /// What there is to say.
+    pub notes: Vec<String>,
+    /// Reasons for which no list is made of it.
+    pub against: Vec<String>,
+}
+
+impl FrictionFound {
+    /// Judges what was identified in the recording of a program with these speeds in mm/s or °/s.
+    pub fn of(axis: &str, found: &Identified, planned: &[f64]) -> Self {
+        let mut notes: Vec<String> = found
+            .findings
+            .iter()
+            .map(|it| format!("{}: {}", it.code, it.message))
+            .collect();
+        let mut against = Vec::new();
+        let override_part = override_of(found, planned);
+        match override_part {
+            None => against.push("its speeds are not those of the program".to_owned()),
+            Some(part) if (part - 1.0).abs() > ON_FEED => {
+                against.push(format!(
+                    "it was driven at {:.1} % of the planned speeds",
+                    part * 100.0
+                ));
+            }
+            Some(_) => {}
+        }
+        if let Some(drift) = found.drift.filter(|it| it.part.abs() > STEADY) {
+            against.push(format!(
+                "friction changed by {:+.1} % while it was recorded: repeat it warm",
+                drift.part * 100.0
+            ));
+        }
+        let uneven = found.pairs.iter().filter_map(|pair| {
+            let apart = (pair.offset? - found.offset).abs() / pair.friction.abs();
+            Some((pair.speed, apart))
+        });
+        let uneven = uneven.max_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((speed, part)) = uneven.filter(|it| it.1 > EVEN) {
+            against.push(format!(
+                "at {speed:.3} /s the directions differ by {:.0} % of the friction beyond a constant offset: one \
+                 list fits neither",
+                part * 100.0
+            ));
+        }
+        let least = found
+            .pairs
+            .iter()
+            .map(|it| it.friction.abs())
+            .fold(f64::INFINITY, f64::min);
+        if found.offset.abs() > EVEN * least {
+            notes.push(format!(
+                "the offset of {:.1} is {:.0} % of the friction: weight, or friction that differs between the \
+                 directions, which one list cannot compensate; it is no part of the list",
+                found.offset,
+                found.offset.abs() / least * 100.0
+            ));
+        }
+        Self {
+            axis: axis.to_owned(),
+            speeds: found
+                .pairs
+                .iter()
+                .map(|it| [it.speed, it.friction, it.error])
+                .collect(),
+            offset: found.offset,
+            override_part,
+            table: found
+                .points
+                .iter()
+                .map(|it| [it.input, it.output])
+                .collect(),
+            notes,
+            against,
+        }
+    }
+
+    /// By how much the friction of two recordings of one program differs at most, as a part of the first;
+    /// `None` where they have no common speed.
+    pub fn apart_from(&self, other: &Self) -> Option<f64> {
+        let pairs = self
+            .speeds
+            .iter()
+            .flat_map(|one| other.speeds.iter().map(move |it| (one, it)));
+        let common = pairs.filter(|(one, it)| (one[0] - it[0]).abs() <= ONE_RATIO * one[0]);
+        common
+            .map(|(one, it)| ((it[1] - one[1]) / one[1]).abs())
+            .max_by(f64::total_cmp)
+    }
+
+    /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and how many times the
+    /// friction that is; `None` without friction.
+    pub fn strongest(&self, list: &FrictionList) -> Option<(f64, f64)> {
+        let points: Vec<[f64; 2]> = list.table.iter().map(|it| [it.input, it.output]).collect();
+        let scale = f64::from(list.scaling_factor) / 1000.0;
+        let part = |&[speed, friction, _]: &[f64; 3]| {
+            let added = along(&points, speed * VELOCITY_UNITS_PER_MM_PER_S) * scale;
+            (speed, (added / friction).abs())
+        };
+        let parts = self.speeds.iter().map(part);
+        parts.max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// Whether two recordings of one program show the same friction.
+    pub fn is_steady_with(&self, other: &Self) -> bool {
+        self.apart_from(other).is_some_and(|part| part <= STEADY)
+    }
+}
+
+/// The recorded speeds as a part of the planned ones; `None` where no single part explains them.
+fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
+    let fastest = found.pairs.last()?.speed;
+    let part = fastest / planned.last()?;
+    let is_planned = |speed: f64| {
+        let mut wanted = planned.iter().map(|it| it * part);
+        wanted.any(|it| (it - speed).abs() <= ONE_RATIO * it)
+    };
+    // An axis may miss a speed that is too slow to be seen; it has none that was not planned.
+    let strange = found
+        .pairs
+        .iter()
+        .filter(|it| !is_planned(it.speed))
+        .count();
+    (strange == 0 && found.pairs.len() * 2 >= planned.len()).then_some(part)
+}
+
+/// The circles of a recorded program.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CirclesFound {
+    /// The planned feed in mm/min.
+    pub feed: f64,
+    /// The recorded feed in mm/min; `None` without times.
+    pub measured_feed: Option<f64>,
+    /// v²/R in mm/s² as it was recorded, else as it was planned.
+    pub acceleration: f64,
+    /// The glitches in µm at X+, Y+, X-, Y- of the axes of the plan, for each recorded direction.
+    pub glitches_um: Vec<[f64; 4]>,
+    /// The largest of them.
+    pub worst_um: f64,
+    /// What there is to say.
+    pub notes: Vec<String>,
+    /// Reasons for which nothing is concluded from it.
+    pub against: Vec<String>,
+}
+
+impl CirclesFound {
+    /// Judges the recording of circles with a planned feed in mm/min and radius in mm.
+    pub fn of(recording: &Recording, feed: f64, radius: f64) -> Self {
+        let feeds = recording
+            .circles
+            .iter()
+            .filter_map(RecordedCircle::feed_mm_per_min);
+        let measured_feed = feeds.reduce(f64::midpoint);
+        let speed = measured_feed.unwrap_or(feed) / 60.0;
+        let figures = [&recording.side.figures.ccw, &recording.side.figures.cw];
+        let shapes = figures
+            .into_iter()
+            .flatten()
+            .filter_map(|it| it.shape.as_ref());
+        let glitches = shapes.map(|shape| shape.glitches.map(|it| it.height_um));
+        let glitches_um: Vec<[f64; 4]> = glitches.collect();
+        let mut notes = Vec::new();
+        let mut against = Vec::new();
+        match measured_feed {
+            Some(measured) if (measured / feed - 1.0).abs() > ON_FEED => notes.push(format!(
+                "driven at {measured:.0} mm/min in place of {feed:.0}: {:.2} mm/s² count",
+                speed * speed / radius
+            )),
+            Some(_) => {}
+            None => against.push("it has no times, so its feed is not known".to_owned()),
+        }
+        if recording.circles.len() < 2 {
+            against.push("one direction is missing".to_owned());
+        }
+        if glitches_um.len() < recording.circles.len() {
+            against
+                .push("it is too fast and small for a glitch to be told from the next".to_owned());
+        }
+        Self {
+            feed,
+            measured_feed,
+            acceleration: speed * speed / radius,
+            worst_um: glitches_um.iter().flatten().copied().fold(0.0, f64::max),
+            glitches_um,
+            notes,
+            against,
+        }
+    }
+}

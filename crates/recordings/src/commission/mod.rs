@@ -1,0 +1,23 @@
+//! Commissioning: the measuring programs, and how their recordings are told apart (chapter 16 of the
+//! rules).
+//!
+//! [`Plan`] holds programs as steps within the travel of the axes. Lengths are in mm or degrees, feeds in mm
+//! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
+
+mod error;
+mod found;
+mod plan;
+mod program;
+mod request;
+mod results;
+mod room;
+mod runs;
+mod signature;
+
+pub use error::PlanError;
+pub use found::{CirclesFound, FrictionFound};
+pub use plan::{Plan, Stage};
+pub use program::{Measurement, PlanStep, Program, Turning};
+pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
+pub use results::{BeforeAfter, Found, MOST_CURRENT, RecordingResult, before_after};
+pub use signature::{Signature, signature_in};

@@ -1,0 +1,261 @@
+//! The motions of measuring programs.
+
+use std::f64::consts::TAU;
+
+use super::error::PlanError;
+use super::program::{Measurement, PlanStep, Program, Turning};
+use super::room::{Room, SPARE};
+use super::signature::Signature;
+
+/// Standstill between two motions in s.
+const PAUSE_S: f64 = 0.2;
+
+/// The radius that is taken where it fits, in mm.
+const RADIUS: f64 = 100.0;
+
+/// The programs of axes in their rooms.
+pub(super) struct Runs<'a> {
+    pub(super) rooms: &'a [Room<'a>],
+    /// The radius of the circles; `None` for one axis alone.
+    pub(super) radius: Option<f64>,
+}
+
+impl Runs<'_> {
+    /// Constant speeds up and then down, each forth and back.
+    pub(super) fn friction(&self, axis: usize, speeds: Vec<f64>) -> Result<Program, PlanError> {
+        let room = &self.rooms[axis];
+        let mut made = Motions::at(room.low);
+        let up = speeds.iter().copied();
+        for speed in up.chain(speeds.iter().rev().copied()) {
+            let way = room.way_at(speed)?;
+            made.steps
+                .push(PlanStep::Note(format!("{speed:.3} {}/s", room.axis.unit())));
+            for to in [room.low + way, room.low] {
+                made.line(axis, to, speed * 60.0, room);
+            }
+        }
+        let mut start: Vec<f64> = self.rooms.iter().map(Room::middle).collect();
+        start[axis] = room.low;
+        let file = format!("friction-{}.nc", room.axis.name);
+        Ok(made.program(file, Measurement::Friction { axis, speeds }, start))
+    }
+
+    /// Strokes at each feed, without a pause at their ends.
+    pub(super) fn strokes(&self, axis: usize, feeds: &[f64]) -> Result<Program, PlanError> {
+        const STROKES: usize = 4;
+        let room = &self.rooms[axis];
+        let mut made = Motions::at(room.low);
+        for &feed in feeds {
+            let way = room.way_at(feed / 60.0)?;
+            made.steps
+                .push(PlanStep::Note(format!("{feed} {}/min", room.axis.unit())));
+            for _ in 0..STROKES {
+                for to in [room.low + way, room.low] {
+                    made.move_to(axis, to, feed, room);
+                }
+            }
+            made.dwell(1.0);
+        }
+        let file = format!("strokes-{}.nc", room.axis.name);
+        let feeds = feeds.to_vec();
+        Ok(made.program(file, Measurement::Strokes { axis, feeds }, vec![room.low]))
+    }
+
+    /// Half a turn to speed up, two turns, half a turn to slow down, in each direction.
+    pub(super) fn circles(&self, feed: f64) -> Program {
+        const REST_S: f64 = 1.0;
+        let radius = self.radius.unwrap_or(RADIUS);
+        let centre: Vec<f64> = self.rooms.iter().map(Room::middle).collect();
+        let [x, y] = [0, 1].map(|at| centre.get(at).copied().unwrap_or_default());
+        let mut made = Motions::at(x + radius);
+        let (right, left) = ([x + radius, y], [x - radius, y]);
+        for turning in [Turning::Ccw, Turning::Cw] {
+            made.steps.push(PlanStep::Note(turning.words().to_owned()));
+            for (to, from_right, turns) in [
+                (left, true, 0.5),
+                (left, false, 1.0),
+                (left, false, 1.0),
+                (right, false, 0.5),
+            ] {
+                let centre = [if from_right { -radius } else { radius }, 0.0];
+                made.steps.push(PlanStep::Arc {
+                    turning,
+                    to,
+                    centre,
+                    feed,
+                });
+                made.time_s += turns * TAU * radius / (feed / 60.0);
+            }
+            made.dwell(REST_S);
+        }
+        let file = format!("circle-{feed}.nc");
+        made.program(
+            file,
+            Measurement::Circles { feed, radius },
+            vec![x + radius, y],
+        )
+    }
+}
+
+impl Turning {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Ccw => "counter-clockwise",
+            Self::Cw => "clockwise",
+        }
+    }
+}
+
+/// Motions of one axis, one after another.
+struct Motions {
+    steps: Vec<PlanStep>,
+    place: f64,
+    time_s: f64,
+}
+
+impl Motions {
+    fn at(place: f64) -> Self {
+        Self {
+            steps: Vec::new(),
+            place,
+            time_s: 0.0,
+        }
+    }
+
+    /// A motion and the pause after it.
+    fn line(&mut self, axis: usize, to: f64, feed: f64, room: &Room<'_>) {
+        self.move_to(axis, to, feed, room);
+        self.dwell(PAUSE_S);
+    }
+
+    fn move_to(&mut self, axis: usize, to: f64, feed: f64, room: &Room<'_>) {
+        let speed = feed / 60.0;
+        self.time_s += (to - self.place).abs() / speed + room.axis.dynamics.time_to(speed);
+        self.place = to;
+        self.steps.push(PlanStep::Line { axis, to, feed });
+    }
+
+    fn dwell(&mut self, seconds: f64) {
+        self.time_s += seconds;
+        self.steps.push(PlanStep::Dwell(seconds));
+    }
+
+    fn program(self, file: String, role: Measurement, start: Vec<f64>) -> Program {
+        Program {
+            number: 0,
+            file,
+            role,
+            time_s: self.time_s,
+            steps: self.steps,
+            start,
+        }
+    }
+}
+
+impl Program {
+    /// The axis of its signature.
+    pub fn signed_axis(&self) -> usize {
+        match self.role {
+            Measurement::Friction { axis, .. } | Measurement::Strokes { axis, .. } => axis,
+            Measurement::Circles { .. } => 0,
+        }
+    }
+
+    /// The feed of its circles in mm/min.
+    pub fn feed(&self) -> Option<f64> {
+        match self.role {
+            Measurement::Circles { feed, .. } => Some(feed),
+            Measurement::Friction { .. } | Measurement::Strokes { .. } => None,
+        }
+    }
+
+    /// Puts the signature of a number in front and into the name of the file.
+    pub(super) fn begin_with(&mut self, number: u16) {
+        let Some(signature) = Signature::new(number) else {
+            return;
+        };
+        let axis = self.signed_axis();
+        let place = self.start.get(axis).copied().unwrap_or_default();
+        // Circles begin at the upper end of their way, runs at the lower one.
+        let inwards = if matches!(self.role, Measurement::Circles { .. }) {
+            -1.0
+        } else {
+            1.0
+        };
+        let mut steps = vec![
+            PlanStep::Note(format!("signature {number}")),
+            PlanStep::Dwell(Signature::DWELL_S),
+        ];
+        for way in signature.strokes() {
+            for to in [place + inwards * way, place] {
+                steps.push(PlanStep::Line {
+                    axis,
+                    to,
+                    feed: Signature::FEED,
+                });
+                steps.push(PlanStep::Dwell(PAUSE_S));
+                self.time_s += way / (Signature::FEED / 60.0) + PAUSE_S;
+            }
+        }
+        steps.push(PlanStep::Dwell(Signature::DWELL_S));
+        self.time_s += 2.0 * Signature::DWELL_S;
+        steps.append(&mut self.steps);
+        self.steps = steps;
+        self.number = number;
+        self.file = format!("{number:02}-{}", self.file);
+    }
+}
+
+/// The radius of the circles, at which each axis can follow each feed.
+pub(super) fn circle_radius(
+    rooms: [&Room<'_>; 2],
+    feeds: &[f64],
+    wanted: Option<f64>,
+) -> Result<f64, PlanError> {
+    let [first, second] = rooms;
+    let tight = if first.extent() <= second.extent() {
+        first
+    } else {
+        second
+    };
+    let largest = tight.extent() / 2.0;
+    let radius = wanted.unwrap_or(RADIUS.min(largest.floor()));
+    if !(radius > Signature::REACH && radius <= largest) {
+        return Err(PlanError::Radius {
+            radius,
+            axis: tight.axis.name.clone(),
+            needed: 2.0 * radius,
+            room: tight.extent(),
+        });
+    }
+    for room in rooms {
+        for &feed in feeds {
+            let speed = feed / 60.0;
+            let dynamics = room.axis.dynamics;
+            let pairs = [
+                (
+                    "mm/s²",
+                    SPARE * speed * speed / radius,
+                    dynamics.acceleration_per_s2,
+                ),
+                (
+                    "mm/s³",
+                    SPARE * speed.powi(3) / radius.powi(2),
+                    dynamics.jerk_per_s3,
+                ),
+            ];
+            let beyond = pairs.into_iter().find(|(_, needed, limit)| needed > limit);
+            if let Some((quantity, needed, limit)) = beyond {
+                return Err(PlanError::TooTight {
+                    feed,
+                    radius,
+                    axis: room.axis.name.clone(),
+                    quantity,
+                    needed,
+                    limit,
+                });
+            }
+        }
+    }
+    Ok(radius)
+}

@@ -1,0 +1,151 @@
+//! The number of a program as long and short strokes, by which its recording is recognised.
+
+/// Bits of the number.
+const BITS: u16 = 10;
+
+/// Strokes forth and back: the number, then how many of its bits are set, modulo 4.
+const STROKES: usize = 12;
+
+/// The way of a short stroke in mm or degrees; a long one is twice as long.
+const SHORT: f64 = 1.0;
+
+/// A stroke may deviate by this from its way.
+const TOLERANCE: f64 = 0.25;
+
+/// Standstill in s before and after the strokes that is looked for; [`Signature::DWELL_S`] is programmed.
+const REST_S: f64 = 1.2;
+
+/// The time between two looks at the position in s.
+const LOOK_S: f64 = 0.02;
+
+/// Slower motion is standstill, in mm/s or °/s: a tenth of half the feed of the strokes.
+const STANDSTILL: f64 = 0.5;
+
+/// The number of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Signature(u16);
+
+impl Signature {
+    /// The feed of the strokes in mm/min or °/min.
+    pub const FEED: f64 = 600.0;
+
+    /// Standstill before and after the strokes in s.
+    pub const DWELL_S: f64 = 2.0;
+
+    /// The longest way from the start in mm or degrees.
+    pub const REACH: f64 = 2.0 * SHORT;
+
+    /// The signature of a number from 1 to 1023.
+    pub fn new(number: u16) -> Option<Self> {
+        (1..1 << BITS).contains(&number).then_some(Self(number))
+    }
+
+    /// The number.
+    pub fn number(self) -> u16 {
+        self.0
+    }
+
+    /// The ways of the strokes in mm or degrees, each forth and then back.
+    pub fn strokes(self) -> [f64; STROKES] {
+        let check = u16::try_from(self.0.count_ones() % 4).unwrap_or_default();
+        let bits = (self.0 << 2) | check;
+        std::array::from_fn(|at| {
+            let is_long = bits & (1 << (STROKES - 1 - at)) != 0;
+            if is_long { 2.0 * SHORT } else { SHORT }
+        })
+    }
+}
+
+/// Looks for signatures in the commanded or actual positions of an axis in mm or degrees, at steps of so
+/// many seconds, and gives each with the sample after its strokes.
+pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
+    let moves = Move::all(positions, step_s);
+    let length = 2 * STROKES;
+    let windows = moves.windows(length).enumerate();
+    let found = windows.filter_map(|(at, window)| {
+        let first = window.first()?;
+        let last = window.last()?;
+        let before = at.checked_sub(1).and_then(|it| moves.get(it));
+        let began = before.map_or(0, |it| it.to);
+        let next = moves.get(at + length).map_or(positions.len(), |it| it.from);
+        let rests = |from: usize, to: usize| seconds(to.saturating_sub(from), step_s) >= REST_S;
+        // A recording may begin within the first dwell.
+        let is_alone = (before.is_none() || rests(began, first.from)) && rests(last.to, next);
+        let signature = is_alone.then(|| read(window)).flatten()?;
+        Some((signature, last.to))
+    });
+    found.collect()
+}
+
+/// The number that strokes forth and back tell.
+fn read(window: &[Move]) -> Option<Signature> {
+    let mut bits = 0_u16;
+    for stroke in window.chunks(2) {
+        let [forth, back] = stroke else { return None };
+        let is_back = (forth.way + back.way).abs() <= TOLERANCE;
+        let is = |way: f64| (forth.way.abs() - way).abs() <= TOLERANCE;
+        let bit = u16::from(is(2.0 * SHORT));
+        if !is_back || (bit == 0 && !is(SHORT)) {
+            return None;
+        }
+        bits = (bits << 1) | bit;
+    }
+    let signature = Signature::new(bits >> 2)?;
+    (signature.0.count_ones() % 4 == u32::from(bits & 3)).then_some(signature)
+}
+
+/// A motion between two standstills.
+#[derive(Debug, Clone, Copy)]
+struct Move {
+    from: usize,
+    to: usize,
+    way: f64,
+}
+
+impl Move {
+    fn all(positions: &[f64], step_s: f64) -> Vec<Self> {
+        let look = looks(step_s);
+        let mut moves: Vec<Self> = Vec::new();
+        let mut open: Option<(usize, f64)> = None;
+        let mut last = (0, positions.first().copied().unwrap_or_default());
+        for (at, &position) in positions.iter().enumerate().step_by(look) {
+            let speed = (position - last.1) / seconds(look, step_s);
+            let is_moving = speed.abs() > STANDSTILL;
+            // A reversal without a standstill ends a motion, too.
+            let turns = open.is_some_and(|(_, from)| (last.1 - from) * speed < 0.0);
+            if let Some((from, place)) = open.filter(|_| !is_moving || turns) {
+                moves.push(Self {
+                    from,
+                    to: last.0,
+                    way: last.1 - place,
+                });
+                open = None;
+            }
+            if is_moving && open.is_none() {
+                open = Some(last);
+            }
+            last = (at, position);
+        }
+        moves.extend(open.map(|(from, place)| Self {
+            from,
+            to: last.0,
+            way: last.1 - place,
+        }));
+        moves
+    }
+}
+
+/// Samples between two looks.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a positive number of samples, bounded by the clamp"
+)]
+fn looks(step_s: f64) -> usize {
+    (LOOK_S / step_s).round().clamp(1.0, 1e6) as usize
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a number of samples")]
+fn seconds(samples: usize, step_s: f64) -> f64 {
+    samples as f64 * step_s
+}

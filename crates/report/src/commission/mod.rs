@@ -1,0 +1,13 @@
+//! Commissioning: the measuring programs and what an operator has to know about them.
+
+mod program;
+mod readme;
+mod results;
+mod summary;
+
+pub use program::render_program;
+pub use readme::render_readme;
+pub use results::{
+    AxisVerdict, Results, ResultsReport, Round, render_results, render_results_json,
+};
+pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

@@ -1,0 +1,108 @@
+//! The page for the operator (R16.1, R16.8).
+
+use std::fmt::Write as _;
+
+use super::program::told;
+use super::summary::{PlanReport, minutes};
+use frictcomp::machine::AxisType;
+use frictcomp_recordings::commission::{Installed, Stage};
+
+/// One page in ASCII letters, at most 78 columns wide, with the programs and how they are run and recorded.
+pub fn render_readme(report: &PlanReport) -> String {
+    let plan = &report.plan;
+    let mut out = String::new();
+    let names: Vec<&str> = plan.axes.iter().map(|it| it.name.as_str()).collect();
+    let (number, compensation) = match plan.stage {
+        Stage::Off => (1, "off"),
+        Stage::On => (2, "on"),
+    };
+    let _ = writeln!(
+        out,
+        "MEASURING FRICTION OF {} - stage {number}, compensation {compensation}\n\
+         {} programs, {} at 100 percent override, metric (G71)\n",
+        names.join(" AND "),
+        plan.programs.len(),
+        minutes(plan.time_s())
+    );
+    out.push_str(BEFORE);
+    for axis in &plan.axes {
+        let (travel, unit) = (
+            axis.travel,
+            if axis.axis_type == AxisType::Linear {
+                "mm"
+            } else {
+                "deg"
+            },
+        );
+        let _ = writeln!(
+            out,
+            "  [ ] {}: {} to {} {unit} of the machine are free",
+            axis.name, travel.low, travel.high
+        );
+        if !axis.followers.is_empty() {
+            let _ = writeln!(
+                out,
+                "  [ ] {} is a gantry: record the motors of {} too",
+                axis.name,
+                axis.followers.join(", ")
+            );
+        }
+        if axis.installed == Installed::Unconfigured {
+            let _ = writeln!(
+                out,
+                "      {}: friction compensation is not configured, so it is off",
+                axis.name
+            );
+        }
+    }
+    for list in &report.lists {
+        let _ = writeln!(
+            out,
+            "  [ ] the list of {} is loaded; SHA-256 {}...",
+            list.axis,
+            list.sha256.get(..16).unwrap_or(&list.sha256)
+        );
+    }
+    out.push_str(RUN);
+    for program in &plan.programs {
+        let _ = writeln!(
+            out,
+            "  {:<18} {:>9}  {}",
+            program.file,
+            minutes(program.time_s),
+            told(program, &plan.axes).replace('\u{b0}', "deg")
+        );
+    }
+    out.push_str(RECORD);
+    out
+}
+
+const BEFORE: &str = "\
+BEFORE
+  [ ] tool out of the spindle, Z clear of table, vice and fixtures
+  [ ] machine warm: half an hour of motion, and say so with the recordings
+  [ ] no workpiece, no other program; offsets of G92 and of the operator off
+";
+
+const RUN: &str = "
+RUN, one after the other, each in its own recording
+  First pass at 10 percent override, hand on the feed stop. Then 100 percent
+  to the end: do not turn the override while a program runs. Record both.
+  Nothing moves at rapid. Each program begins with 2 s of standstill and short
+  strokes of 1 and 2 units: they are its number. Keep them in the recording.
+  A program that was stopped leaves compensation as it was then: restart it,
+  or the control.
+";
+
+const RECORD: &str = "
+RECORD, for each axis that moves, one sample every ms (the CNC cycle)
+  commanded position, actual position, commanded velocity, actual torque;
+  friction compensation active (frict_comp.f_is_active) if there is room
+  Start the recording before the program, stop it after M30.
+  TwinCAT Scope: export CSV, header as full as possible, timelines for each
+  sample time, no scaling of values.
+  Note beside it: actual position of the MOTOR or of the LOAD (linear scale)?
+  Backlash and the contact of the slide are claimed from the load only.
+
+THEN put the exported files into the folder `recordings` beside this page.
+";

@@ -1,0 +1,260 @@
+//! The results of a commissioning as text and JSON (R16.2, R16.9).
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+
+use super::program::{number, told};
+use super::summary::{PlanFile, ValueListUsed};
+use crate::strings::to_pretty;
+use crate::visible::visible_line;
+use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult, Stage};
+
+/// The content of `results.json`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Results {
+    /// The form of this file.
+    pub schema: u32,
+    /// A result for each recording.
+    pub recordings: Vec<RecordingResult>,
+}
+
+impl Results {
+    /// The form that is written.
+    pub const SCHEMA: u32 = 1;
+}
+
+/// The list of an axis, or the reasons for which there is none.
+#[derive(Debug, Clone, Serialize)]
+pub struct AxisVerdict {
+    /// The axis.
+    pub axis: String,
+    /// The file of the provisional list, as it is shown.
+    pub list: Option<String>,
+    /// The recording that it rests on.
+    pub from: Option<String>,
+    /// Reasons against a list, and what there is to say about it.
+    pub notes: Vec<String>,
+}
+
+/// All that is known of a commissioning.
+#[derive(Debug, Clone)]
+pub struct ResultsReport {
+    /// The plans of both stages, as far as they are there.
+    pub plans: Vec<PlanFile>,
+    /// A result for each recording.
+    pub results: Vec<RecordingResult>,
+    /// The number of results that were kept from an earlier run.
+    pub kept: usize,
+    /// The lists.
+    pub axes: Vec<AxisVerdict>,
+    /// The rounds of stage 2, first to last.
+    pub rounds: Vec<Round>,
+}
+
+/// A set of lists that was recorded in stage 2.
+#[derive(Debug, Clone, Serialize)]
+pub struct Round {
+    /// The number of the round and of its plan, from 2 on.
+    pub number: usize,
+    /// The lists.
+    pub lists: Vec<ValueListUsed>,
+    /// The circles with compensation off and with these lists on.
+    pub circles: Vec<BeforeAfter>,
+    /// Reasons for which the lists are not accepted; `None` before a circle is recorded off and on.
+    pub against: Option<Vec<String>>,
+}
+
+impl Round {
+    /// Whether nothing speaks against the lists.
+    pub fn is_accepted(&self) -> bool {
+        self.against.as_ref().is_some_and(Vec::is_empty)
+    }
+}
+
+impl ResultsReport {
+    /// The programs of stage 1 and of the last round without a recording that is used.
+    pub fn missing(&self) -> Vec<String> {
+        let last = self.plans.len().saturating_sub(1);
+        let plans = self.plans.iter().enumerate();
+        let counted = plans.filter(|(at, it)| *at == last || it.plan.stage == Stage::Off);
+        let programs = counted.flat_map(|(_, it)| it.plan.programs.iter());
+        let lacks = |number: u16| {
+            !self
+                .results
+                .iter()
+                .any(|it| it.program == Some(number) && is_used(&it.found))
+        };
+        let missing = programs.filter(|it| lacks(it.number));
+        missing.map(|it| it.file.clone()).collect()
+    }
+
+    /// Whether every program is recorded, every axis has a list, and the lists of the last round are accepted.
+    pub fn is_complete(&self) -> bool {
+        self.missing().is_empty()
+            && self.axes.iter().all(|it| it.list.is_some())
+            && self.rounds.last().is_some_and(Round::is_accepted)
+    }
+
+    /// The friction that the list of an axis is made of.
+    pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
+        let from = axis.from.as_ref()?;
+        self.results.iter().find_map(|it| match &it.found {
+            Found::Friction(found) if it.file == *from => Some(found),
+            _ => None,
+        })
+    }
+}
+
+fn is_used(found: &Found) -> bool {
+    match found {
+        Found::Friction(found) => found.against.is_empty(),
+        Found::Circles(found) => found.against.is_empty(),
+        Found::Refused(_) => false,
+    }
+}
+
+/// The recordings, what is missing, the lists, and the circles before and after.
+pub fn render_results(report: &ResultsReport) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "{} recordings, {} of them known from an earlier run\n",
+        report.results.len(),
+        report.kept
+    );
+    for result in &report.results {
+        push_recording(&mut out, report, result);
+    }
+    for file in report.missing() {
+        let _ = writeln!(
+            out,
+            "missing: a recording of {} that can be used",
+            visible_line(&file)
+        );
+    }
+    out.push('\n');
+    for axis in &report.axes {
+        let name = visible_line(&axis.axis);
+        match (&axis.list, &axis.from) {
+            (Some(list), Some(from)) => {
+                let _ = writeln!(
+                    out,
+                    "{name}: provisional list {}, from {}",
+                    visible_line(list),
+                    visible_line(from)
+                );
+            }
+            _ => {
+                let _ = writeln!(out, "{name}: no list");
+            }
+        }
+        for note in &axis.notes {
+            let _ = writeln!(out, "  {}", visible_line(note));
+        }
+    }
+    for round in &report.rounds {
+        push_round(&mut out, round);
+    }
+    if report.rounds.iter().all(|it| it.against.is_none()) {
+        out.push_str(
+            "\nno list is accepted: stage 2, the same circles with it on, is not recorded\n",
+        );
+    }
+    out
+}
+
+fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingResult) {
+    let mut programs = report
+        .plans
+        .iter()
+        .flat_map(|it| it.plan.programs.iter().map(move |program| (program, it)));
+    let program = programs.find(|(program, _)| Some(program.number) == result.program);
+    let what = program.map(|(program, file)| told(program, &file.plan.axes));
+    let what = what.unwrap_or_else(|| "program not known".to_owned());
+    let _ = writeln!(
+        out,
+        "{}: {}",
+        visible_line(&result.file),
+        visible_line(&what)
+    );
+    let (notes, against) = match &result.found {
+        Found::Friction(found) => (&found.notes[..], &found.against[..]),
+        Found::Circles(found) => {
+            let _ = writeln!(
+                out,
+                "  recorded: v²/R {:.2} mm/s², glitch at most {:.1} µm",
+                found.acceleration, found.worst_um
+            );
+            (&found.notes[..], &found.against[..])
+        }
+        Found::Refused(reason) => (&[][..], std::slice::from_ref(reason)),
+    };
+    for reason in against {
+        let _ = writeln!(out, "  not used: {}", visible_line(reason));
+    }
+    for note in notes {
+        let _ = writeln!(out, "  {}", visible_line(note));
+    }
+}
+
+/// The circles off and on, and whether the lists are accepted.
+fn push_round(out: &mut String, round: &Round) {
+    let Some(against) = &round.against else {
+        return;
+    };
+    let _ = writeln!(
+        out,
+        "\nround {}: recorded glitch in µm, the largest of both directions\n{:>12} {:>8} {:>8}",
+        round.number, "feed mm/min", "off", "on"
+    );
+    for circle in &round.circles {
+        let feed = number(circle.feed);
+        let _ = writeln!(
+            out,
+            "{feed:>12} {:>8.1} {:>8.1}",
+            circle.off_um, circle.on_um
+        );
+    }
+    if against.is_empty() {
+        let list = |it: &ValueListUsed| {
+            let sum = it.sha256.get(..16).unwrap_or(&it.sha256);
+            format!("{} {} ({sum})", it.axis, it.file)
+        };
+        let lists: Vec<String> = round.lists.iter().map(list).collect();
+        let _ = writeln!(
+            out,
+            "\naccepted: {}; at each of the {} recorded feeds no more is left than without it, nor than with the \
+             lists that were accepted before. Other feeds were not recorded",
+            visible_line(&lists.join(", ")),
+            round.circles.len()
+        );
+    } else {
+        out.push_str("\nnot accepted, the lists of before stay:\n");
+        for reason in against {
+            let _ = writeln!(out, "  {}", visible_line(reason));
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    complete: bool,
+    recordings: &'a [RecordingResult],
+    missing: Vec<String>,
+    axes: &'a [AxisVerdict],
+    rounds: &'a [Round],
+}
+
+/// The same for machines.
+pub fn render_results_json(report: &ResultsReport) -> String {
+    to_pretty(&Document {
+        schema: Results::SCHEMA,
+        complete: report.is_complete(),
+        recordings: &report.results,
+        missing: report.missing(),
+        axes: &report.axes,
+        rounds: &report.rounds,
+    })
+}

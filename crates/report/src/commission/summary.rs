@@ -1,0 +1,137 @@
+//! A plan as text, and as the file by which recordings are recognised later.
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+
+use super::program::{number, told};
+use crate::strings::to_pretty;
+use crate::visible::visible_line;
+use frictcomp_recordings::commission::{Plan, Stage};
+
+/// A plan with what it rests on.
+#[derive(Debug, Clone)]
+pub struct PlanReport {
+    /// The programs.
+    pub plan: Plan,
+    /// The value lists of stage 2.
+    pub lists: Vec<ValueListUsed>,
+    /// The file that describes the machine, as it is shown.
+    pub machine: String,
+    /// Axes whose ramps are those of the control's defaults.
+    pub assumed_jerk: Vec<String>,
+}
+
+/// A value list that is loaded while programs of stage 2 run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ValueListUsed {
+    /// The axis.
+    pub axis: String,
+    /// The file, as it is shown.
+    pub file: String,
+    /// The SHA-256 of its bytes in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// The content of `plan.json`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct PlanFile {
+    /// The form of this file.
+    pub schema: u32,
+    /// The programs without their motions.
+    pub plan: Plan,
+    /// The value lists of stage 2.
+    pub lists: Vec<ValueListUsed>,
+}
+
+impl PlanFile {
+    /// The form that is written.
+    pub const SCHEMA: u32 = 1;
+}
+
+/// The plan as JSON: the content of `plan.json`.
+pub fn render_json(report: &PlanReport) -> String {
+    to_pretty(&PlanFile {
+        schema: PlanFile::SCHEMA,
+        plan: report.plan.clone(),
+        lists: report.lists.clone(),
+    })
+}
+
+/// The programs with their times, and what they rest on.
+pub fn render_text(report: &PlanReport) -> String {
+    let plan = &report.plan;
+    let mut out = String::new();
+    let stage = match plan.stage {
+        Stage::Off => "stage 1, friction compensation off",
+        Stage::On => "stage 2, friction compensation on",
+    };
+    let _ = writeln!(
+        out,
+        "{stage}: {} programs, {}\n",
+        plan.programs.len(),
+        minutes(plan.time_s())
+    );
+    for program in &plan.programs {
+        let what = told(program, &plan.axes);
+        let _ = writeln!(
+            out,
+            "{:<20} {:>7}  {}",
+            visible_line(&program.file),
+            minutes(program.time_s),
+            visible_line(&what)
+        );
+    }
+    out.push('\n');
+    for axis in &plan.axes {
+        let (dynamics, unit) = (axis.dynamics, axis.unit());
+        let _ = writeln!(
+            out,
+            "{}: travel {} to {} {unit}, of which 5 % at each end stay free; {} {unit}/min, {} {unit}/s², {} {unit}/s³ of {}",
+            visible_line(&axis.name),
+            number(axis.travel.low),
+            number(axis.travel.high),
+            number(dynamics.velocity_per_s * 60.0),
+            number(dynamics.acceleration_per_s2),
+            number(dynamics.jerk_per_s3),
+            visible_line(&report.machine),
+        );
+        if axis.pitch.is_none() {
+            let name = visible_line(&axis.name);
+            let _ = writeln!(
+                out,
+                "{name}: without `--pitch` slow speeds do not cover a turn of the screw, and its ripple stays in the friction"
+            );
+        }
+    }
+    for axis in &report.assumed_jerk {
+        let axis = visible_line(axis);
+        let _ = writeln!(
+            out,
+            "{axis}: the ramps are those of the control's defaults; give `max_jerk` where they differ"
+        );
+    }
+    let circles = plan.programs.iter().filter_map(|it| it.feed());
+    let feeds: Vec<f64> = circles.collect();
+    if let (Some(slowest), Some(fastest)) = (feeds.first(), feeds.last()) {
+        if feeds.len() < 6 {
+            let _ = writeln!(
+                out,
+                "{} feeds: six show more, the glitch between four can be 1.8 µm larger",
+                feeds.len()
+            );
+        }
+        if fastest / slowest < 10.0 {
+            out.push_str(
+                "the feeds span less than a decade: the contact stiffness may stay undetermined\n",
+            );
+        }
+    }
+    out
+}
+
+/// A time as an operator reads it.
+pub(super) fn minutes(seconds: f64) -> String {
+    let whole = (seconds / 60.0).floor();
+    format!("{whole:.0}:{:02.0} min", (seconds - whole * 60.0).floor())
+}

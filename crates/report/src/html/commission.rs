@@ -1,0 +1,240 @@
+//! The acceptance report of a commissioning (R16.5).
+
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::commission::{AxisVerdict, ResultsReport, Round};
+use crate::pictures::{friction_of_axis, glitches_by_feed};
+use crate::svg::Frame;
+use frictcomp::diagnostic::Rounded;
+use frictcomp_recordings::commission::{Found, FrictionFound, MeasuredAxis};
+
+const VERDICT: Part = Part::new("verdict", "Verdict");
+const CIRCLES: Part = Part::new("circles", "Circles before and after");
+const GROUNDS: Part = Part::new("grounds", "What it rests on");
+const FILES: Part = Part::new("files", "Recordings");
+const AXES: [Part; 2] = [
+    Part::new("axis-1", "First axis"),
+    Part::new("axis-2", "Second axis"),
+];
+
+/// What the report has beyond the results.
+#[derive(Debug, Clone, Default)]
+pub struct Acceptance {
+    /// The machine, as it is called; `None` where it was not said.
+    pub machine: Option<String>,
+    /// The date of the recordings; `None` where it was not said.
+    pub date: Option<String>,
+    /// The axes with the changes from their list of before to that of stage 2, in the form of a patch.
+    pub changes: Vec<(String, String)>,
+}
+
+/// Writes the acceptance report as one page of a browser, on paper with each axis on a page of its own.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_acceptance(
+    report: &ResultsReport,
+    given: &Acceptance,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let title = format!(
+        "Friction compensation of {}",
+        given
+            .machine
+            .as_deref()
+            .unwrap_or("a machine without a name")
+    );
+    let lead = format!(
+        "Recordings: {}. Every figure is recorded, none is predicted.",
+        given.date.as_deref().unwrap_or("date not stated")
+    );
+    let axes: Vec<(Part, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
+    let parts: Vec<Part> = [VERDICT, CIRCLES]
+        .into_iter()
+        .chain(axes.iter().map(|it| it.0))
+        .chain([GROUNDS, FILES])
+        .collect();
+    let mut page = Page::open(out, &title, &lead, &parts)?;
+    page.part(VERDICT, &verdict(report))?;
+    page.part(CIRCLES, &circles(report))?;
+    for (part, axis) in axes {
+        page.raw("<div class=\"own-page\">");
+        page.part(part, &axis_part(report, given, axis))?;
+        page.raw("</div>\n");
+    }
+    page.raw("<div class=\"own-page\">");
+    page.part(GROUNDS, &grounds(report))?;
+    page.part(FILES, &files(report))?;
+    page.raw("</div>\n");
+    page.close()
+}
+
+fn verdict(report: &ResultsReport) -> Markup {
+    let missing = report.missing();
+    html! {
+        @match report.rounds.last().map(|it| (it, it.against.as_deref())) {
+            None | Some((_, None)) => p { "No list is accepted: circles with compensation on are not recorded." },
+            Some((round, Some([]))) => p {
+                "Accepted: at each of the " (round.circles.len()) " recorded feeds the lists of round " (round.number)
+                " leave no more than there was without them. Other feeds were not recorded."
+            },
+            Some((round, Some(against))) => {
+                p { "The lists of round " (round.number) " are not accepted; those of before stay." }
+                ul { @for reason in against { li { (reason) } } }
+            }
+        }
+        @if !missing.is_empty() {
+            p { "Not recorded, or not usable: " (missing.join(", ")) "." }
+        }
+    }
+}
+
+fn circles(report: &ResultsReport) -> Markup {
+    let rounds = report.rounds.iter().filter(|it| !it.circles.is_empty());
+    let rounds: Vec<&Round> = rounds.collect();
+    html! {
+        @if rounds.is_empty() {
+            p { "No circle is recorded both with compensation off and on." }
+        }
+        @for round in rounds { (round_circles(round)) }
+    }
+}
+
+fn round_circles(round: &Round) -> Markup {
+    let caption = format!(
+        "Round {}: largest glitch of both directions, recorded",
+        round.number
+    );
+    let table = Table {
+        caption: Caption::Shown(&caption),
+        columns: &[
+            Column::Text("feed in mm/min"),
+            Column::Number("off in µm"),
+            Column::Number("on in µm"),
+            Column::Number("left in %"),
+        ],
+    };
+    let rows = round.circles.iter().map(|it| {
+        let cells = [it.off_um, it.on_um, 100.0 * it.on_um / it.off_um];
+        let cells = cells.map(|number| html! { (Rounded(number, 1).to_string()) });
+        Row::new(&Rounded(it.feed, 0).to_string(), cells.to_vec())
+    });
+    let id = format!("round-{}", round.number);
+    html! {
+        (figure(glitches_by_feed(&round.circles).render(Frame::Inside(&id))))
+        (table.render(rows))
+    }
+}
+
+/// The friction of an axis, its list and what changed in it.
+fn axis_part(report: &ResultsReport, given: &Acceptance, verdict: &AxisVerdict) -> Markup {
+    let name = &verdict.axis;
+    let change = given.changes.iter().find(|it| it.0 == *name);
+    html! {
+        h3 { "Axis " (name) }
+        @if let Some(axis) = report.plans.iter().flat_map(|it| &it.plan.axes).find(|it| it.name == *name) {
+            (described(axis))
+        }
+        @match report.friction_of(verdict) {
+            Some(friction) => (friction_part(verdict, friction)),
+            None => p { "No friction is known." },
+        }
+        @if !verdict.notes.is_empty() {
+            ul { @for note in &verdict.notes { li { (note) } } }
+        }
+        @if let Some((_, change)) = change {
+            p { "The list of before and that of stage 2:" }
+            pre { (change) }
+        } @else {
+            p { "No list of before was given to compare with." }
+        }
+    }
+}
+
+fn described(axis: &MeasuredAxis) -> Markup {
+    let (travel, dynamics, unit) = (axis.travel, axis.dynamics, axis.unit());
+    html! {
+        p {
+            "Travel " (travel.low) " to " (travel.high) " " (unit) ", "
+            (Rounded(dynamics.velocity_per_s * 60.0, 0).to_string()) " " (unit) "/min, "
+            (Rounded(dynamics.acceleration_per_s2, 0).to_string()) " " (unit) "/s²."
+        }
+    }
+}
+
+fn friction_part(verdict: &AxisVerdict, friction: &FrictionFound) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Friction at each speed, recorded"),
+        columns: &[
+            Column::Text("speed per s"),
+            Column::Number("friction in drive units"),
+            Column::Number("standard error"),
+        ],
+    };
+    let rows = friction.speeds.iter().map(|[speed, value, error]| {
+        let cells = [value, error].map(|number| html! { (Rounded(*number, 2).to_string()) });
+        Row::new(&Rounded(*speed, 3).to_string(), cells.to_vec())
+    });
+    let id = format!("friction-{}", verdict.axis);
+    html! {
+        (figure(friction_of_axis(friction).render(Frame::Inside(&id))))
+        (table.render(rows))
+        p { "Offset, the same in both directions: " (Rounded(friction.offset, 2).to_string()) " drive units, no part of the list." }
+        @if !friction.notes.is_empty() {
+            ul { @for note in &friction.notes { li { (note) } } }
+        }
+    }
+}
+
+/// What is assumed, and the lists of stage 2.
+fn grounds(report: &ResultsReport) -> Markup {
+    html! {
+        ul {
+            li { "The programs switch compensation themselves; a recording of its state was compared where there is one." }
+            li { "That the lists of stage 2 were loaded is what the operator confirmed; no recording shows it." }
+            li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
+            li { "No plant was fitted: feeds, loads and temperatures that were not recorded are not judged." }
+            @for list in report.plans.iter().flat_map(|it| &it.lists) {
+                li { "List of " (list.axis) " on: " (list.file) ", SHA-256 " code { (list.sha256) } }
+            }
+        }
+    }
+}
+
+fn files(report: &ResultsReport) -> Markup {
+    let table = Table {
+        caption: Caption::Heard("Recordings with their SHA-256"),
+        columns: &[
+            Column::Text("file"),
+            Column::Text("program"),
+            Column::Text("used"),
+            Column::Text("SHA-256"),
+        ],
+    };
+    let rows = report.results.iter().map(|result| {
+        let against = match &result.found {
+            Found::Friction(found) => found.against.join("; "),
+            Found::Circles(found) => found.against.join("; "),
+            Found::Refused(reason) => reason.clone(),
+        };
+        let program = result
+            .program
+            .map_or("not known".to_owned(), |it| it.to_string());
+        let used = if against.is_empty() {
+            "yes".to_owned()
+        } else {
+            format!("no: {against}")
+        };
+        let cells = [
+            html! { (program) },
+            html! { (used) },
+            html! { code { (result.sha256) } },
+        ];
+        Row::new(&result.file, cells.to_vec())
+    });
+    table.render(rows)
+}

@@ -1,0 +1,75 @@
+//! The friction of a commissioned axis, and its circles before and after.
+
+use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
+use frictcomp_recordings::commission::{BeforeAfter, FrictionFound};
+
+/// Friction over speed with bars of one standard error, and the points of the list.
+pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
+    let bar = |&[speed, friction, error]: &[f64; 3]| {
+        [
+            [speed, friction - error],
+            [speed, friction + error],
+            [f64::NAN, f64::NAN],
+        ]
+    };
+    let slowest = found.speeds.first().map_or(0.0, |it| it[0]);
+    let points = found.table.iter().map(|it| [it[0] / 1000.0, it[1]]);
+    let series = |name: &str, points: Vec<[f64; 2]>, drawn: Drawn| Series {
+        name: name.to_owned(),
+        points,
+        drawn,
+    };
+    LineChart {
+        title: format!("Friction of axis {}", found.axis),
+        description: format!(
+            "Friction in drive units at {} recorded speeds, and the points of the list.",
+            found.speeds.len()
+        ),
+        x: ChartAxis::logarithmic("speed in mm/s or degrees/s, logarithmic"),
+        panels: vec![Panel {
+            y: ChartAxis::linear("friction in drive units, bars are standard errors").from_zero(),
+            series: vec![
+                series(
+                    "recorded",
+                    found.speeds.iter().map(|it| [it[0], it[1]]).collect(),
+                    Drawn::Scattered,
+                ),
+                series(
+                    "recorded",
+                    found.speeds.iter().flat_map(bar).collect(),
+                    Drawn::Held,
+                ),
+                series(
+                    "list",
+                    points.filter(|it| it[0] >= slowest).collect(),
+                    Drawn::Marked,
+                ),
+            ],
+            ..Panel::default()
+        }],
+        ..LineChart::default()
+    }
+}
+
+/// The largest glitch over the feed, off and on.
+pub fn glitches_by_feed(circles: &[BeforeAfter]) -> LineChart {
+    let series = |name: &str, value: fn(&BeforeAfter) -> f64| Series {
+        name: name.to_owned(),
+        points: circles.iter().map(|it| [it.feed, value(it)]).collect(),
+        drawn: Drawn::Marked,
+    };
+    LineChart {
+        title: "Largest glitch of recorded circles".to_owned(),
+        description: format!(
+            "The largest glitch at {} recorded feeds with compensation off and on.",
+            circles.len()
+        ),
+        x: ChartAxis::linear("feed in mm/min"),
+        panels: vec![Panel {
+            y: ChartAxis::linear("glitch in µm").from_zero(),
+            series: vec![series("off", |it| it.off_um), series("on", |it| it.on_um)],
+            ..Panel::default()
+        }],
+        ..LineChart::default()
+    }
+}

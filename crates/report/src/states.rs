@@ -1,0 +1,144 @@
+//! Friction of one axis in several states as text and JSON (R16.6).
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::identify::{self, IdentifyReport};
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp::diagnostic::Rounded;
+use frictcomp_recordings::identify::ComparedStates;
+
+/// A spread above which one list does not serve all states.
+const WIDE: f64 = 0.1;
+
+/// Recordings of one axis in several states.
+#[derive(Debug, Clone)]
+pub struct StatesReport {
+    /// The names of the states and what was identified in each.
+    pub states: Vec<(String, IdentifyReport)>,
+    /// The state for which the list is, by its place.
+    pub working: usize,
+    /// The states side by side.
+    pub compared: ComparedStates,
+}
+
+impl StatesReport {
+    /// The name of the state for which the list is.
+    pub fn working_name(&self) -> &str {
+        self.states.get(self.working).map_or("", |it| &it.0)
+    }
+
+    /// The spread of the states in a sentence.
+    pub fn spread(&self) -> String {
+        let working = visible_line(self.working_name());
+        let Some((speed, spread)) = self
+            .compared
+            .widest()
+            .and_then(|row| Some((row.speed, row.spread?)))
+        else {
+            return format!(
+                "the states have no common speed: nothing is known of other states than `{working}`"
+            );
+        };
+        let verdict = if spread > WIDE {
+            format!("the list is for `{working}` alone")
+        } else {
+            format!(
+                "less than {:.0} %, so the list of `{working}` serves all of them",
+                WIDE * 100.0
+            )
+        };
+        format!(
+            "friction differs between the states by up to {:.1} %, at {speed:.3} mm/s: {verdict}",
+            spread * 100.0
+        )
+    }
+}
+
+/// The states side by side, then the one for which the list is.
+pub fn render_text(report: &StatesReport) -> String {
+    let mut out = String::from("friction in each state, with its standard error\n\n     speed");
+    for (name, _) in &report.states {
+        let _ = write!(out, " {:>20}", visible_line(name));
+    }
+    out.push_str("   spread\n      mm/s\n");
+    for row in &report.compared.rows {
+        let _ = write!(out, "{:>10.3}", row.speed);
+        for friction in &row.frictions {
+            let shown =
+                friction.map(|[value, error]| format!("{} ± {error:.3}", Rounded(value, 3)));
+            let _ = write!(
+                out,
+                " {:>20}",
+                shown.unwrap_or_else(|| "not recorded".to_owned())
+            );
+        }
+        let spread = row.spread.map(|it| format!("{:.1} %", it * 100.0));
+        let _ = writeln!(out, " {:>8}", spread.unwrap_or_else(|| "-".to_owned()));
+    }
+    out.push_str("    offset");
+    for (_, state) in &report.states {
+        let _ = write!(
+            out,
+            " {:>20}",
+            Rounded(state.identified.offset, 3).to_string()
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\n\n{}\n\nthe list is for `{}`:",
+        report.spread(),
+        visible_line(report.working_name())
+    );
+    if let Some((_, working)) = report.states.get(report.working) {
+        out.push_str(&identify::render_text(working));
+    }
+    out
+}
+
+#[derive(Serialize)]
+struct Document<'a, T> {
+    schema: u32,
+    working: &'a str,
+    spread: Option<f64>,
+    speeds: Vec<Row<'a>>,
+    states: Vec<State<'a, T>>,
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    /// In µm/s or 0.001°/s.
+    v: f64,
+    frictions: &'a [Option<[f64; 2]>],
+    spread: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct State<'a, T> {
+    name: &'a str,
+    file: &'a str,
+    identified: T,
+}
+
+/// The same for machines; each state as `identify` gives it alone.
+pub fn render_json(report: &StatesReport) -> String {
+    let states = report.states.iter().map(|(name, found)| State {
+        name,
+        file: &found.name,
+        identified: identify::record(found),
+    });
+    let rows = report.compared.rows.iter().map(|row| Row {
+        v: row.speed * 1000.0,
+        frictions: &row.frictions,
+        spread: row.spread,
+    });
+    to_pretty(&Document {
+        schema: 1,
+        working: report.working_name(),
+        spread: report.compared.widest().and_then(|it| it.spread),
+        speeds: rows.collect(),
+        states: states.collect(),
+    })
+}

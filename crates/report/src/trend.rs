@@ -1,0 +1,187 @@
+//! The friction of an axis over the dates of its recordings, as text and JSON (R16.6).
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionParameter};
+
+/// The friction of an axis on some dates.
+#[derive(Debug, Clone)]
+pub struct TrendReport {
+    /// The axis, where it is named.
+    pub axis: Option<String>,
+    /// The unit of the friction.
+    pub unit: String,
+    /// The recordings in the order of their dates.
+    pub dates: Vec<DatedFriction>,
+    /// What changed between them.
+    pub changes: Vec<FrictionChange>,
+    /// Files that tell nothing, each with its reason.
+    pub left_out: Vec<(String, String)>,
+}
+
+/// The friction of one recording.
+#[derive(Debug, Clone)]
+pub struct DatedFriction {
+    /// The date, `2026-03-01`.
+    pub date: String,
+    /// The days since 1970-01-01.
+    pub day: f64,
+    /// The file.
+    pub file: String,
+    /// The parameters.
+    pub levels: FrictionLevels,
+}
+
+/// A row for each recording, then the changes, then what was left out.
+pub fn render_text(report: &TrendReport) -> String {
+    let mut out = String::new();
+    let axis = report
+        .axis
+        .as_deref()
+        .map(|it| format!(" of axis {}", visible_line(it)));
+    let _ = writeln!(
+        out,
+        "friction{} over {} recordings, in {}, fv per mm/s\n",
+        axis.unwrap_or_default(),
+        report.dates.len(),
+        visible_line(&report.unit)
+    );
+    let _ = write!(out, "{:<10}", "date");
+    for parameter in FrictionParameter::ALL {
+        let _ = write!(out, " {:>19}", parameter.as_str());
+    }
+    out.push('\n');
+    for dated in &report.dates {
+        out.push_str(&dated.date);
+        for parameter in FrictionParameter::ALL {
+            let level = dated.levels.get(parameter);
+            let digits = if parameter == FrictionParameter::Viscous {
+                4
+            } else {
+                2
+            };
+            let shown = format!("{:.digits$} ± {:.digits$}", level.value, level.error);
+            let _ = write!(out, " {shown:>19}");
+        }
+        let _ = writeln!(out, "  {}", visible_line(&dated.file));
+    }
+    out.push('\n');
+    for change in &report.changes {
+        let _ = writeln!(out, "{}", sentence(report, change));
+    }
+    if report.changes.is_empty() {
+        let _ = writeln!(
+            out,
+            "no parameter of these {} recordings changed by more than 3 combined errors and 5 %",
+            report.dates.len()
+        );
+    }
+    for (file, reason) in &report.left_out {
+        let _ = writeln!(
+            out,
+            "left out: {}: {}",
+            visible_line(file),
+            visible_line(reason)
+        );
+    }
+    out
+}
+
+/// A change in a sentence.
+fn sentence(report: &TrendReport, change: &FrictionChange) -> String {
+    let date = |at: usize| report.dates.get(at).map_or("?", |it| &it.date);
+    let whole = if change.parameter == FrictionParameter::Offset {
+        " of Fc"
+    } else {
+        ""
+    };
+    format!(
+        "{} changed by {:+.1} %{whole} between {} and {}, {:.0} combined errors",
+        change.parameter.as_str(),
+        change.part * 100.0,
+        date(change.from),
+        date(change.to),
+        change.errors
+    )
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    axis: Option<&'a str>,
+    unit: &'a str,
+    dates: Vec<Dated<'a>>,
+    changes: Vec<Changed<'a>>,
+    left_out: Vec<LeftOut<'a>>,
+}
+
+#[derive(Serialize)]
+#[allow(non_snake_case)] // the names of the parameters as they are written
+struct Dated<'a> {
+    date: &'a str,
+    file: &'a str,
+    Fc: [f64; 2],
+    Fs: [f64; 2],
+    fv: [f64; 2],
+    offset: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct Changed<'a> {
+    parameter: &'static str,
+    from: &'a str,
+    to: &'a str,
+    part: f64,
+    errors: f64,
+}
+
+#[derive(Serialize)]
+struct LeftOut<'a> {
+    file: &'a str,
+    reason: &'a str,
+}
+
+/// The same for machines; each parameter with its standard error.
+pub fn render_json(report: &TrendReport) -> String {
+    let date = |at: usize| report.dates.get(at).map_or("", |it| &it.date);
+    let dated = |it: &'_ DatedFriction| {
+        FrictionParameter::ALL.map(|parameter| {
+            let level = it.levels.get(parameter);
+            [level.value, level.error]
+        })
+    };
+    let dates = report.dates.iter().map(|it| {
+        let [coulomb, breakaway, viscous, offset] = dated(it);
+        Dated {
+            date: &it.date,
+            file: &it.file,
+            Fc: coulomb,
+            Fs: breakaway,
+            fv: viscous,
+            offset,
+        }
+    });
+    let changes = report.changes.iter().map(|it| Changed {
+        parameter: it.parameter.as_str(),
+        from: date(it.from),
+        to: date(it.to),
+        part: it.part,
+        errors: it.errors,
+    });
+    to_pretty(&Document {
+        schema: 1,
+        axis: report.axis.as_deref(),
+        unit: &report.unit,
+        dates: dates.collect(),
+        changes: changes.collect(),
+        left_out: report
+            .left_out
+            .iter()
+            .map(|(file, reason)| LeftOut { file, reason })
+            .collect(),
+    })
+}

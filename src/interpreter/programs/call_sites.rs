@@ -1,0 +1,295 @@
+//! The calls that stand in a text, found without executing it (R17.2).
+
+use std::collections::BTreeMap;
+
+use super::file_names::{FileName, file_names, is_file_name};
+use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::value::rounded;
+use crate::machine::{ConfiguredPrograms, canonical_word};
+use crate::syntax::ast::{Address, Block, CallName, CallScope, Hash, Item, Operand, Word};
+use crate::syntax::{BlockReader, FastPath, MAX_MACROS, may_call_file, parse_block, with_macros};
+use crate::text::{Span, TextLines};
+
+/// A call of another file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CallSite {
+    /// The name of the program; `None` where only a run can tell it.
+    pub name: Option<String>,
+    /// The line of its block, from 1.
+    pub line: u32,
+}
+
+/// The calls of other files in a text, in their order, on a control that has these programs for
+/// words and macros: `L`, `L CYCLE`, `L SEQUENCE`, and the words that call a program (R2.14, R2.75).
+/// Nothing is executed: a call counts whether it is reached or not.
+///
+/// ```
+/// use frictcomp::interpreter::call_sites;
+/// use frictcomp::machine::ConfiguredPrograms;
+///
+/// let sites = call_sites("N10 X1\nN20 L drill.nc\n", &ConfiguredPrograms::default());
+/// assert_eq!((sites[0].name.as_deref(), sites[0].line), (Some("drill.nc"), 2));
+/// ```
+pub fn call_sites(text: &str, programs: &ConfiguredPrograms) -> Vec<CallSite> {
+    let calls_by_words = !programs.words.is_empty() || !programs.macros.is_empty();
+    if !calls_by_words && !text.contains('#') && !may_call_file(text.as_bytes()) {
+        return Vec::new();
+    }
+    let macros = programs.macros.iter().cloned().collect();
+    let mut sites = Sites {
+        programs,
+        macros,
+        named: BTreeMap::new(),
+        line: 1,
+        found: Vec::new(),
+    };
+    for_each_block(text, |block, text, line| {
+        sites.line = line;
+        sites.block(block, text);
+    });
+    sites.found
+}
+
+/// Whether M02 or M30 stands in a text, or an M function that only a run can tell.
+///
+/// ```
+/// use frictcomp::interpreter::holds_program_end;
+///
+/// assert!(holds_program_end("N10 X1\nN20 M30\n"));
+/// assert!(!holds_program_end("N10 X1 (M30)\nN20 M17\n"));
+/// ```
+pub fn holds_program_end(text: &str) -> bool {
+    let mut is_found = false;
+    for_each_block(text, |block, text, _| {
+        with_macros(block, text, MAX_MACROS, &mut |block, _| {
+            is_found |= words(block).any(|word| {
+                word.address == Address::Letter(b'M')
+                    && word.value.is_some()
+                    && number(word).is_none_or(|number| matches!(number, 2 | 30))
+            });
+        });
+    });
+    is_found
+}
+
+fn for_each_block(text: &str, mut take: impl FnMut(&Block, &str, u32)) {
+    let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
+    let mut block = Block::default();
+    while let Some(raw) = reader.next(&mut block) {
+        take(&block, raw.text, raw.line);
+    }
+}
+
+fn words(block: &Block) -> impl Iterator<Item = &Word> {
+    let later = block.items.iter().filter_map(|item| match item {
+        Item::Word(word) => Some(word),
+        _ => None,
+    });
+    block.words.iter().chain(later)
+}
+
+fn number(word: &Word) -> Option<i64> {
+    match word.value {
+        Some(Operand::Number(value)) => rounded(value),
+        _ => None,
+    }
+}
+
+/// The calls that were found so far.
+struct Sites<'a> {
+    programs: &'a ConfiguredPrograms,
+    /// The macros that were defined so far, with their code.
+    macros: BTreeMap<String, String>,
+    /// The programs that `#FILE NAME` names for words; `None` for a name that only a run can tell.
+    named: BTreeMap<String, Option<String>>,
+    line: u32,
+    found: Vec<CallSite>,
+}
+
+impl Sites<'_> {
+    fn block(&mut self, block: &Block, text: &str) {
+        for item in &block.items {
+            match item {
+                Item::MacroDefinition(name, code) => {
+                    let [name, code] = [name, code].map(|span| unquoted(span.of(text)).to_owned());
+                    self.macros.insert(name, code);
+                }
+                Item::MacroUse(name) => self.configured_macro(unquoted(name.of(text))),
+                _ => {}
+            }
+        }
+        with_macros(block, text, MAX_MACROS, &mut |block, text| {
+            self.own(block, text);
+        });
+    }
+
+    /// A macro of the channel list, whose code stands in no program.
+    fn configured_macro(&mut self, name: &str) {
+        let macros = &self.programs.macros;
+        if let Some((_, code)) = macros.iter().find(|(it, _)| it == name) {
+            let code = code.replace("\\\"", "\"");
+            with_macros(
+                &parse_block(&code),
+                &code,
+                MAX_MACROS,
+                &mut |block, text| {
+                    self.own(block, text);
+                },
+            );
+        }
+    }
+
+    /// The calls of a block, without those of its macros.
+    fn own(&mut self, block: &Block, text: &str) {
+        for word in words(block) {
+            self.word(word);
+        }
+        for item in &block.items {
+            match item {
+                Item::Call(call) if call.scope == CallScope::Global => self.named(call.name, text),
+                Item::Sequence(part) => {
+                    if let Some(name) = part.name {
+                        self.named(name, text);
+                    }
+                }
+                Item::GCall(call) => self.function('G', Some(i64::from(call.number))),
+                Item::Hash(hash) if is_file_name(&hash.name) => self.name_programs(hash, text),
+                _ => {}
+            }
+        }
+    }
+
+    fn named(&mut self, name: CallName, text: &str) {
+        let shown = |span: Span| unquoted(span.of(text)).trim().to_owned();
+        self.add(match name {
+            CallName::Literal(span) => Some(shown(span)),
+            CallName::Quoted(span) => {
+                let name = shown(span);
+                Some(self.macros.get(&name).cloned().unwrap_or(name))
+            }
+            CallName::Variable(_) => None,
+        });
+    }
+
+    fn name_programs(&mut self, hash: &Hash, text: &str) {
+        for (word, name) in file_names(hash.rest.of(text)) {
+            let name = match name {
+                FileName::Written(name) => Some(name.to_owned()),
+                FileName::Elsewhere(_) => None,
+            };
+            self.named.insert(word, name);
+        }
+    }
+
+    fn word(&mut self, word: &Word) {
+        let Address::Letter(letter @ (b'G' | b'M' | b'T' | b'D')) = word.address else {
+            return;
+        };
+        let number = number(word);
+        self.function(char::from(letter), number);
+        if letter == b'T' && self.programs.data_with_tool {
+            self.function('D', number);
+        }
+    }
+
+    /// A function, whose number is `None` where only a run can tell it.
+    fn function(&mut self, letter: char, number: Option<i64>) {
+        let Some(number) = number else {
+            let is_of_letter = |word: &str| word.starts_with(letter);
+            let configured = self.programs.words.iter();
+            let mut words = configured.map(|(word, _)| canonical_word(word));
+            if words.any(|word| is_of_letter(&word)) || self.named.keys().any(|it| is_of_letter(it))
+            {
+                self.add(None);
+            }
+            return;
+        };
+        for word in [format!("{letter}{number}"), letter.to_string()] {
+            let called = match self.named.get(&word) {
+                Some(named) => Some(named.clone()),
+                None => self.programs.word(&word).map(|name| Some(name.to_owned())),
+            };
+            if let Some(called) = called {
+                // An empty name takes the program of a word away.
+                if called.as_deref() != Some("") {
+                    self.add(called);
+                }
+                return;
+            }
+        }
+    }
+
+    fn add(&mut self, name: Option<String>) {
+        let line = self.line;
+        self.found.push(CallSite { name, line });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sites(text: &str) -> String {
+        let programs = ConfiguredPrograms {
+            words: vec![("M06".to_owned(), "change.nc".to_owned())],
+            macros: vec![("PARK".to_owned(), "L park.nc".to_owned())],
+            ..ConfiguredPrograms::default()
+        };
+        let sites = call_sites(text, &programs).into_iter();
+        let sites = sites.map(|it| format!("{}:{}", it.name.as_deref().unwrap_or("?"), it.line));
+        sites.collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn calls_are_found_without_a_run() {
+        // R17.2
+        for (text, found) in [
+            (
+                "N10 L a.nc\nLL SUB\nN30 L CYCLE [NAME=b.cyc @P1=2]",
+                "a.nc:1 b.cyc:3",
+            ),
+            ("G1 \\\n X1\nL \"a b.nc\"", "a b.nc:3"),
+            ("\"DO\" = \"L a.nc\"\n\"DO\"", "a.nc:1"),
+            ("\"FILE\" = \"a.nc\"\nL \"FILE\"", "a.nc:2"),
+            ("\"PARK\"", "park.nc:1"),
+            ("L V.P.NAME\nM=P1", "?:1 ?:2"),
+            ("T1 M6\nM06 X1", "change.nc:1 change.nc:2"),
+            (
+                "#FILE NAME [M6=\"mine.nc\" G800=V.P.A T=\"\"]\nM6\nG800[1]\nT1",
+                "mine.nc:2 ?:3",
+            ),
+            (
+                "L SEQUENCE [NAME=a.nc N10 N20]\nL SEQUENCE [N10 N20]",
+                "a.nc:1",
+            ),
+            (
+                "(L a.nc)\n#COMMENT BEGIN\nL b.nc\n#COMMENT END\n; L c.nc",
+                "",
+            ),
+            (
+                "$IF V.E.A == 1\nL a.nc\n$ENDIF\n%L SUB\nL b.nc",
+                "a.nc:2 b.nc:5",
+            ),
+        ] {
+            assert_eq!(sites(text), found, "{text}");
+        }
+    }
+
+    #[test]
+    fn program_ends_are_words() {
+        // R17.2
+        for text in ["M30", "N10 M02", "X1 M2", "\"END\" = \"M30\"", "M=P1"] {
+            assert!(holds_program_end(text), "{text}");
+        }
+        for text in [
+            "M17",
+            "M3 M20",
+            "(M30)",
+            "#MSG [\"M30\"]",
+            "V.P.M30 = 1",
+            "M29 [MAIN]",
+        ] {
+            assert!(!holds_program_end(text), "{text}");
+        }
+    }
+}

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 32] = [
+static EXAMPLES: [Examples; 33] = [
     examples(
         &["run"],
         [
@@ -123,6 +123,13 @@ static EXAMPLES: [Examples; 32] = [
         [
             "frictcomp verify friction.csv --value-list comp_x.lis",
             "frictcomp verify friction.csv --value-list comp_x.lis --format json",
+        ],
+    ),
+    examples(
+        &["replay"],
+        [
+            "frictcomp replay states.csv mill.nc",
+            "frictcomp replay states.csv mill.nc --format json",
         ],
     ),
     examples(

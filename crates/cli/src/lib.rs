@@ -52,6 +52,7 @@ mod painted;
 mod progress;
 mod quiet;
 mod recorded_files;
+mod replay;
 mod result;
 mod run;
 mod settings;
@@ -124,6 +125,7 @@ enum Command {
     Trace(trace::TraceArgs),
     Identify(identify::IdentifyArgs),
     Verify(verify::VerifyArgs),
+    Replay(replay::ReplayArgs),
     Trend(trend::TrendArgs),
     #[command(subcommand)]
     Commission(commission::CommissionCommand),
@@ -256,6 +258,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Trace(args) => trace::run(args, console),
         Command::Identify(args) => identify::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Replay(args) => replay::run(args, console),
         Command::Ask(args) => ask::run(args, console),
         Command::Conformance(args) => conformance::run(args, console),
         Command::Trend(args) => trend::run(args, console),

@@ -469,6 +469,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "trace",
         "identify",
         "verify",
+        "replay",
         "trend",
         "commission",
         "commission plan",
@@ -556,6 +557,7 @@ fn example_folder() -> Bench {
     );
     let friction = friction.replace("ActTorque", "torque");
     bench.write("friction.csv", &friction);
+    bench.write("states.csv", "t,active_X\n0,1\n0.1,1\n");
     fs::create_dir(bench.folder().join("recordings")).expect("a folder");
     for date in ["2026-03-01", "2027-03-01"] {
         bench.write(&format!("recordings/x-{date}.csv"), &friction);

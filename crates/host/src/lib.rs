@@ -60,6 +60,7 @@ mod parameter_files;
 mod paths;
 mod pieces;
 mod read;
+pub mod replay;
 mod shared_map;
 mod signatures;
 mod simulations;

@@ -43,6 +43,19 @@ pub enum TraceError {
     /// Channels of a commanded trace that were not sampled together.
     #[error("the trace `{}`: its channels were sampled at different times", shown_path(.0))]
     SeveralClocks(PathBuf),
+    /// A recording of states without times.
+    #[error("the trace `{}` has no times", shown_path(.0))]
+    NoTimes(PathBuf),
+    /// A state that is neither 0 nor 1.
+    #[error("the trace `{}`: channel `{channel}` holds {value}, which is no state", shown_path(.path))]
+    NoState {
+        /// Path of the file.
+        path: PathBuf,
+        /// The channel.
+        channel: String,
+        /// What stands there.
+        value: f64,
+    },
     /// Points that make no circle.
     #[error("`{}`: {reason}", shown_path(.path))]
     Circle {
@@ -67,6 +80,8 @@ impl TraceError {
             }
             Self::Apart { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
+            Self::NoTimes(_) => "name the channel of the times: `--time CHANNEL`",
+            Self::NoState { .. } => "a state is 1 where friction compensation is active, else 0",
             // What helps is said where the option has its name.
             Self::Cycles { .. } | Self::SeveralClocks(_) => return None,
         };

@@ -385,7 +385,7 @@ fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f
 }
 
 /// The samples of a channel as the file has them, each of them a number.
-fn numbers_of<'a>(
+pub(super) fn numbers_of<'a>(
     path: &Path,
     recording: &'a TraceRecording,
     channel: ChannelIndex,
@@ -404,7 +404,7 @@ fn numbers_of<'a>(
     Ok(recording.values(channel))
 }
 
-fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {
+pub(super) fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {
     SelectError::Lacks {
         lacks: lacks.to_owned(),
         found: channels

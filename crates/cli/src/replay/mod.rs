@@ -1,0 +1,144 @@
+//! `frictcomp replay`: what the machine did, from a recording, beside the dry run.
+
+mod shown;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::channels::parse_unit;
+use super::console::Console;
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::MachineArgs;
+use super::outputs::Outputs;
+use super::result::{Format, ResultArgs};
+use super::start::StartArgs;
+use frictcomp::session::StopPolicy;
+use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
+use frictcomp_host::{Input, Ledger};
+use frictcomp_recordings::trace::{ChannelSelection, Unit};
+
+/// Lay what a machine did, from a recording, beside the dry run of its programs
+///
+/// The recording holds per axis whether friction compensation is active: `frict_comp.f_is_active`, or
+/// `V.A.FRICT_COMP_ACTIVE.<axis>` sampled by the PLC; as CSV the columns `t`, `active_<axis>` and, where
+/// they are there, `line` or `block`, `program` and `pos_<axis>`. Conditions that only the machine knows
+/// are decided by the recording where one way fits.
+#[derive(Debug, Args)]
+pub(super) struct ReplayArgs {
+    /// The recorded trace
+    recording: PathBuf,
+    /// The programs that ran meanwhile, in their order
+    #[arg(required = true, value_name = "PROGRAM")]
+    programs: Vec<PathBuf>,
+    /// The channel of the times: its name, comment or CNC object
+    #[arg(long, value_name = "CHANNEL")]
+    time: Option<String>,
+    /// The channel of the state of an axis: `--active X=FrictX`
+    #[arg(long, value_name = "AXIS=CHANNEL", value_parser = parse_axis)]
+    active: Vec<(String, String)>,
+    /// The channel of the position of an axis: `--position X=ActPosX`
+    #[arg(long, value_name = "AXIS=CHANNEL", value_parser = parse_axis)]
+    position: Vec<(String, String)>,
+    /// The channel of the line of the program
+    #[arg(long, value_name = "CHANNEL")]
+    line: Option<String>,
+    /// The channel of the block number, N, where lines were not recorded
+    #[arg(long, value_name = "CHANNEL", conflicts_with = "line")]
+    block: Option<String>,
+    /// The channel of the running number of the program, from 1
+    #[arg(long, value_name = "CHANNEL")]
+    program: Option<String>,
+    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
+    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
+    unit: Vec<(String, Unit)>,
+    /// What positions may differ by where no blocks were recorded, in mm or degrees
+    #[arg(long, value_name = "MM", default_value_t = 0.1, value_parser = parse_tolerance)]
+    tolerance: f64,
+    #[command(flatten)]
+    result: ResultArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    start: StartArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    ledger.reads("trace", &args.recording);
+    let inputs: Vec<Input> = args.programs.iter().map(|path| Input::new(path)).collect();
+    for input in &inputs {
+        input.probe()?;
+        input.note(&ledger);
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let mut machines = args.machine.machines(&ledger);
+    machines.look_ahead(&inputs);
+    let first = inputs
+        .first()
+        .ok_or_else(|| Failure::new("there is no program"))?;
+    let loaded = machines.for_folder(first.folder())?;
+    outputs.check()?;
+    let recording = read_states(&args.recording, &args.channels(), &loaded.machine)?;
+    let mut options = args.execution.options(&loaded, StopPolicy::FirstError);
+    options.start = args.start.positions(&loaded.machine)?;
+    let replay = Replay {
+        inputs: &inputs,
+        loaded: &loaded,
+        options,
+        tolerance: args.tolerance,
+    };
+    let replayed = replay.compare(&recording)?;
+    result.text(&match args.result.format {
+        Format::Text => shown::text(&replayed),
+        Format::Json => format!("{:#}\n", shown::document(&replayed)),
+    })?;
+    outputs.finish()?;
+    args.machine.say_unread(&ledger, console);
+    Ok(if replayed.agrees() {
+        exit::CLEAN
+    } else {
+        exit::FOUND
+    })
+}
+
+impl ReplayArgs {
+    fn channels(&self) -> ReplayChannels {
+        ReplayChannels {
+            selection: ChannelSelection {
+                time: self.time.clone(),
+                units: self.unit.clone(),
+                ..ChannelSelection::default()
+            },
+            active: self.active.clone(),
+            positions: self.position.clone(),
+            line: self.line.clone(),
+            block: self.block.clone(),
+            program: self.program.clone(),
+        }
+    }
+}
+
+/// `X=CHANNEL`.
+fn parse_axis(text: &str) -> Result<(String, String), String> {
+    let pair = text.split_once('=');
+    let pair = pair.map(|(axis, channel)| (axis.trim(), channel.trim()));
+    match pair {
+        Some((axis, channel)) if !axis.is_empty() && !channel.is_empty() => {
+            Ok((axis.to_owned(), channel.to_owned()))
+        }
+        _ => Err("write `AXIS=CHANNEL`, such as `X=FrictX`".to_owned()),
+    }
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.trim().parse().ok();
+    let tolerance = tolerance.filter(|it: &f64| it.is_finite() && *it >= 0.0);
+    tolerance.ok_or_else(|| "write a length in mm that is not negative, such as 0.1".to_owned())
+}

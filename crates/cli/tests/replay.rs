@@ -1,0 +1,319 @@
+//! What a machine did, beside the dry run (R15.20 to R15.22).
+
+mod folder;
+
+use std::fmt::Write as _;
+
+use folder::{Bench, json};
+use serde_json::Value;
+
+const PROGRAM: &str = "\
+N10 G90 G1 X10 F1000
+N20 X[COMP OFF FRICT]
+N30 X20
+/N40 X[COMP ON FRICT]
+N50 X30
+N60 X[COMP ON FRICT]
+N70 X40
+$IF V.E.A == 1
+N80 X[COMP OFF FRICT]
+N90 X45
+$ENDIF
+N100 X50
+N110 M30
+";
+
+const WITHOUT_CONDITIONS: &str = "\
+N10 G90 G1 X10 F1000
+N20 X[COMP OFF FRICT]
+N30 X20
+N40 X[COMP ON FRICT]
+N50 X30
+N60 X[COMP ON FRICT] X[COMP OFF FRICT]
+N70 X40
+N80 M30
+";
+
+/// A control that follows the lines of a program one after the other, and what differs in it.
+#[derive(Clone, Copy)]
+struct Control {
+    /// The state at the start.
+    active: bool,
+    /// Commands of a block act from right to left.
+    backwards: bool,
+    /// Skip level 1 is on.
+    skips: bool,
+    /// `V.E.A`.
+    value: i32,
+    /// Whether the lines are recorded.
+    with_lines: bool,
+}
+
+const CONTROL: Control = Control {
+    active: true,
+    backwards: false,
+    skips: false,
+    value: 0,
+    with_lines: true,
+};
+
+impl Control {
+    /// The recording of a program: each motion is three samples, each command none.
+    fn record(self, program: &str) -> String {
+        let mut text = String::from(if self.with_lines {
+            "t,line,active_X,pos_X\n"
+        } else {
+            "t,active_X,pos_X\n"
+        });
+        let (mut active, mut position, mut samples, mut passing) = (self.active, 0.0, 0, false);
+        for (at, line) in program.lines().enumerate() {
+            let holds = format!("V.E.A == {}", self.value);
+            match line {
+                _ if line.starts_with("$IF") => passing = !line.contains(&holds),
+                _ if line.starts_with("$ENDIF") => passing = false,
+                _ if passing || (self.skips && line.starts_with('/')) => {}
+                _ if line.contains("COMP") => {
+                    let mut commands: Vec<&str> = line.split("COMP ").skip(1).collect();
+                    if self.backwards {
+                        commands.reverse();
+                    }
+                    active = commands.last().is_some_and(|it| it.starts_with("ON"));
+                }
+                _ => {
+                    let to = line.split('X').nth(1).and_then(|it| it.split(' ').next());
+                    let to: f64 = to.and_then(|it| it.parse().ok()).unwrap_or(position);
+                    for part in 1..=3 {
+                        let now = position + (to - position) * f64::from(part) / 3.0;
+                        write!(text, "{:.3},", f64::from(samples) * 0.01).expect("text");
+                        if self.with_lines {
+                            write!(text, "{},", at + 1).expect("text");
+                        }
+                        writeln!(text, "{},{now:.3}", i32::from(active)).expect("text");
+                        samples += 1;
+                    }
+                    position = to;
+                }
+            }
+        }
+        text
+    }
+}
+
+/// The exit status and the document.
+fn replay(control: Control, program: &str, more: &[&str]) -> (Option<i32>, Value) {
+    let bench = Bench::new(&[("m.nc", program)]);
+    bench.write("states.csv", &control.record(program));
+    let mut arguments = vec!["replay", "states.csv", "m.nc", "--format", "json"];
+    arguments.extend(["--start", "X0,Y0,Z0"]);
+    arguments.extend(more);
+    let output = bench.call(&arguments);
+    let text = String::from_utf8(output.stdout).expect("text");
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert!(!text.is_empty(), "{error}");
+    (output.status.code(), json(&text))
+}
+
+/// R15.20: a machine that does what the dry run says agrees, by lines and by positions, each change with its
+/// time and line.
+#[test]
+fn a_machine_that_follows_the_dry_run_agrees() {
+    for with_lines in [true, false] {
+        let control = Control {
+            with_lines,
+            ..CONTROL
+        };
+        let (status, found) = replay(control, WITHOUT_CONDITIONS, &[]);
+        assert_eq!(
+            (status, &found["agrees"]),
+            (Some(0), &Value::Bool(true)),
+            "{found:#}"
+        );
+        assert_eq!(found["conditional"], false);
+        assert_eq!(found["changes"], 3);
+        let lines = found["axes"]["X"]["changes"].as_array().expect("changes");
+        let lines: Vec<_> = lines.iter().map(|it| it["at"]["line"].as_u64()).collect();
+        assert_eq!(lines, [Some(2), Some(4), Some(6)]);
+        assert_eq!(found["axes"]["X"]["changes"][0]["t"], 0.03);
+    }
+}
+
+/// R15.21: another order of the commands of a block is found at its line, with the reading that it depends
+/// on.
+#[test]
+fn another_order_in_a_block_is_found() {
+    let control = Control {
+        backwards: true,
+        ..CONTROL
+    };
+    let (status, found) = replay(control, WITHOUT_CONDITIONS, &[]);
+    assert_eq!(status, Some(1), "{found:#}");
+    let axis = &found["axes"]["X"];
+    assert_eq!(axis["at"]["line"], 6);
+    assert_eq!(
+        (&axis["recorded"], &axis["dry_run"]),
+        (&"active".into(), &"inactive".into())
+    );
+    assert_eq!(axis["rests_on"], json(r#"["R1.31"]"#));
+}
+
+/// R15.21: a machine that begins in another state, as after a reset that switches off, is found at the
+/// start.
+#[test]
+fn another_state_at_the_start_is_found() {
+    let control = Control {
+        active: false,
+        ..CONTROL
+    };
+    let (status, found) = replay(control, WITHOUT_CONDITIONS, &[]);
+    assert_eq!(status, Some(1), "{found:#}");
+    let axis = &found["axes"]["X"];
+    assert_eq!(axis["at"], Value::Null);
+    assert_eq!(axis["rests_on"], json(r#"["R1.28","R1.29"]"#));
+}
+
+/// R15.21: a block that the machine skipped, and the dry run was told that it would not, is found.
+#[test]
+fn a_skipped_block_is_found() {
+    let control = Control {
+        skips: true,
+        ..CONTROL
+    };
+    let (status, found) = replay(control, PROGRAM, &["--skip", "none", "--set", "V.E.A=0"]);
+    assert_eq!(status, Some(1), "{found:#}");
+    let axis = &found["axes"]["X"];
+    assert_eq!(axis["at"]["line"], 4, "{found:#}");
+    assert_eq!(
+        (&axis["recorded"], &axis["dry_run"]),
+        (&"inactive".into(), &"active".into())
+    );
+    assert_eq!(axis["rests_on"], json(r#"["R2.90"]"#));
+}
+
+/// R15.21: a way that the machine did not take is found, also where only positions tell it.
+#[test]
+fn another_way_is_found() {
+    for with_lines in [true, false] {
+        let control = Control {
+            value: 1,
+            with_lines,
+            ..CONTROL
+        };
+        let (status, found) = replay(control, PROGRAM, &["--skip", "none", "--set", "V.E.A=0"]);
+        assert_eq!(status, Some(1), "{found:#}");
+        assert_eq!(found["axes"]["X"]["recorded"], "inactive", "{found:#}");
+        assert_eq!(found["axes"]["X"]["dry_run"], "active");
+    }
+}
+
+/// R15.21: conditions that only the machine knows are decided by the recording, and the verdict is then
+/// conditional.
+#[test]
+fn the_recording_decides_conditions() {
+    for (skips, value) in [(false, 0), (false, 1), (true, 0), (true, 1)] {
+        let control = Control {
+            skips,
+            value,
+            ..CONTROL
+        };
+        let (status, found) = replay(control, PROGRAM, &[]);
+        assert_eq!(status, Some(0), "{found:#}");
+        assert_eq!(found["conditional"], true);
+        assert_eq!(found["ways"], json(r#"{"tried":4,"fitting":1}"#));
+        let decided = found["decided"].as_array().expect("a list").iter();
+        let mut decided: Vec<_> = decided
+            .map(|it| (it["condition"].as_str(), it["holds"].as_bool()))
+            .collect();
+        decided.sort();
+        let expected = [
+            (Some("V.E.A == 1"), Some(value == 1)),
+            (Some("skip level 1 is off"), Some(!skips)),
+        ];
+        assert_eq!(decided, expected);
+    }
+}
+
+/// R15.21: no way fits a machine that does something else, and more than 64 ways are not tried.
+#[test]
+fn no_way_fits_or_too_many() {
+    let control = Control {
+        active: false,
+        ..CONTROL
+    };
+    let (status, found) = replay(control, PROGRAM, &[]);
+    assert_eq!(
+        (status, &found["ways"]["fitting"]),
+        (Some(1), &0.into()),
+        "{found:#}"
+    );
+    let unknown = found["axes"]["X"]["unknown"].to_string();
+    assert!(
+        unknown.contains("V.E.A == 1") && unknown.contains("skip level 1"),
+        "{unknown}"
+    );
+    let mut program = String::new();
+    for at in 0..7 {
+        writeln!(program, "$IF V.E.A{at} == 1\nX[COMP OFF FRICT]\n$ENDIF").expect("text");
+    }
+    program.push_str("G1 X10 F100\nM30\n");
+    let (status, found) = replay(CONTROL, &program, &[]);
+    assert_eq!(status, Some(1), "{found:#}");
+    let untried = found["untried"].as_str().expect("a reason");
+    assert!(
+        untried.contains("128") && untried.contains("64"),
+        "{untried}"
+    );
+}
+
+/// R15.21: a dry run that an error ends is no agreement.
+#[test]
+fn a_dry_run_that_ends_early_does_not_agree() {
+    let program = "N10 G1 X10 F1000\nN20 Z[COMP ON FRICT]\nN30 X20\nN40 M30\n";
+    let bench = Bench::new(&[("m.nc", program)]);
+    bench.write("states.csv", "t,line,active_X\n0,1,1\n0.1,3,1\n");
+    let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
+    assert_eq!(
+        bench.status(&["replay", "states.csv", "m.nc"]),
+        Some(1),
+        "{said}"
+    );
+    assert!(
+        said.contains("the dry run ends early: P-ERR-70495 at m.nc:2"),
+        "{said}"
+    );
+}
+
+/// R15.22: without a state there is nothing to compare; the object to record is named. So it is with times
+/// and with what is no state.
+#[test]
+fn a_recording_without_states_is_refused() {
+    let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
+    for (recording, words) in [
+        (
+            "t,line\n0,1\n1,2\n",
+            ["`frict_comp.f_is_active`", "0x120300:0x<axis>0221"],
+        ),
+        ("line,active_X\n1,1\n2,0\n", ["has no times", "--time"]),
+        ("t,active_X\n0,1\n1,7\n", ["holds 7", "`active_X`"]),
+    ] {
+        bench.write("states.csv", recording);
+        let output = bench.call(&["replay", "states.csv", "m.nc"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8(output.stderr).expect("text");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.iter().all(|it| said.contains(it)), "{said}");
+    }
+}
+
+/// R15.20: an export of Scope is read by the object of the state and the number of the axis, or by the names
+/// that options give.
+#[test]
+fn channels_are_named_by_options() {
+    let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
+    let recording = CONTROL.record(WITHOUT_CONDITIONS);
+    let renamed = recording.replace("t,line,active_X,pos_X", "t,Row,On,Way");
+    bench.write("states.csv", &renamed);
+    let mut arguments = vec!["replay", "states.csv", "m.nc"];
+    assert_eq!(bench.status(&arguments), Some(2));
+    arguments.extend(["--active", "X=On", "--line", "Row"]);
+    assert_eq!(bench.status(&arguments), Some(0));
+}

@@ -1,0 +1,290 @@
+//! The recorded changes of an axis beside those of the dry run.
+
+use std::sync::Arc;
+
+use super::course::{AxisCourse, Course, Step, Switch};
+use super::recorded::{RecordedAxis, RecordedChange};
+
+/// Blocks that may pass between two samples.
+const MAX_BETWEEN: usize = 1000;
+
+/// A block by its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReplayPlace {
+    /// The file.
+    pub file: Arc<str>,
+    /// The line, from 1.
+    pub line: u32,
+}
+
+/// A change in which machine and dry run agree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatchedChange {
+    /// The block of the dry run.
+    pub at: ReplayPlace,
+    /// The time of the recording in seconds.
+    pub t_s: f64,
+    /// Whether friction compensation is active from there on.
+    pub active: bool,
+}
+
+/// The first place where machine and dry run do not agree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disagreement {
+    /// The block; `None` before the first one.
+    pub at: Option<ReplayPlace>,
+    /// The time of the recording in seconds.
+    pub t_s: f64,
+    /// What the machine did: `active` or `inactive`.
+    pub recorded: &'static str,
+    /// What the dry run says: `active`, `inactive` or `unknown`.
+    pub dry_run: &'static str,
+    /// In words.
+    pub why: String,
+    /// The rules of the open questions on which the block depends.
+    pub rests_on: Vec<&'static str>,
+    /// What the state of the dry run depends on and is not known.
+    pub unknown: Vec<String>,
+}
+
+/// An axis of the recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayedAxis {
+    /// Its name.
+    pub name: String,
+    /// The changes in which both agree, before the disagreement where there is one.
+    pub changes: Vec<MatchedChange>,
+    /// Where they do not.
+    pub disagreement: Option<Disagreement>,
+}
+
+/// What both are compared by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measure {
+    /// Blocks are known by their block numbers, not by their lines.
+    pub(super) by_number: bool,
+    /// What positions may differ by, in mm or degrees.
+    pub(super) tolerance: f64,
+    /// The rules of the open questions on which the state at the start depends.
+    pub(super) of_start: &'static [&'static str],
+}
+
+impl ReplayedAxis {
+    /// Lays an axis of the recording beside the dry run.
+    pub(super) fn of(recorded: &RecordedAxis, course: &Course, measure: Measure) -> Self {
+        let mut axis = Self {
+            name: recorded.name.clone(),
+            changes: Vec::new(),
+            disagreement: None,
+        };
+        let dry_run = course.axes.iter().find(|it| it.name == recorded.name);
+        axis.disagreement = match dry_run {
+            None => Some(Disagreement {
+                at: None,
+                t_s: 0.0,
+                recorded: word(Some(recorded.start)),
+                dry_run: word(None),
+                why: "neither the programs nor the machine name the axis".to_owned(),
+                rests_on: Vec::new(),
+                unknown: Vec::new(),
+            }),
+            Some(dry_run) => {
+                let pair = Pair {
+                    recorded,
+                    dry_run,
+                    course,
+                    measure,
+                };
+                pair.compare(&mut axis.changes)
+            }
+        };
+        axis
+    }
+}
+
+struct Pair<'a> {
+    recorded: &'a RecordedAxis,
+    dry_run: &'a AxisCourse,
+    course: &'a Course,
+    measure: Measure,
+}
+
+impl Pair<'_> {
+    fn compare(&self, matched: &mut Vec<MatchedChange>) -> Option<Disagreement> {
+        if self.dry_run.start != Some(self.recorded.start) {
+            return Some(Disagreement {
+                at: None,
+                t_s: 0.0,
+                recorded: word(Some(self.recorded.start)),
+                dry_run: word(self.dry_run.start),
+                why: "they begin in different states".to_owned(),
+                rests_on: self.measure.of_start.to_vec(),
+                unknown: Vec::new(),
+            });
+        }
+        let mut from = 0;
+        let most = self.recorded.changes.len().max(self.dry_run.switches.len());
+        for at in 0..most {
+            let change = self.recorded.changes.get(at);
+            let switch = self.dry_run.switches.get(at);
+            let reason = match (change, switch) {
+                (Some(change), Some(switch)) => self.reason(change, switch),
+                (Some(_), None) => Some("the dry run has no further change".to_owned()),
+                (None, _) => Some("the recording has no further change".to_owned()),
+            };
+            if let Some(why) = reason {
+                return Some(self.disagreement(change, switch, from, why));
+            }
+            if let (Some(change), Some(switch)) = (change, switch) {
+                from = switch.at + 1;
+                matched.extend(self.place(switch.at).map(|at| MatchedChange {
+                    at,
+                    t_s: change.t_s,
+                    active: change.active,
+                }));
+            }
+        }
+        None
+    }
+
+    /// Why a change of the recording is not that of the dry run.
+    fn reason(&self, change: &RecordedChange, switch: &Switch) -> Option<String> {
+        let Some(to) = switch.to else {
+            return Some("the state in the dry run is unknown".to_owned());
+        };
+        if to != change.active {
+            return Some("they change to different states".to_owned());
+        }
+        let step = self.course.steps.get(switch.at)?;
+        let program = i64::from(step.program);
+        if change.programs.is_some_and(|it| !it.contains(&program)) {
+            return Some("the machine changes in another program".to_owned());
+        }
+        if let Some([before, after]) = change.blocks {
+            let kind = if self.measure.by_number {
+                "block"
+            } else {
+                "line"
+            };
+            return (!self.passes(switch.at, [before, after])).then(|| {
+                if before == after {
+                    format!("the machine changes at {kind} {after}")
+                } else {
+                    format!("the machine changes between {kind} {before} and {kind} {after}")
+                }
+            });
+        }
+        let (one, other) = (change.positions?, switch.positions?);
+        let low = |pair: [f64; 2]| pair[0].min(pair[1]) - self.measure.tolerance / 2.0;
+        let high = |pair: [f64; 2]| pair[0].max(pair[1]) + self.measure.tolerance / 2.0;
+        let meet = low(one) <= high(other) && low(other) <= high(one);
+        (!meet).then(|| {
+            format!(
+                "the machine changes at {} = {:.3}, the dry run between {:.3} and {:.3}",
+                self.recorded.name, one[1], other[0], other[1]
+            )
+        })
+    }
+
+    fn key(&self, step: &Step) -> Option<i64> {
+        if self.measure.by_number {
+            step.number
+        } else {
+            Some(i64::from(step.line))
+        }
+    }
+
+    /// Whether a step of the dry run lies between the blocks of two samples.
+    fn passes(&self, at: usize, [before, after]: [i64; 2]) -> bool {
+        let steps = &self.course.steps;
+        let key = |at: &usize| steps.get(*at).and_then(|step| self.key(step));
+        let own = key(&at);
+        if own == Some(before) || own == Some(after) {
+            return true;
+        }
+        let ends_with = |mut keys: Box<dyn Iterator<Item = i64> + '_>, end: i64, never: i64| {
+            let met = keys.find(|it| *it == end || *it == never);
+            end != never && met == Some(end)
+        };
+        let later = (at + 1..steps.len()).take(MAX_BETWEEN);
+        let earlier = (0..at).rev().take(MAX_BETWEEN);
+        ends_with(Box::new(later.filter_map(|it| key(&it))), after, before)
+            && ends_with(Box::new(earlier.filter_map(|it| key(&it))), before, after)
+    }
+
+    fn place(&self, at: usize) -> Option<ReplayPlace> {
+        let step = self.course.steps.get(at)?;
+        Some(ReplayPlace {
+            file: Arc::clone(&step.file),
+            line: step.line,
+        })
+    }
+
+    /// The disagreement at the earlier one of two changes that do not belong together.
+    fn disagreement(
+        &self,
+        change: Option<&RecordedChange>,
+        switch: Option<&Switch>,
+        from: usize,
+        why: String,
+    ) -> Disagreement {
+        let of_machine = change.and_then(|it| self.step_of(it, from));
+        let of_dry_run = switch.map(|it| it.at);
+        let is_machine_first = match (of_machine, of_dry_run) {
+            (Some(machine), Some(dry_run)) => machine < dry_run,
+            (_, dry_run) => dry_run.is_none(),
+        };
+        let before = match from.checked_sub(1) {
+            Some(_) => self.state_before(from),
+            None => self.dry_run.start,
+        };
+        let (at, recorded, dry_run) = if is_machine_first {
+            (of_machine, change.map(|it| it.active), before)
+        } else {
+            (of_dry_run, before, switch.and_then(|it| it.to))
+        };
+        let both = [of_machine, of_dry_run].into_iter().flatten();
+        let steps = both.filter_map(|at| self.course.steps.get(at));
+        let mut rests_on: Vec<_> = steps.flat_map(|it| it.rests_on.iter().copied()).collect();
+        rests_on.sort_unstable();
+        rests_on.dedup();
+        Disagreement {
+            at: at.and_then(|at| self.place(at)),
+            t_s: change.map_or(self.recorded.end_s, |it| it.t_s),
+            recorded: word(recorded),
+            dry_run: word(dry_run),
+            why,
+            rests_on,
+            unknown: switch
+                .and_then(|it| it.unknown.clone())
+                .into_iter()
+                .collect(),
+        }
+    }
+
+    /// The state of both up to a step.
+    fn state_before(&self, step: usize) -> Option<bool> {
+        let mut switches = self.dry_run.switches.iter().rev();
+        switches.find(|it| it.at < step)?.to
+    }
+
+    /// The step at which a change was recorded.
+    fn step_of(&self, change: &RecordedChange, from: usize) -> Option<usize> {
+        let [_, after] = change.blocks?;
+        let mut steps = self.course.steps.iter().enumerate().skip(from);
+        let found = steps.find(|(_, step)| {
+            let program = i64::from(step.program);
+            let fits = change.programs.is_none_or(|it| it.contains(&program));
+            fits && self.key(step) == Some(after)
+        });
+        found.map(|(at, _)| at)
+    }
+}
+
+fn word(active: Option<bool>) -> &'static str {
+    match active {
+        Some(true) => "active",
+        Some(false) => "inactive",
+        None => "unknown",
+    }
+}

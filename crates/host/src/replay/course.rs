@@ -1,0 +1,273 @@
+//! The states of friction compensation in the dry run, block by block.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::conditions::Condition;
+use crate::discovery::LoadedMachine;
+use crate::dry_run::{Programs, Surroundings, expect_axes, run_programs};
+use crate::error::HostError;
+use crate::input::{Input, Naming};
+use crate::switched_axes::switched_axes;
+use frictcomp::comp::{AxisIndex, Kind, State};
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::readings::{Basis, Question};
+use frictcomp::session::{Session, SessionOptions};
+use frictcomp::timeline::{PositionFrame, Record, Row, StateView};
+
+/// Executed blocks at most; they are kept until the recording is laid beside them.
+const MAX_STEPS: usize = 4_000_000;
+
+/// What the dry run of all programs showed.
+#[derive(Default)]
+pub(super) struct Course {
+    pub(super) steps: Vec<Step>,
+    pub(super) axes: Vec<AxisCourse>,
+    /// The conditions whose answer only the machine knows.
+    pub(super) conditions: BTreeSet<Condition>,
+    /// Why it does not reach the end of the programs.
+    pub(super) stopped: Option<String>,
+    /// The file of the last step.
+    file: Option<Arc<str>>,
+    /// The version of the state that was looked at last.
+    version: Option<u64>,
+}
+
+/// An executed block.
+pub(super) struct Step {
+    pub(super) program: u32,
+    pub(super) file: Arc<str>,
+    pub(super) line: u32,
+    pub(super) number: Option<i64>,
+    /// The rules of the open questions that what it does depends on.
+    pub(super) rests_on: Vec<&'static str>,
+}
+
+/// The states of an axis.
+pub(super) struct AxisCourse {
+    pub(super) name: String,
+    /// Whether friction compensation is active at first; `None` where it is unknown.
+    pub(super) start: Option<bool>,
+    pub(super) switches: Vec<Switch>,
+    /// Where it stands, in mm or degrees of the machine.
+    position: Option<f64>,
+}
+
+/// A change of the state of an axis.
+pub(super) struct Switch {
+    /// The position of its step.
+    pub(super) at: usize,
+    /// Whether friction compensation is active from there on; `None` where it is unknown.
+    pub(super) to: Option<bool>,
+    /// Where the axis stands before and after the block, where that is known.
+    pub(super) positions: Option<[f64; 2]>,
+    /// What the state depends on where it is unknown.
+    pub(super) unknown: Option<String>,
+}
+
+impl Course {
+    /// Runs the programs one after the other.
+    pub(super) fn of(
+        inputs: &[Input],
+        loaded: &LoadedMachine,
+        mut options: SessionOptions,
+    ) -> Result<Self, HostError> {
+        if !loaded.machine.is_described() {
+            options.switched = switched_axes(inputs);
+        }
+        let mut session = Session::new(loaded.machine.clone(), options);
+        expect_axes(&mut session, loaded, inputs);
+        let said: Vec<Diagnostic> = loaded.errors().cloned().collect();
+        let programs = Programs {
+            inputs,
+            said: &said,
+        };
+        let mut course = Self::default();
+        let surroundings = Surroundings::new(loaded, Naming::AsGiven);
+        let mut sink = |record: &Record<'_>| course.take(record, loaded);
+        let played = run_programs(&mut session, programs, &surroundings, &mut sink)?;
+        if played.flow.is_break() {
+            course.stopped = Some(format!("it has more than {MAX_STEPS} blocks"));
+        } else if played.unrun > 0 && course.stopped.is_none() {
+            course.stopped = Some(format!("{} of the programs did not run", played.unrun));
+        }
+        Ok(course)
+    }
+
+    fn take(&mut self, record: &Record<'_>, loaded: &LoadedMachine) -> ControlFlow<()> {
+        match record {
+            Record::Session { state, .. } | Record::Program { state, .. } => self.look(*state, ""),
+            Record::Join(join) => self.look(join.state, join.file),
+            Record::End(end) => self.look(end.state, ""),
+            Record::Block(row) => self.block(row, loaded),
+            _ => {}
+        }
+        let errors = record.diagnostics().map(|it| it.diagnostic());
+        if let Some(error) = errors.filter(|it| it.severity == Severity::Error).last() {
+            let place = &error.place;
+            let line = place.start().line;
+            let at = format!("{}:{line}", place.file);
+            self.stopped
+                .get_or_insert(format!("{} at {at}", error.code));
+        }
+        if self.steps.len() < MAX_STEPS {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    }
+
+    fn block(&mut self, row: &Row<'_>, loaded: &LoadedMachine) {
+        let file = match &self.file {
+            Some(file) if **file == *row.file => Arc::clone(file),
+            _ => Arc::from(row.file),
+        };
+        self.file = Some(Arc::clone(&file));
+        self.steps.push(Step {
+            program: row.program,
+            file,
+            line: row.line,
+            number: row.number,
+            rests_on: rests_on(row, loaded),
+        });
+        match row.branch {
+            None => self.look(row.state, row.file),
+            Some(ways) => {
+                let conditions = ways.iter().flatten().filter_map(Condition::of);
+                self.conditions.extend(conditions);
+                self.branch(row);
+            }
+        }
+        self.stand(row);
+    }
+
+    /// Where the axes stand after a block.
+    fn stand(&mut self, row: &Row<'_>) {
+        let last = self.steps.len().saturating_sub(1);
+        for (axis, name) in row.state.axes() {
+            let Some(course) = self.axes.iter_mut().find(|it| it.name == name) else {
+                continue;
+            };
+            let position = row.modal.position(axis);
+            let is_of_machine = position.frame == PositionFrame::Machine;
+            let now = position.value.filter(|_| is_of_machine);
+            let before = std::mem::replace(&mut course.position, now);
+            if let Some(switch) = course.switches.last_mut().filter(|it| it.at == last) {
+                switch.positions = before.zip(now).map(|(before, now)| [before, now]);
+            }
+        }
+    }
+
+    /// What a block on one of several ways changes is unknown.
+    fn branch(&mut self, row: &Row<'_>) {
+        let at = self.steps.len().saturating_sub(1);
+        for change in row.changes.iter().filter(|it| it.kind == Kind::Frict) {
+            let name = row.state.name(change.axis);
+            if let Some(course) = self.axes.iter_mut().find(|it| it.name == name) {
+                course.switches.push(Switch {
+                    at,
+                    to: None,
+                    positions: None,
+                    unknown: row.branch_in_words(),
+                });
+            }
+        }
+    }
+
+    /// Notes what changed.
+    fn look(&mut self, state: StateView<'_>, file: &str) {
+        if self.version.replace(state.version) == Some(state.version) {
+            return;
+        }
+        let at = self.steps.len().saturating_sub(1);
+        for (axis, name) in state.axes() {
+            let now = is_active(state, axis);
+            let Some(course) = self.axes.iter_mut().find(|it| it.name == name) else {
+                self.axes.push(AxisCourse {
+                    name: name.to_owned(),
+                    start: now,
+                    switches: Vec::new(),
+                    position: None,
+                });
+                continue;
+            };
+            let last = course.switches.last().map_or(course.start, |it| it.to);
+            if last != now {
+                let possible = state.possible_of(axis, Kind::Frict);
+                course.switches.push(Switch {
+                    at,
+                    to: now,
+                    positions: None,
+                    unknown: possible.map(|it| it.in_words(file)),
+                });
+            }
+        }
+    }
+}
+
+fn is_active(state: StateView<'_>, axis: AxisIndex) -> Option<bool> {
+    match state.state(axis, Kind::Frict) {
+        State::Unknown => None,
+        other => Some(other == State::Active),
+    }
+}
+
+/// The rules of the open questions that a block depends on and no control has answered.
+fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
+    let text = row.text;
+    let upper = text.to_uppercase();
+    let commands = upper.matches("COMP ").count();
+    let is_skipped = text.trim_start().starts_with('/');
+    let on_axes = ["#PUT AX", "#CALL AX", "#SET AX"];
+    let asked = [
+        (Question::WithMotion, commands > 0 && moves(&upper)),
+        (Question::OrderInBlock, commands > 1),
+        (
+            Question::LowerCase,
+            commands > text.matches("COMP ").count(),
+        ),
+        (Question::SkipLevel, is_skipped),
+        (Question::MachineData, upper.contains("#MACHINE DATA")),
+        (
+            Question::AxisExchange,
+            on_axes.iter().any(|it| upper.contains(it)),
+        ),
+    ];
+    let open = asked
+        .into_iter()
+        .filter(|(question, depends)| *depends && is_open(*question, loaded));
+    open.map(|(question, _)| question.facts().rule).collect()
+}
+
+/// Whether a block holds words outside of brackets that may move an axis.
+fn moves(text: &str) -> bool {
+    let mut depth = 0_u32;
+    let outside = text.chars().filter(|letter| {
+        match letter {
+            '[' => depth += 1,
+            ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0
+    });
+    let outside: String = outside.collect();
+    let mut words = outside.split_whitespace();
+    words.any(|word| {
+        let mut letters = word.chars();
+        let is_axis = letters.next().is_some_and(|it| "XYZABCUVW".contains(it));
+        is_axis
+            && letters
+                .next()
+                .is_some_and(|it| it.is_ascii_digit() || "-.=".contains(it))
+    })
+}
+
+/// Whether no control of this build has answered a question.
+pub(super) fn is_open(question: Question, loaded: &LoadedMachine) -> bool {
+    let machine = &loaded.machine;
+    !matches!(
+        machine.readings.basis(question, machine.build),
+        Basis::Confirmed(_)
+    )
+}

@@ -1,0 +1,13 @@
+//! What a machine did, from a recording of the states of friction compensation, beside the dry run of its
+//! programs (R15.20).
+
+mod beside;
+mod conditions;
+mod course;
+mod recorded;
+mod replayed;
+
+pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis};
+pub use conditions::TriedCondition;
+pub use recorded::{RecordedAxis, RecordedChange, ReplayChannels, StateRecording, read_states};
+pub use replayed::{Replay, Replayed};

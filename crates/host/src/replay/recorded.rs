@@ -1,0 +1,328 @@
+//! The recorded states of friction compensation.
+
+use std::path::Path;
+
+use crate::error::HostError;
+use crate::trace_error::TraceError;
+use crate::traces::{lacks, numbers_of, read_trace};
+use frictcomp::machine::Machine;
+use frictcomp_recordings::trace::{
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, SelectError,
+    TimeSource, TraceRecording,
+};
+
+/// 0.1 µm in a millimetre.
+const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
+
+/// Which channels are what.
+#[derive(Debug, Clone, Default)]
+pub struct ReplayChannels {
+    /// The channel of the times, and units of channels.
+    pub selection: ChannelSelection,
+    /// Axes, each with the channel of its state.
+    pub active: Vec<(String, String)>,
+    /// Axes, each with the channel of its position.
+    pub positions: Vec<(String, String)>,
+    /// The channel of the line of the program.
+    pub line: Option<String>,
+    /// The channel of the block number, N.
+    pub block: Option<String>,
+    /// The channel of the running number of the program, from 1.
+    pub program: Option<String>,
+}
+
+/// What was recorded of all axes.
+#[derive(Debug, Clone)]
+pub struct StateRecording {
+    /// Each axis whose state was recorded.
+    pub axes: Vec<RecordedAxis>,
+    /// Whether blocks were recorded by their block numbers, not by lines.
+    pub(super) by_number: bool,
+}
+
+/// What was recorded of an axis.
+#[derive(Debug, Clone)]
+pub struct RecordedAxis {
+    /// Its name.
+    pub name: String,
+    /// Whether friction compensation was active at the first sample.
+    pub start: bool,
+    /// Its changes in their order.
+    pub changes: Vec<RecordedChange>,
+    /// The time of the last sample in seconds.
+    pub end_s: f64,
+}
+
+/// A recorded change of a state, with what the sample before it and its own hold.
+#[derive(Debug, Clone)]
+pub struct RecordedChange {
+    /// The time of its first sample in seconds.
+    pub t_s: f64,
+    /// Whether friction compensation is active from there on.
+    pub active: bool,
+    /// The lines, or block numbers.
+    pub blocks: Option<[i64; 2]>,
+    /// The running numbers of the program.
+    pub programs: Option<[i64; 2]>,
+    /// The positions of the axis in mm or degrees.
+    pub positions: Option<[f64; 2]>,
+}
+
+/// The channels that were found.
+#[derive(Default)]
+struct Found {
+    axes: Vec<FoundAxis>,
+    block: Option<ChannelIndex>,
+    by_number: bool,
+    program: Option<ChannelIndex>,
+}
+
+struct FoundAxis {
+    name: String,
+    state: ChannelIndex,
+    /// The position with what makes mm of it.
+    position: Option<(ChannelIndex, f64)>,
+}
+
+/// Reads the states of friction compensation of the axes of a machine, with the blocks and positions where
+/// they were recorded.
+///
+/// # Errors
+/// The file cannot be read, has no channel with a state (R15.22), no times, or a state that is neither 0
+/// nor 1.
+pub fn read_states(
+    path: &Path,
+    channels: &ReplayChannels,
+    machine: &Machine,
+) -> Result<StateRecording, HostError> {
+    let mut found = Found::default();
+    let recording = read_trace(path, |described| {
+        found = channels.find(described, machine)?;
+        let time = channels.selection.find(ChannelQuantity::Time, described)?;
+        let axes = found.axes.iter();
+        let values = axes.flat_map(|axis| {
+            let position = axis.position.map(|(channel, _)| channel);
+            std::iter::once(axis.state).chain(position)
+        });
+        Ok(Choice {
+            values: values.chain(found.block).chain(found.program).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        })
+    })?;
+    let samples = Samples {
+        path,
+        recording: &recording,
+        found: &found,
+    };
+    let axes = found.axes.iter().map(|axis| samples.axis(axis));
+    Ok(StateRecording {
+        axes: axes.collect::<Result<_, _>>()?,
+        by_number: found.by_number,
+    })
+}
+
+impl ReplayChannels {
+    fn find(&self, channels: &[Channel], machine: &Machine) -> Result<Found, SelectError> {
+        let named = |name: &str| {
+            self.selection
+                .pick_named(name, ChannelQuantity::Time, channels)
+        };
+        let short = |name: &str| {
+            let found = channels
+                .iter()
+                .position(|it| it.name.eq_ignore_ascii_case(name));
+            found.and_then(|at| named(&channels[at].name).ok())
+        };
+        let given = |option: &Option<String>, name: &str| match option {
+            Some(option) => named(option).map(Some),
+            None => Ok(short(name)),
+        };
+        let mut axes: Vec<FoundAxis> = Vec::new();
+        for (axis, channel) in &self.active {
+            axes.push(FoundAxis {
+                name: axis.clone(),
+                state: named(channel)?.channel,
+                position: None,
+            });
+        }
+        for channel in channels {
+            let Some(name) = axis_of(channel, machine) else {
+                continue;
+            };
+            if axes.iter().all(|axis| axis.name != name) {
+                let object = channel.object.map(|it| it.to_string());
+                let state = match (named(&channel.name), object) {
+                    (Err(_), Some(object)) => named(&object)?,
+                    (state, _) => state?,
+                };
+                axes.push(FoundAxis {
+                    name,
+                    state: state.channel,
+                    position: None,
+                });
+            }
+        }
+        if axes.is_empty() {
+            return Err(lacks(
+                channels,
+                "no channel with the state of friction compensation",
+                "record of each axis the object `0x120300:0x<axis>0221`, `frict_comp.f_is_active`, or sample \
+                 `V.A.FRICT_COMP_ACTIVE.<axis>` in the PLC; in a CSV file the column is `active_<axis>`, and \
+                 `--active X=CHANNEL` names any other",
+            ));
+        }
+        for axis in &mut axes {
+            axis.position = self.position_of(&axis.name, channels)?;
+        }
+        let line = given(&self.line, "line")?.filter(|_| self.block.is_none());
+        let block = match line {
+            Some(_) => None,
+            None => given(&self.block, "block")?.or_else(|| short("0x121301:0x21")),
+        };
+        Ok(Found {
+            axes,
+            by_number: line.is_none() && block.is_some(),
+            block: line.or(block).map(|pick| pick.channel),
+            program: given(&self.program, "program")?.map(|pick| pick.channel),
+        })
+    }
+
+    /// The channel of the positions of an axis with what makes mm of it; the column `pos_<axis>` is in mm.
+    fn position_of(
+        &self,
+        axis: &str,
+        channels: &[Channel],
+    ) -> Result<Option<(ChannelIndex, f64)>, SelectError> {
+        let given = self.positions.iter().find(|(name, _)| name == axis);
+        let short = format!("pos_{axis}");
+        let name = match given {
+            Some((_, name)) => name,
+            None if channels
+                .iter()
+                .any(|it| it.name.eq_ignore_ascii_case(&short)) =>
+            {
+                &short
+            }
+            None => return Ok(None),
+        };
+        let pick = self
+            .selection
+            .pick_named(name, ChannelQuantity::Position, channels)?;
+        let is_mm = pick.is_unit_assumed && given.is_none();
+        let factor = if is_mm {
+            1.0
+        } else {
+            pick.unit.factor / UNITS_PER_MM
+        };
+        Ok(Some((pick.channel, factor)))
+    }
+}
+
+/// The axis whose state a channel is, by its name, its symbol or its object.
+fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
+    const VARIABLE: &str = "FRICT_COMP_ACTIVE";
+    const STATE: CncObject = CncObject {
+        group: 0x2_0300,
+        offset: 0x221,
+    };
+    let name = channel.name.to_uppercase();
+    let symbol = channel.symbol.to_uppercase();
+    let of_variable = [&name, &symbol].into_iter().find_map(|text| {
+        let (_, axis) = text.split_once(VARIABLE)?;
+        Some(axis)
+    });
+    let written = name.strip_prefix("ACTIVE_").or(of_variable);
+    if let Some(axis) = written {
+        let axis = axis.trim_matches(|it: char| !it.is_alphanumeric());
+        let mut described = machine.axes.iter();
+        let known = described.find(|it| it.name.eq_ignore_ascii_case(axis));
+        let name = known.map_or(axis, |it| it.name.as_str());
+        return (!name.is_empty()).then(|| name.to_owned());
+    }
+    let object = channel.object?;
+    let is_state = object.group & 0xF_FFFF == STATE.group && object.element() == STATE.offset;
+    let mut described = machine.axes.iter();
+    let axis = described.find(|axis| is_state && axis.number == Some(object.axis()))?;
+    Some(axis.name.clone())
+}
+
+/// The samples of a recording.
+struct Samples<'a> {
+    path: &'a Path,
+    recording: &'a TraceRecording,
+    found: &'a Found,
+}
+
+impl Samples<'_> {
+    fn axis(&self, axis: &FoundAxis) -> Result<RecordedAxis, TraceError> {
+        let states = numbers_of(self.path, self.recording, axis.state)?;
+        let times = self.times(axis.state)?;
+        for state in states {
+            if *state != 0.0 && (*state - 1.0).abs() > f64::EPSILON {
+                return Err(TraceError::NoState {
+                    path: self.path.to_owned(),
+                    channel: self.recording.channels()[axis.state.get()].name.clone(),
+                    value: *state,
+                });
+            }
+        }
+        let is_active = |at: usize| states[at] != 0.0;
+        let mut changes = Vec::new();
+        for at in 1..states.len().min(times.len()) {
+            if is_active(at) == is_active(at - 1) {
+                continue;
+            }
+            let around = [times[at - 1], times[at]];
+            let whole = |channel: Option<ChannelIndex>| -> Result<_, TraceError> {
+                let around = channel.map(|it| self.around(it, around)).transpose()?;
+                Ok(around.flatten().map(|values| values.map(as_whole)))
+            };
+            let positions = match axis.position {
+                Some((channel, factor)) => self
+                    .around(channel, around)?
+                    .map(|values| values.map(|it| it * factor)),
+                None => None,
+            };
+            changes.push(RecordedChange {
+                t_s: times[at],
+                active: is_active(at),
+                blocks: whole(self.found.block)?,
+                programs: whole(self.found.program)?,
+                positions,
+            });
+        }
+        Ok(RecordedAxis {
+            name: axis.name.clone(),
+            start: states.first().is_some_and(|it| *it != 0.0),
+            changes,
+            end_s: times.last().copied().unwrap_or_default(),
+        })
+    }
+
+    fn times(&self, channel: ChannelIndex) -> Result<&[f64], TraceError> {
+        let times = self.recording.times_s(channel);
+        times.ok_or_else(|| TraceError::NoTimes(self.path.to_owned()))
+    }
+
+    /// What a channel holds at two times; `None` where it had not begun.
+    fn around(
+        &self,
+        channel: ChannelIndex,
+        at_s: [f64; 2],
+    ) -> Result<Option<[f64; 2]>, TraceError> {
+        let values = numbers_of(self.path, self.recording, channel)?;
+        let times = self.times(channel)?;
+        let at = |time: f64| {
+            let after = times.partition_point(|it| *it <= time);
+            values.get(after.checked_sub(1)?).copied()
+        };
+        let [before, after] = at_s.map(at);
+        Ok(before.zip(after).map(|(before, after)| [before, after]))
+    }
+}
+
+#[allow(clippy::cast_possible_truncation)] // a line, a block number
+fn as_whole(value: f64) -> i64 {
+    value as i64
+}

@@ -1,0 +1,160 @@
+//! A recording beside the dry run of its programs.
+
+use super::beside::{Measure, ReplayedAxis};
+use super::conditions::{Answers, MAX_WAYS, TriedCondition};
+use super::course::{Course, is_open};
+use super::recorded::StateRecording;
+use crate::discovery::LoadedMachine;
+use crate::error::HostError;
+use crate::input::Input;
+use frictcomp::readings::Question;
+use frictcomp::session::SessionOptions;
+
+/// What is laid beside a recording.
+pub struct Replay<'a> {
+    /// The programs, one after the other.
+    pub inputs: &'a [Input],
+    /// Their machine.
+    pub loaded: &'a LoadedMachine,
+    /// How they run.
+    pub options: SessionOptions,
+    /// What positions may differ by, in mm or degrees.
+    pub tolerance: f64,
+}
+
+/// What came out of it.
+#[derive(Debug, Clone)]
+pub struct Replayed {
+    /// Each axis of the recording.
+    pub axes: Vec<ReplayedAxis>,
+    /// The conditions that the recording decides.
+    pub decided: Vec<TriedCondition>,
+    /// How many combinations of answers to the conditions of the programs were tried, and how many of them
+    /// agree with the recording.
+    pub ways: [usize; 2],
+    /// Why the dry run does not reach the end of the programs.
+    pub stopped: Option<String>,
+    /// Why no answers were tried although there are conditions.
+    pub untried: Option<String>,
+}
+
+impl Replayed {
+    /// Whether the recording and the dry run agree in every axis and to the end.
+    pub fn agrees(&self) -> bool {
+        self.stopped.is_none() && self.axes.iter().all(|it| it.disagreement.is_none())
+    }
+
+    /// Whether they agree with some answers to the conditions of the programs only.
+    pub fn is_conditional(&self) -> bool {
+        let [tried, fitting] = self.ways;
+        self.agrees() && fitting < tried
+    }
+
+    /// Notes the answers with which the disagreements were found.
+    fn rest_on(&mut self, tried: &[TriedCondition]) {
+        let axes = self.axes.iter_mut();
+        for found in axes.filter_map(|it| it.disagreement.as_mut()) {
+            let words = tried.iter().map(|it| {
+                let answer = if it.holds { "" } else { "not " };
+                format!(
+                    "{}:{}: taken here: {answer}{}",
+                    it.file, it.line, it.condition
+                )
+            });
+            found.unknown.extend(words);
+        }
+    }
+
+    /// In how many changes they agree.
+    pub fn changes(&self) -> usize {
+        self.axes.iter().map(|it| it.changes.len()).sum()
+    }
+}
+
+impl Replay<'_> {
+    /// Lays a recording beside the dry run, with every answer to the conditions that only the machine
+    /// knows where these are few (R15.21).
+    ///
+    /// # Errors
+    /// A program cannot be read.
+    pub fn compare(&self, recording: &StateRecording) -> Result<Replayed, HostError> {
+        let course = Course::of(self.inputs, self.loaded, self.options.clone())?;
+        let conditions: Vec<_> = course.conditions.iter().cloned().collect();
+        let undecided = self.beside(recording, &course);
+        if conditions.is_empty() {
+            return Ok(undecided);
+        }
+        drop(course);
+        let all = match Answers::all(&conditions) {
+            Ok(all) => all,
+            Err(count) => {
+                let untried = format!(
+                    "its conditions have {count} combinations of answers, more than {MAX_WAYS}: decide some \
+                     with `--set` or `--skip`"
+                );
+                return Ok(Replayed {
+                    untried: Some(untried),
+                    ..undecided
+                });
+            }
+        };
+        let mut best: Option<(usize, Replayed)> = None;
+        let mut fitting: Vec<Vec<TriedCondition>> = Vec::new();
+        for answers in &all {
+            let options = answers.options(&self.options);
+            let mut tried = self.beside(recording, &Course::of(self.inputs, self.loaded, options)?);
+            tried.rest_on(&answers.to(&conditions));
+            let score = if tried.agrees() {
+                fitting.push(answers.to(&conditions));
+                usize::MAX
+            } else {
+                tried.changes()
+            };
+            if best.as_ref().is_none_or(|(most, _)| score > *most) {
+                best = Some((score, tried));
+            }
+        }
+        let replayed = best.map_or(undecided, |(_, replayed)| replayed);
+        Ok(Replayed {
+            decided: if fitting.len() < all.len() {
+                common(&fitting)
+            } else {
+                Vec::new()
+            },
+            ways: [all.len(), fitting.len()],
+            ..replayed
+        })
+    }
+
+    fn beside(&self, recording: &StateRecording, course: &Course) -> Replayed {
+        let of_start: &[&str] = if is_open(Question::Restart, self.loaded) {
+            &["R1.28", "R1.29"]
+        } else {
+            &[]
+        };
+        let measure = Measure {
+            by_number: recording.by_number,
+            tolerance: self.tolerance,
+            of_start,
+        };
+        let axes = recording.axes.iter();
+        Replayed {
+            axes: axes
+                .map(|axis| ReplayedAxis::of(axis, course, measure))
+                .collect(),
+            decided: Vec::new(),
+            ways: [1, 1],
+            stopped: course.stopped.clone(),
+            untried: None,
+        }
+    }
+}
+
+/// The answers that are the same in all.
+fn common(fitting: &[Vec<TriedCondition>]) -> Vec<TriedCondition> {
+    let Some((first, others)) = fitting.split_first() else {
+        return Vec::new();
+    };
+    let in_all = |tried: &&TriedCondition| others.iter().all(|it| it.contains(tried));
+    first.iter().filter(in_all).cloned().collect()
+}

@@ -20,7 +20,7 @@ use frictcomp_recordings::identify::{
 };
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_identification;
-use frictcomp_report::identify::{IdentifyReport, render_json, render_text};
+use frictcomp_report::identify::{render_json, render_text};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
 use frictcomp_report::pictures::friction_curve;
 use frictcomp_report::svg::Frame;

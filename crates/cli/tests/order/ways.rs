@@ -11,9 +11,7 @@ const MOVER: (&str, &str) = ("moves.nc", "N10 G01 X1 F100\nN20 M30\n");
 fn of_x(bench: &Bench, file: &str, arguments: &[&str]) -> Value {
     let format = ["audit", "--format", "ndjson"];
     let shown = text(bench, &[&format, arguments, &["."]].concat());
-    let records = shown
-        .lines()
-        .map(|line| serde_json::from_str::<Value>(line));
+    let records = shown.lines().map(serde_json::from_str::<Value>);
     let mut records = records.map(|record| record.expect("a record"));
     let record = records.find(|it| it["file"] == file && it["record"] == "program");
     record.expect("the program")["axes"]["X"].clone()

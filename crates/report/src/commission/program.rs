@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 
 use super::summary::PlanReport;
 use super::words::{number, told};
-use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::commission::{
-    Installed, MeasuredAxis, Measurement, PlanStep, Program, Stage, Turning,
+    Installed, MeasuredAxis, PlanStep, Program, Stage, Turning,
 };
 
 /// A program of a plan, with `\n` at the end of each line and ASCII letters only.

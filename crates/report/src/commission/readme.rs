@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::program::told;
 use super::summary::{PlanReport, minutes};
+use super::words::told;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{Installed, Stage};
 

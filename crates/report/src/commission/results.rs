@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
-use super::program::{number, told};
 use super::summary::{PlanFile, ValueListUsed};
+use super::words::{number, told};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
 use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult, Stage};

@@ -282,6 +282,14 @@ fn a_dry_run_that_ends_early_does_not_agree() {
     );
 }
 
+/// R15.21: so it is with one that uses up its blocks.
+#[test]
+fn a_dry_run_without_an_end_does_not_agree() {
+    let (status, found) = replay(CONTROL, WITHOUT_CONDITIONS, &["--max-blocks", "7"]);
+    assert_eq!(status, Some(1), "{found:#}");
+    assert_eq!(found["stopped"], "FC910 at m.nc:8");
+}
+
 /// R15.22: without a state there is nothing to compare; the object to record is named. So it is with times
 /// and with what is no state.
 #[test]

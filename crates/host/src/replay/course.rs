@@ -14,7 +14,7 @@ use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::readings::{Basis, Question};
 use frictcomp::session::{Session, SessionOptions};
-use frictcomp::timeline::{PositionFrame, Record, Row, StateView};
+use frictcomp::timeline::{EndedBy, PositionFrame, Record, Row, StateView};
 
 /// Executed blocks at most; they are kept until the recording is laid beside them.
 const MAX_STEPS: usize = 4_000_000;
@@ -110,6 +110,12 @@ impl Course {
             let at = format!("{}:{line}", place.file);
             self.stopped
                 .get_or_insert(format!("{} at {at}", error.code));
+        }
+        if let Record::End(end) = record
+            && !matches!(end.by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
+        {
+            self.stopped
+                .get_or_insert(format!("program {} ends by {}", end.program, end.by));
         }
         if self.steps.len() < MAX_STEPS {
             ControlFlow::Continue(())

@@ -235,16 +235,16 @@ fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
     let written = name.strip_prefix("ACTIVE_").or(of_variable);
     if let Some(axis) = written {
         let axis = axis.trim_matches(|it: char| !it.is_alphanumeric());
-        let mut described = machine.axes.iter();
-        let known = described.find(|it| it.name.eq_ignore_ascii_case(axis));
+        let mut known = machine.axes.iter();
+        let known = known.find(|it| it.name.eq_ignore_ascii_case(axis));
         let name = known.map_or(axis, |it| it.name.as_str());
         return (!name.is_empty()).then(|| name.to_owned());
     }
     let object = channel.object?;
     let is_state = object.group & 0xF_FFFF == STATE.group && object.element() == STATE.offset;
-    let mut described = machine.axes.iter();
-    let axis = described.find(|axis| is_state && axis.number == Some(object.axis()))?;
-    Some(axis.name.clone())
+    let mut of_machine = machine.axes.iter();
+    let found = of_machine.find(|it| is_state && it.number == Some(object.axis()))?;
+    Some(found.name.clone())
 }
 
 /// The samples of a recording.

@@ -36,6 +36,7 @@ N80 M30
 
 /// A control that follows the lines of a program one after the other, and what differs in it.
 #[derive(Clone, Copy)]
+#[allow(clippy::struct_excessive_bools)] // each is a difference of its own
 struct Control {
     /// The state at the start.
     active: bool,

@@ -301,7 +301,10 @@ fn a_recording_without_states_is_refused() {
             "t,line\n0,1\n1,2\n",
             ["`frict_comp.f_is_active`", "0x120300:0x<axis>0221"],
         ),
-        ("line,active_X\n1,1\n2,0\n", ["has no times", "--time"]),
+        (
+            "line,active_X\n1,1\n2,0\n",
+            ["has no times", "name the channel of the times"],
+        ),
         ("t,active_X\n0,1\n1,7\n", ["holds 7", "`active_X`"]),
     ] {
         bench.write("states.csv", recording);

@@ -80,7 +80,7 @@ impl TraceError {
             }
             Self::Apart { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
-            Self::NoTimes(_) => "name the channel of the times: `--time CHANNEL`",
+            Self::NoTimes(_) => "name the channel of the times",
             Self::NoState { .. } => "a state is 1 where friction compensation is active, else 0",
             // What helps is said where the option has its name.
             Self::Cycles { .. } | Self::SeveralClocks(_) => return None,

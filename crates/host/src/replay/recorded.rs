@@ -169,7 +169,7 @@ impl ReplayChannels {
                 "no channel with the state of friction compensation",
                 "record of each axis the object `0x120300:0x<axis>0221`, `frict_comp.f_is_active`, or sample \
                  `V.A.FRICT_COMP_ACTIVE.<axis>` in the PLC; in a CSV file the column is `active_<axis>`, and \
-                 `--active X=CHANNEL` names any other",
+                 any other is to be named",
             ));
         }
         for axis in &mut axes {

@@ -90,7 +90,7 @@ impl Replay<'_> {
             Err(count) => {
                 let untried = format!(
                     "its conditions have {count} combinations of answers, more than {MAX_WAYS}: decide some \
-                     with `--set` or `--skip`"
+                     of them beforehand"
                 );
                 return Ok(Replayed {
                     untried: Some(untried),

@@ -8,8 +8,8 @@ use frictcomp::Severity;
 use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming,
-    in_order, processors, run_alone,
+    Alone, Axes, Disk, ExecutedProgram, HostError, Input, Ledger, LoadedMachine, MachineOptions,
+    Machines, Naming, in_order, main_programs, processors, run_alone,
 };
 use pyo3::prelude::*;
 
@@ -50,7 +50,8 @@ struct Job {
 type Pair<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
 /// What one program has to say.
-struct Found {
+struct Found<'a> {
+    executed: ExecutedProgram<'a>,
     loaded: Arc<LoadedMachine>,
     findings: Findings,
     /// How many more messages there are, by severity (R2.85).
@@ -61,6 +62,7 @@ impl Job {
     fn done(self, stop: &Stop) -> Result<Said, Failure> {
         let mut machines =
             Machines::new(self.machine, &Ledger::default()).on_disk(&self.programs.disk);
+        let disk = self.programs.disk.clone();
         let (inputs, mut errors) = self.programs.found(&mut machines);
         machines.look_ahead(&inputs);
         let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
@@ -73,26 +75,16 @@ impl Job {
             remark: remark_without_machine(undescribed),
             ..Said::default()
         };
-        let mut causes = Causes::default();
-        let mut listed: Vec<Option<PathBuf>> = Vec::new();
-        let check = |(input, loaded): Pair<'_>| check_file((input, loaded?), self.run, stop);
+        let mut all = Vec::new();
+        let check = |(input, loaded)| check_file((input, loaded?), self.run, stop);
         in_order(pairs.into_iter(), processors(), check, |found| {
             match found {
-                Ok(found) => {
-                    if !listed.contains(&found.loaded.origin) {
-                        listed.push(found.loaded.origin.clone());
-                        let errors = found.loaded.errors().cloned();
-                        errors.for_each(|error| causes.say(error));
-                    }
-                    causes.add(found.findings);
-                    said.leave_out(&found.unsaid);
-                }
+                Ok(found) => all.push(found),
                 Err(error) => errors.push(error),
             }
             stop.flow()
         });
-        let causes = causes.diagnostics().iter();
-        said.messages.extend(causes.map(PyMessage::of));
+        said.gather(all, &disk);
         match Failure::of_several(errors) {
             Some(failure) => Err(failure),
             None => Ok(said),
@@ -100,12 +92,34 @@ impl Job {
     }
 }
 
+impl Said {
+    /// What the programs say that count by themselves (R17.2): the others were checked in their callers.
+    fn gather(&mut self, all: Vec<Found<'_>>, disk: &Disk) {
+        let executed: Vec<_> = all.iter().map(|it| it.executed.clone()).collect();
+        let mut causes = Causes::default();
+        let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        for (found, is_main) in all.into_iter().zip(main_programs(&executed, disk)) {
+            if !listed.contains(&found.loaded.origin) {
+                listed.push(found.loaded.origin.clone());
+                let errors = found.loaded.errors().cloned();
+                errors.for_each(|error| causes.say(error));
+            }
+            if is_main {
+                causes.add(found.findings);
+                self.leave_out(&found.unsaid);
+            }
+        }
+        let causes = causes.diagnostics().iter();
+        self.messages.extend(causes.map(PyMessage::of));
+    }
+}
+
 /// Runs one program from the start of the control.
-fn check_file(
-    (input, loaded): (&Input, Arc<LoadedMachine>),
+fn check_file<'a>(
+    (input, loaded): (&'a Input, Arc<LoadedMachine>),
     run: Options,
     stop: &Stop,
-) -> Result<Found, HostError> {
+) -> Result<Found<'a>, HostError> {
     let options = SessionOptions::from(run)
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone());
@@ -121,7 +135,13 @@ fn check_file(
     };
     let session = run_alone(input, &loaded, alone, &mut sink)?;
     let unsaid = findings.unsaid(session.counts());
+    let returned = session.interpreter().returned_files();
+    let executed = ExecutedProgram {
+        input,
+        executed_to_end: returned.map(ToString::to_string).collect(),
+    };
     Ok(Found {
+        executed,
         loaded,
         findings,
         unsaid,

@@ -113,6 +113,9 @@ impl Said {
 }
 
 /// Messages in their order, and a table of them for pandas, polars and DuckDB.
+///
+/// It has the methods of a ``Sequence`` and is not registered as one: polars reads a ``Sequence`` item
+/// by item, and not as a table.
 #[pyclass(frozen, sequence, name = "Messages", module = "frictcomp")]
 pub(crate) struct PyMessages(Said);
 

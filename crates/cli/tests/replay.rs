@@ -134,7 +134,10 @@ fn a_machine_that_follows_the_dry_run_agrees() {
         let lines = found["axes"]["X"]["changes"].as_array().expect("changes");
         let lines: Vec<_> = lines.iter().map(|it| it["at"]["line"].as_u64()).collect();
         assert_eq!(lines, [Some(2), Some(4), Some(6)]);
-        assert_eq!(found["axes"]["X"]["changes"][0]["t"], 0.03);
+        let first = &found["axes"]["X"]["changes"][0];
+        assert_eq!(first["t"], 0.03);
+        let by = if with_lines { "line" } else { "position" };
+        assert_eq!(first["by"], by);
     }
 }
 
@@ -328,4 +331,31 @@ fn channels_are_named_by_options() {
     assert_eq!(bench.status(&arguments), Some(2));
     arguments.extend(["--active", "X=On", "--line", "Row"]);
     assert_eq!(bench.status(&arguments), Some(0));
+}
+
+/// R15.21: without lines and positions the order alone is compared, and that is said.
+#[test]
+fn what_is_compared_by_the_order_alone_is_said() {
+    let states = "t,active_X\n0,1\n0.01,0\n0.02,1\n";
+    let program = "N10 X[COMP OFF FRICT]\nN20 X[COMP ON FRICT]\nN30 M30\n";
+    let bench = Bench::new(&[("states.csv", states), ("m.nc", program)]);
+    let arguments = [
+        "replay",
+        "states.csv",
+        "m.nc",
+        "--enable",
+        "X",
+        "--isolated",
+    ];
+    let text = bench.stdout(&arguments);
+    assert!(text.contains("X: agrees (2 changes)"), "{text}");
+    assert!(
+        text.contains("2 of 2 compared by the order alone"),
+        "{text}"
+    );
+    let found = bench.stdout(&[&arguments[..], &["--format", "json"]].concat());
+    assert!(
+        found.contains("\"by\": \"order\"") || found.contains("\"by\":\"order\""),
+        "{found}"
+    );
 }

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use frictcomp_host::replay::{Disagreement, MatchedChange, Replayed, ReplayedAxis, TriedCondition};
+use frictcomp_host::replay::{
+    Disagreement, MatchedChange, Replayed, ReplayedAxis, ReplayedBy, TriedCondition,
+};
 use frictcomp_report::visible_line;
 
 /// What people read.
@@ -50,6 +52,14 @@ fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
         let state = word(change);
         let (file, line) = (visible_line(&change.at.file), change.at.line);
         let _ = writeln!(text, "  {:>10.3} s  {file}:{line}  {state}", change.t_s);
+    }
+    let by_order = axis.changes.iter();
+    let by_order = by_order.filter(|it| it.by == ReplayedBy::Order).count();
+    if by_order > 0 {
+        let _ = writeln!(
+            text,
+            "  {by_order} of {count} compared by the order alone: where the machine switched is not known"
+        );
     }
     if let Some(found) = &axis.disagreement {
         write_disagreement(text, found);
@@ -135,7 +145,14 @@ fn of_axis(axis: &ReplayedAxis) -> Value {
     let changes: Vec<Value> = axis
         .changes
         .iter()
-        .map(|it| json!({ "at": place(&it.at.file, it.at.line), "t": it.t_s, "state": word(it) }))
+        .map(|it| {
+            json!({
+                "at": place(&it.at.file, it.at.line),
+                "t": it.t_s,
+                "state": word(it),
+                "by": it.by.as_str(),
+            })
+        })
         .collect();
     let Some(found) = &axis.disagreement else {
         return json!({ "agrees": true, "changes": changes });

@@ -337,6 +337,7 @@ sent! {
     host::replay::ReplayPlace,
     host::replay::Replayed,
     host::replay::ReplayedAxis,
+    host::replay::ReplayedBy,
     host::replay::StateRecording,
     host::replay::TriedCondition,
     identify::ActingShare,

@@ -17,6 +17,31 @@ pub struct ReplayPlace {
     pub line: u32,
 }
 
+/// What tells that a change of the machine is the one of the dry run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReplayedBy {
+    /// The line of the program.
+    Line,
+    /// The block number.
+    Block,
+    /// The position of the axis.
+    Position,
+    /// The order of the changes alone.
+    Order,
+}
+
+impl ReplayedBy {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::Block => "block",
+            Self::Position => "position",
+            Self::Order => "order",
+        }
+    }
+}
+
 /// A change in which machine and dry run agree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchedChange {
@@ -26,6 +51,8 @@ pub struct MatchedChange {
     pub t_s: f64,
     /// Whether friction compensation is active from there on.
     pub active: bool,
+    /// What tells that both are the same.
+    pub by: ReplayedBy,
 }
 
 /// The first place where machine and dry run do not agree.
@@ -141,10 +168,20 @@ impl Pair<'_> {
                     at,
                     t_s: change.t_s,
                     active: change.active,
+                    by: self.compared_by(change, switch),
                 }));
             }
         }
         None
+    }
+
+    fn compared_by(&self, change: &RecordedChange, switch: &Switch) -> ReplayedBy {
+        match (change.blocks, change.positions.zip(switch.positions)) {
+            (Some(_), _) if self.measure.by_number => ReplayedBy::Block,
+            (Some(_), _) => ReplayedBy::Line,
+            (None, Some(_)) => ReplayedBy::Position,
+            (None, None) => ReplayedBy::Order,
+        }
     }
 
     /// Why a change of the recording is not that of the dry run.

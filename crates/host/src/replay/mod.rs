@@ -7,7 +7,7 @@ mod course;
 mod recorded;
 mod replayed;
 
-pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis};
+pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis, ReplayedBy};
 pub use conditions::TriedCondition;
 pub use recorded::{RecordedAxis, RecordedChange, ReplayChannels, StateRecording, read_states};
 pub use replayed::{Replay, Replayed};

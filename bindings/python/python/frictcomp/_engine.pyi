@@ -75,6 +75,7 @@ class Machine:
         variables: Mapping[str, float | str] | None = None,
         allow_outside: bool = False,
     ) -> Machine: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
 
 @final
 class End:
@@ -322,6 +323,7 @@ class Limits:
         macros: int | None = None,
         skip: Iterable[int] | None = None,
     ) -> Limits: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
 
 @final
 class Audit:

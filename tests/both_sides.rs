@@ -17,9 +17,9 @@ use frictcomp::text::SourceFile;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-struct Dice(u64);
+struct XorShift(u64);
 
-impl Dice {
+impl XorShift {
     fn roll(&mut self, sides: u64) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -42,7 +42,7 @@ enum Sort {
 }
 
 struct Writer {
-    dice: Dice,
+    random: XorShift,
     sort: Sort,
     text: String,
     /// The numbers of answers of each variable of the machine.
@@ -61,8 +61,8 @@ impl Writer {
 
     /// A variable of the machine with so many values, 0 and up.
     fn variable(&mut self, values: u64) -> String {
-        if self.sort == Sort::Any && !self.asked.is_empty() && self.dice.roll(3) == 0 {
-            let at = self.dice.pick(self.asked.len());
+        if self.sort == Sort::Any && !self.asked.is_empty() && self.random.roll(3) == 0 {
+            let at = self.random.pick(self.asked.len());
             return format!("V.E.C{at}");
         }
         self.asked.push(values);
@@ -71,28 +71,32 @@ impl Writer {
 
     fn condition(&mut self) -> String {
         let any = self.sort == Sort::Any;
-        match self.dice.roll(if any { 8 } else { 4 }) {
+        match self.random.roll(if any { 8 } else { 4 }) {
             0 => format!("NOT [{} == 1]", self.variable(2)),
             1 => format!("{} != 0", self.variable(2)),
             2 | 3 => format!("{} == 1", self.variable(2)),
-            4 => format!("P{} == {}", self.dice.roll(3) + 1, self.dice.roll(3)),
+            4 => format!("P{} == {}", self.random.roll(3) + 1, self.random.roll(3)),
             5 => format!("{} == 1 && {} == 1", self.variable(2), self.variable(2)),
-            6 => format!("P{} > {}", self.dice.roll(3) + 1, self.dice.roll(3)),
+            6 => format!("P{} > {}", self.random.roll(3) + 1, self.random.roll(3)),
             _ => {
-                let axis = AXES[self.dice.pick(3)];
-                format!("V.A.FRICT_COMP_ACTIVE.{axis} == {}", self.dice.roll(2))
+                let axis = AXES[self.random.pick(3)];
+                format!("V.A.FRICT_COMP_ACTIVE.{axis} == {}", self.random.roll(2))
             }
         }
     }
 
     fn command(&mut self) {
-        let axis = AXES[self.dice.pick(3)];
-        let word = if self.dice.roll(2) == 0 { "ON" } else { "OFF" };
+        let axis = AXES[self.random.pick(3)];
+        let word = if self.random.roll(2) == 0 {
+            "ON"
+        } else {
+            "OFF"
+        };
         self.line(&format!("{axis}[COMP {word} FRICT]"));
     }
 
     fn blocks(&mut self, depth: u32) {
-        for _ in 0..=self.dice.roll(3) {
+        for _ in 0..=self.random.roll(3) {
             self.block(depth);
         }
     }
@@ -103,13 +107,13 @@ impl Writer {
 
     fn block(&mut self, depth: u32) {
         if depth == 0 || self.full() {
-            if self.sort == Sort::Any && self.dice.roll(3) == 0 {
+            if self.sort == Sort::Any && self.random.roll(3) == 0 {
                 return self.assignment();
             }
             return self.command();
         }
         let sorts = if self.sort == Sort::Any { 16 } else { 10 };
-        match self.dice.roll(sorts) {
+        match self.random.roll(sorts) {
             0 | 1 => self.command(),
             2..=4 => self.branch(depth),
             5 => self.switch(depth),
@@ -133,7 +137,7 @@ impl Writer {
             10 => self.assignment(),
             11 => {
                 let end = self.variable(3);
-                let p = self.dice.roll(3) + 1;
+                let p = self.random.roll(3) + 1;
                 self.line(&format!("$FOR P{p} = 1, {end}, 1"));
                 self.blocks(depth - 1);
                 self.leave_loop();
@@ -149,7 +153,7 @@ impl Writer {
                 self.line("$ENDWHILE");
             }
             13 => {
-                let p = self.dice.roll(3) + 1;
+                let p = self.random.roll(3) + 1;
                 self.line(&format!("$FOR P{p} = 1, 3, 1"));
                 self.blocks(depth - 1);
                 self.leave_loop();
@@ -176,9 +180,9 @@ impl Writer {
     }
 
     fn leave_loop(&mut self) {
-        if !self.full() && self.dice.roll(3) == 0 {
+        if !self.full() && self.random.roll(3) == 0 {
             let condition = self.condition();
-            let word = ["$BREAK", "$CONTINUE", "M30"][self.dice.pick(3)];
+            let word = ["$BREAK", "$CONTINUE", "M30"][self.random.pick(3)];
             self.line(&format!("$IF {condition}"));
             self.command();
             self.line(word);
@@ -188,10 +192,10 @@ impl Writer {
     }
 
     fn assignment(&mut self) {
-        let p = self.dice.roll(3) + 1;
-        let line = match self.dice.roll(3) {
-            0 => format!("P{p} = {}", self.dice.roll(3)),
-            1 => format!("P{p} = P{} + 1", self.dice.roll(3) + 1),
+        let p = self.random.roll(3) + 1;
+        let line = match self.random.roll(3) {
+            0 => format!("P{p} = {}", self.random.roll(3)),
+            1 => format!("P{p} = P{} + 1", self.random.roll(3) + 1),
             _ if self.full() => format!("P{p} = 1"),
             _ => format!("P{p} = {}", self.variable(3)),
         };
@@ -202,12 +206,12 @@ impl Writer {
         let condition = self.condition();
         self.line(&format!("$IF {condition}"));
         self.blocks(depth - 1);
-        if self.dice.roll(3) == 0 && !self.full() {
+        if self.random.roll(3) == 0 && !self.full() {
             let condition = self.condition();
             self.line(&format!("$ELSEIF {condition}"));
             self.blocks(depth - 1);
         }
-        if self.dice.roll(2) == 0 {
+        if self.random.roll(2) == 0 {
             self.line("$ELSE");
             self.blocks(depth - 1);
         }
@@ -217,14 +221,14 @@ impl Writer {
     fn switch(&mut self, depth: u32) {
         let subject = self.variable(3);
         self.line(&format!("$SWITCH {subject}"));
-        for case in 0..=self.dice.roll(2) {
+        for case in 0..=self.random.roll(2) {
             self.line(&format!("$CASE {case}"));
             self.blocks(depth - 1);
-            if self.dice.roll(4) > 0 {
+            if self.random.roll(4) > 0 {
                 self.line("$BREAK");
             }
         }
-        if self.dice.roll(2) == 0 {
+        if self.random.roll(2) == 0 {
             self.line("$DEFAULT");
             self.blocks(depth - 1);
         }
@@ -233,9 +237,13 @@ impl Writer {
 
     fn skip(&mut self) {
         self.skips = true;
-        for _ in 0..=self.dice.roll(2) {
-            let axis = AXES[self.dice.pick(3)];
-            let word = if self.dice.roll(2) == 0 { "ON" } else { "OFF" };
+        for _ in 0..=self.random.roll(2) {
+            let axis = AXES[self.random.pick(3)];
+            let word = if self.random.roll(2) == 0 {
+                "ON"
+            } else {
+                "OFF"
+            };
             self.line(&format!("/{axis}[COMP {word} FRICT]"));
         }
     }
@@ -247,11 +255,11 @@ impl Writer {
         let outer = std::mem::take(&mut self.text);
         self.line(&format!("%L {name}"));
         self.blocks(depth - 1);
-        if !self.full() && self.dice.roll(3) == 0 {
+        if !self.full() && self.random.roll(3) == 0 {
             let condition = self.condition();
             self.line(&format!("$IF {condition}"));
             self.command();
-            let word = ["M17", "M30"][self.dice.pick(2)];
+            let word = ["M17", "M30"][self.random.pick(2)];
             self.line(word);
             self.line("$ENDIF");
             self.command();
@@ -271,7 +279,7 @@ struct Program {
 
 fn program(seed: u64, sort: Sort) -> Program {
     let mut writer = Writer {
-        dice: Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1),
+        random: XorShift(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1),
         sort,
         text: String::new(),
         asked: Vec::new(),
@@ -282,7 +290,7 @@ fn program(seed: u64, sort: Sort) -> Program {
         most: if sort == Sort::Exact { 4 } else { 3 },
     };
     for _ in 0..8 {
-        writer.dice.roll(2);
+        writer.random.roll(2);
     }
     writer.line("%MAIN");
     if sort == Sort::Any {
@@ -290,7 +298,7 @@ fn program(seed: u64, sort: Sort) -> Program {
             writer.line(&format!("P{p} = 0"));
         }
     }
-    let depth = 2 + u32::try_from(writer.dice.roll(2)).expect("a small number");
+    let depth = 2 + u32::try_from(writer.random.roll(2)).expect("a small number");
     writer.blocks(depth);
     writer.blocks(depth);
     writer.line("M30");

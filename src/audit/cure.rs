@@ -41,6 +41,7 @@ impl Serialize for Cure {
 
 /// What is to be mended of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mending {
     /// The position of the axis and kind in [`ProgramAudit::axes`](super::ProgramAudit::axes).
     pub at: usize,

@@ -10,6 +10,7 @@ use crate::interpreter::{MotionKind, WayCondition, ways_in_words};
 
 /// A line of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Site {
     /// The file, as the user named it.
     pub file: Arc<str>,
@@ -61,6 +62,7 @@ impl Serialize for ProgramEffect {
 
 /// The first motion of an axis in a state that the program did not set.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct FirstMotion {
     /// Where the words stand that move it.
     #[serde(flatten)]
@@ -129,6 +131,7 @@ impl Serialize for Inherits {
 
 /// Why something is unknown.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct WhyUnknown {
     /// The code of the message that says so, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -16,6 +16,7 @@ use crate::interpreter::{Interpreter, Observer};
 
 /// How a file is mended.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mended {
     /// The blocks, in no order.
     pub insertions: Vec<Insertion>,
@@ -47,6 +48,7 @@ pub enum WhyMissed {
 
 /// A program that runs the blocks of a file: it is the file, or calls it.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Affected<'a> {
     /// The auditor of its machine.
     pub auditor: &'a Auditor,

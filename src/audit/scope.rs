@@ -7,6 +7,7 @@ use crate::machine::Machine;
 
 /// A kind of compensation on an axis that is configured for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AuditedKind {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,

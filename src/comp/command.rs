@@ -29,6 +29,7 @@ impl Selection {
 
 /// One understood COMP command, `X[COMP ON FRICT]`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CompCommand {
     /// The axis in front of the bracket.
     pub axis: String,

@@ -245,7 +245,7 @@ impl Compensation {
 
     /// Makes kinds of an axis unknown, because a command that decides them depends on a value that
     /// only the machine knows (R2.51), and appends what changed.
-    pub fn forget(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
+    pub fn havoc(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];
         for kind in kinds.intersection(state.configured).iter() {
             changes.extend(state.change(axis, kind, |state| state.unknown.insert(kind)));

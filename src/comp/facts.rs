@@ -6,6 +6,7 @@ use crate::diagnostic::Code;
 
 /// What the control's documents say about a kind (R1.10, R1.36, R1.40, R1.41).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Facts {
     /// Kind of compensation.
     pub kind: Kind,

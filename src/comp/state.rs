@@ -45,6 +45,7 @@ impl fmt::Display for State {
 
 /// One state that a command changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Change {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,

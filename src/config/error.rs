@@ -9,6 +9,7 @@ use crate::text::{SourceFile, Span};
 /// A `frictcomp.toml` that cannot be used: it is no TOML, or says something that does not exist.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}:{}: {}", .diagnostic.place.file, .diagnostic.place.start(), .diagnostic.message)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ConfigError {
     /// FC110 with the place.
     pub diagnostic: Box<Diagnostic>,

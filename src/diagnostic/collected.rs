@@ -10,6 +10,7 @@ pub const MAX_MESSAGES: usize = 10_000;
 
 /// Messages that are collected before they are said: as many as are said, the rest counted by code.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Collected {
     /// The messages.
     pub said: Vec<Diagnostic>,

@@ -113,6 +113,7 @@ impl NamedFix {
 
 /// A text after fixes.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Fixed {
     /// The text that takes the place of what stands there.
     pub text: String,

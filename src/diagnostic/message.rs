@@ -23,6 +23,7 @@ pub struct Label {
 
 /// One statement about a program or a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Diagnostic {
     /// The control's number, or one of ours.
     pub code: Code,

@@ -4,6 +4,7 @@ use super::spelling::did_you_mean;
 
 /// A name that is not known, and those that are.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct UnknownName {
     /// The name as it was given.
     pub name: String,

@@ -21,6 +21,7 @@ const MOST_16_BITS: f64 = 32767.0;
 
 /// Which device of the network drives an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SlaveOfAxis {
     /// The name of the axis.
     pub axis: String,
@@ -68,6 +69,7 @@ pub enum Presence {
 
 /// What is known about the torque interface of an axis.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct DriveReport {
     /// The name of the axis; empty where its list gives none.
     pub axis: String,
@@ -105,6 +107,7 @@ enum Says {
 
 /// What the lists say about an axis and its drive.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ListedDrive<'a> {
     /// The name of the axis; empty where its list gives none.
     pub axis: &'a str,

@@ -7,6 +7,7 @@ use crate::text::{Place, Span};
 
 /// An element of an XML file that maps a torque value.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NetworkObject {
     /// The value.
     pub signal: Signal,
@@ -35,6 +36,7 @@ pub enum Protocol {
 
 /// A device of the network.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Slave {
     /// What the engineer calls it.
     pub name: String,
@@ -58,6 +60,7 @@ pub struct Slave {
 
 /// The network as it is configured, from an ENI file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Network {
     /// The file as the user named it.
     pub file: Arc<str>,
@@ -67,6 +70,7 @@ pub struct Network {
 
 /// A device that an ESI file describes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Device {
     /// Its type, such as `AX5103-0000`.
     pub name: String,

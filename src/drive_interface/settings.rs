@@ -12,6 +12,7 @@ use crate::text::Place;
 
 /// By what the control multiplies a torque before it sends it, P-AXIS-00325 and P-AXIS-00326.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TorqueScale {
     /// P-AXIS-00325, `antr.torque_scale_num`.
     pub numerator: u32,

@@ -11,6 +11,7 @@ const MAX_TEXT: usize = 400;
 /// The block that made a state what it is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Maker {
     /// The name of the main program after `%`, or else its file.
     pub program: String,

@@ -10,6 +10,7 @@ use crate::text::Place;
 
 /// A diagnostic at the end of a program, with the executed block that it is about.
 #[derive(Debug, Clone, serde::Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct EndNote {
     /// The executed block that it is about.
     pub seq: u64,

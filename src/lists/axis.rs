@@ -14,6 +14,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 
 /// The values of one axis list, or of the head of a value list.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisValues {
     /// `kopf.achs_nr`, P-AXIS-00016.
     pub number: Option<Given<u32>>,

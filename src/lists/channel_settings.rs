@@ -37,6 +37,7 @@ impl FeedUnit {
 
 /// What holds for the motion of a channel.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSettings {
     /// The unit of F, P-CHAN-00108.
     pub feed_unit: FeedUnit,

@@ -163,6 +163,7 @@ impl Field {
 
 /// One point of the table as it is written.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct WrittenPoint {
     /// `frict_comp.table[i].in`.
     pub input: Option<Given<Written>>,

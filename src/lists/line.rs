@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::entry::Entry;
-use super::known::{blanked, is_known};
+use super::keywords::{blanked, is_known};
 use super::reference::resolve;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{SourceFile, Span, changed_direction};

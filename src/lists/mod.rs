@@ -7,7 +7,7 @@ mod dynamics;
 mod entry;
 mod friction;
 #[cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
-mod known;
+mod keywords;
 mod line;
 mod monitor;
 mod parameter;
@@ -28,7 +28,7 @@ pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(feature = "unstable")]
-pub use known::{KEYS, KnownKey};
+pub use keywords::{KEYS, KnownKey};
 pub use line::Entries;
 pub use monitor::Monitor;
 pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};

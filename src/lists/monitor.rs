@@ -12,6 +12,7 @@ pub(super) const REQUIRED: &str = "lr_param.prog_movement_requires_compensations
 
 /// The kinds that must be active while an axis moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Monitor {
     /// The kinds that are named, or whose bit is set.
     pub kinds: KindSet,

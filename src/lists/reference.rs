@@ -1,7 +1,7 @@
 //! Values that refer to another parameter of the list: `P-AXIS-00008.0` (R3.40).
 
 use super::entry::Entry;
-use super::known::{KEYS, is_known};
+use super::keywords::{KEYS, is_known};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::Span;
 

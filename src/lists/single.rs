@@ -13,6 +13,7 @@ use crate::text::SourceFile;
 
 /// A value list that the control would take.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ReadList {
     /// The values.
     pub list: FrictionList,
@@ -23,6 +24,7 @@ pub struct ReadList {
 /// A value list that gives the control no values.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{reason}")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NoValues {
     /// Why, in a few words.
     pub reason: &'static str,

@@ -117,6 +117,7 @@ impl ListKind {
 
 /// A list that the start-up list names.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NamedList {
     /// Its path, as it is written.
     pub path: Given<String>,
@@ -126,6 +127,7 @@ pub struct NamedList {
 
 /// The files that the control reads at start-up.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct StartupList {
     /// The axis list that applies before each axis' own one.
     pub default_axis_list: Option<Given<String>>,
@@ -222,6 +224,7 @@ fn counted(
 
 /// One axis or spindle of a channel.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelAxis {
     /// `gruppe[0].achse[j].log_achs_nr`, P-CHAN-00035.
     pub number: Option<Given<u32>>,

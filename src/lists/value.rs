@@ -71,6 +71,7 @@ impl fmt::Display for Number {
 
 /// What stands where a number is expected.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Written {
     /// The word as it stands there.
     pub text: String,

@@ -17,6 +17,7 @@ use crate::lists::{
 
 /// The effective parameters of one axis.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisReport {
     /// The name in NC programs; empty when a list is looked at by itself and names no axis.
     pub axis: String,

@@ -21,6 +21,7 @@ use crate::text::{SourceFile, Span};
 
 /// What there is to say about a list.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ListsReport {
     /// The kind of the list, by its keys; `None` when they belong to no kind that is read.
     pub kind: Option<ListKind>,

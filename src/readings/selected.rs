@@ -8,6 +8,7 @@ use crate::comp::CncBuild;
 
 /// Where somebody saw the answer of a control (R15.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Confirmation {
     /// The build of the control that answered.
     pub build: CncBuild,

@@ -7,9 +7,9 @@ mod causes;
 mod feed_moves;
 mod findings;
 mod foreign;
+mod message_dedup;
 mod recorder;
 mod safe_fixes;
-mod said;
 mod saved;
 mod undescribed;
 
@@ -36,8 +36,8 @@ use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
 use feed_moves::FeedMoveCounter;
+use message_dedup::MessageDedup;
 use recorder::{NoteBook, Recorder, Tally};
-use said::Said;
 use saved::{fingerprint, storable};
 
 /// How a session runs.
@@ -182,7 +182,7 @@ impl Session {
         for (name, position) in &options.start {
             interpreter.place(name, *position);
         }
-        interpreter.doubt_start();
+        interpreter.havoc_start();
         let start = interpreter.compensation().clone();
         let axes = machine.axes.len();
         Self {
@@ -346,7 +346,7 @@ impl Session {
             program: self.programs,
             file,
             said: Vec::new(),
-            before: Said::at_most(most),
+            before: MessageDedup::at_most(most),
             foreign,
             allows: HashMap::new(),
             here: Vec::new(),

@@ -20,7 +20,7 @@ use crate::timeline::{
 };
 
 use super::feed_moves::FeedMoveCounter;
-use super::said::{Said, Verdict};
+use super::message_dedup::{MessageDedup, Verdict};
 
 /// How many blocks the summary of an axis names.
 const MAX_NAMED: usize = 100;
@@ -87,7 +87,7 @@ pub(super) struct Recorder<'a> {
     /// FC326, until it is said in front of everything else.
     pub(super) foreign: Option<Diagnostic>,
     /// What was said so far.
-    pub(super) before: Said,
+    pub(super) before: MessageDedup,
     pub(super) allows: HashMap<(Arc<str>, u32, Code), Allow>,
     /// What the comments of the block allow.
     pub(super) here: Vec<Code>,

@@ -43,6 +43,7 @@ pub enum StateError {
 /// What outlives the programs of a session (R9.30).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SavedState {
     /// 3, whose files have a checksum; a state of schema 1 knows neither who made a state nor
     /// anything below `variables`.
@@ -85,6 +86,7 @@ pub struct SavedState {
 /// What outlives the programs of a session on one axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SavedAxis {
     /// Name of the axis.
     pub axis: String,
@@ -110,6 +112,7 @@ pub struct SavedAxis {
 /// A kind that is not in its start-up state.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SavedAway {
     /// Kind of compensation.
     pub kind: Kind,

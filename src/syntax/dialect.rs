@@ -5,7 +5,7 @@
 use std::fmt;
 
 use super::hash_words::hash_name;
-use super::known::{FLOW_WORDS, hash_command};
+use super::keywords::{FLOW_WORDS, hash_command};
 use super::pieces::code_stretches;
 
 /// Number of blocks at the head of a program that are looked at.

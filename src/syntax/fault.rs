@@ -6,6 +6,7 @@ use crate::text::{Place, Span};
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Fault {
     /// The code of the message.
     pub code: Code,

@@ -22,7 +22,7 @@ mod fault;
 mod flow_scan;
 mod grammar;
 mod hash_words;
-mod known;
+mod keywords;
 mod lines;
 mod lower;
 mod mask;
@@ -48,7 +48,7 @@ pub use fault::Fault;
 pub use flow_scan::FlowScan;
 pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;
-pub(crate) use known::{
+pub(crate) use keywords::{
     Touches, hash_command, is_command, is_letter, is_program_number, is_statement,
 };
 #[cfg(feature = "unstable")]

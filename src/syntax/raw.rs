@@ -62,6 +62,7 @@ impl RawBlock<'_> {
 
 /// Comment lines, one right above the other, that speak to this tool.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Remark {
     /// The lines without trailing blanks, joined by `\n`.
     pub text: String,

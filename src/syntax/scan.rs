@@ -133,14 +133,14 @@ impl Question for SwitchedAxes {
 /// Which axes a program names, of those that are asked for, and whether it calls a file (R2.74).
 #[derive(Debug, Default)]
 pub struct NamedAxes {
-    sought: Vec<Sought>,
+    sought: Vec<PendingLabel>,
     found: BTreeSet<String>,
     calls: Calls,
 }
 
 /// A name that was not found yet.
 #[derive(Debug)]
-struct Sought {
+struct PendingLabel {
     name: String,
     next: Option<usize>,
 }
@@ -155,7 +155,7 @@ struct Calls {
 impl NamedAxes {
     /// Asks for these names.
     pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
-        let sought = |name: &str| Sought {
+        let sought = |name: &str| PendingLabel {
             name: name.to_owned(),
             next: None,
         };

@@ -7,6 +7,7 @@ use crate::comp::State;
 /// The feed moves of an axis while its friction compensation was not active (R13.12). Rapid motion
 /// does not count, nor does an axis without P-AXIS-00522 = 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct FeedMoves {
     /// Number of moves while it was inactive.
     pub off: u64,

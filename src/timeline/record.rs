@@ -21,6 +21,7 @@ pub const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
 
 /// The compensation of all axes at one moment.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct StateView<'a> {
     /// The machine, for the names of the axes.
     pub machine: &'a Machine,
@@ -66,6 +67,7 @@ impl<'a> StateView<'a> {
 
 /// One executed block.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Row<'a> {
     /// The program of the session, from 1.
     pub program: u32,
@@ -106,6 +108,7 @@ impl Row<'_> {
 
 /// Where ways that differ in an answer of the machine go on as one (R14.2).
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Join<'a> {
     /// The program of the session, from 1.
     pub program: u32,
@@ -121,6 +124,7 @@ pub struct Join<'a> {
 
 /// How often a remark applied that was made only once.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Repeat {
     /// The remark.
     pub code: Code,
@@ -138,6 +142,7 @@ pub struct Repeat {
 
 /// The end of a program.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct End<'a> {
     /// The program of the session, from 1.
     pub program: u32,
@@ -157,6 +162,7 @@ pub struct End<'a> {
 
 /// What the text summary says about one axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisSummary {
     /// Kinds other than friction compensation that are not as at the start of the control.
     pub others_away: KindSet,
@@ -181,6 +187,7 @@ pub struct AxisSummary {
 
 /// A block that changed an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChangedBy {
     /// The program of the session, from 1.
     pub program: u32,
@@ -205,6 +212,7 @@ pub enum Footing {
 
 /// The end of a session.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Summary<'a> {
     /// How many programs were started.
     pub programs: u32,

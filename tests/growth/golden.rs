@@ -4,12 +4,12 @@ use std::cell::Cell;
 use std::fs;
 use std::path::PathBuf;
 
-use frictcomp_host::{AgreedFile, AgreedKind, AgreedResults, HostError, Input, Ledger};
+use frictcomp_host::{FileRegistry, GoldenFile, GoldenKind, GoldenResults, HostError, Input};
 use tempfile::TempDir;
 
 use crate::measure::{TWICE, excess};
 
-const TIMELINE: AgreedKind = AgreedKind {
+const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
     writer: "golden --update",
     tolerance_um: 0.0,
@@ -18,16 +18,16 @@ const TIMELINE: AgreedKind = AgreedKind {
 /// Folders with a program each, and what was agreed on beside it.
 struct Archive {
     root: TempDir,
-    agreed: AgreedResults,
-    files: Vec<AgreedFile>,
-    ledger: Ledger,
+    agreed: GoldenResults,
+    files: Vec<GoldenFile>,
+    registry: FileRegistry,
 }
 
 impl Archive {
     fn new(folders: usize) -> Self {
         let root = tempfile::tempdir().expect("a folder");
-        let agreed = AgreedResults::of(TIMELINE, &[root.path().to_owned()]);
-        let ledger = Ledger::default();
+        let agreed = GoldenResults::of(TIMELINE, &[root.path().to_owned()]);
+        let registry = FileRegistry::default();
         let program = |number: usize| -> PathBuf {
             let folder = root.path().join(number.to_string());
             fs::create_dir(&folder).expect("a folder");
@@ -37,21 +37,21 @@ impl Archive {
         };
         let inputs: Vec<Input> = (0..folders).map(|n| Input::File(program(n))).collect();
         for input in &inputs {
-            input.note(&ledger);
+            input.note(&registry);
         }
         let files = inputs.iter().map(|input| agreed.beside(input));
         Self {
             files: files.collect::<Result<_, _>>().expect("files"),
             root,
             agreed,
-            ledger,
+            registry,
         }
     }
 
     /// Agrees on another result of each program.
     fn update(&self, result: &str) {
         let now = |_: &Input| Ok::<_, HostError>(result.to_owned());
-        let updated = self.agreed.update(&self.files, &self.ledger, now);
+        let updated = self.agreed.update(&self.files, &self.registry, now);
         for folder in updated.expect("nothing stands in its way") {
             assert!(folder.failures.is_empty(), "{:?}", folder.failures);
             assert_eq!(folder.written.len(), 1);

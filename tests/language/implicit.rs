@@ -3,7 +3,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, Handed, MACHINE};
+use crate::support::{Bench, MACHINE, SourceMode};
 
 fn machine(programs: &str) -> Bench {
     Bench::on(&format!("[machine]\n{programs}\n{MACHINE}"))
@@ -42,7 +42,7 @@ fn every_word_of_a_block_calls_its_program() {
         FC311 2:4-7 in drill.nc
       end 9 error X:active Y:active Z:unconfigured B:ineffective
     ");
-    assert_eq!(bench.handed(Handed::LineByLine).run(&[program]), lines);
+    assert_eq!(bench.handed(SourceMode::LineByLine).run(&[program]), lines);
     let bench = machine("[machine.programs]\nT = \"select.nc\"");
     // A number that is not known is a number all the same.
     assert_snapshot!(bench.run(&["N10 T V.E.TOOL\nM30"]), @"

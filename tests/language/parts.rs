@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 
 /// The lines that are executed, with the level of each.
 fn lines(bench: &Bench, program: &str) -> String {
@@ -130,7 +130,7 @@ fn subprograms_return_over_several_programs() {
             let program = "N10 L one.nc\nN20 X1\nN30 X2\n[ERR] X3\nM30";
             let seen = lines(&bench, program);
             assert_eq!(
-                lines(&bench.handed(Handed::LineByLine), program),
+                lines(&bench.handed(SourceMode::LineByLine), program),
                 seen,
                 "{end}"
             );
@@ -161,7 +161,7 @@ fn where_a_subprogram_returns_to_must_be_there() {
         ("M17 [JUMPS=V.E.N]", "FC902"),
         ("M29 [MAIN N V.E.N]", "FC902"),
     ] {
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             let bench = Bench::new().file("sub.nc", end).handed(handed);
             let transcript = bench.run(&["L sub.nc\nX1\nM30"]);
             assert!(transcript.contains(code), "{end}: {transcript}");
@@ -181,14 +181,14 @@ fn a_return_to_a_block_that_has_not_come_yet_is_found_after_a_statement() {
     let program = "N10 L sub.nc\nN20 X1\n$IF 1\nX5\n$ENDIF\nN30 X2\nM30";
     let seen = lines(&bench, program);
     assert_snapshot!(seen, @"1 N10; 1^1; 6 N30; 7; end 4 M30 X:active Y:active");
-    assert_eq!(lines(&bench.handed(Handed::LineByLine), program), seen);
+    assert_eq!(lines(&bench.handed(SourceMode::LineByLine), program), seen);
 }
 
 #[test]
 fn parts_of_a_program_that_arrives() {
     // R2.77 R9.40: what was read line by line is not kept
     let program = "N10 X1\nN20 X2\nL SEQUENCE [N10 N20]\nM30";
-    let transcript = Bench::new().handed(Handed::LineByLine).run(&[program]);
+    let transcript = Bench::new().handed(SourceMode::LineByLine).run(&[program]);
     assert!(
         transcript.contains("FC902") && transcript.contains("X:unknown"),
         "{transcript}"

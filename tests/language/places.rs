@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 
 /// Where X and Y stand after each block.
 fn positions(program: &str) -> String {
@@ -229,7 +229,7 @@ fn cycles_of_real_time_are_one_region() {
         "#RT CYCLE [SCOPE=GLOBAL ID=3]",
         "#RT CYCLE",
     ] {
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             let program = format!(
                 "X1\n{opener}\n{body}N9 #RT CYCLE END\n#RT CYCLE START [ID = 17]\n#RT CYCLE DELETE [ID=17]\nX2\nM30"
             );
@@ -247,7 +247,7 @@ fn cycles_of_real_time_are_one_region() {
 fn a_loop_of_real_time_may_run_any_number_of_times() {
     // R2.51 R2.81
     let program = "X1\n#RT WHILE [MODULO]\nX2\nX[COMP OFF FRICT]\nP1=2\n#RT ENDWHILE\nM30";
-    for handed in [Handed::Whole, Handed::LineByLine] {
+    for handed in [SourceMode::Whole, SourceMode::LineByLine] {
         let transcript = Bench::new().handed(handed).run(&[program]);
         assert!(transcript.contains("FC901 2:1-19"), "{transcript}");
         assert!(

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, Handed, MACHINE};
+use crate::support::{Bench, MACHINE, SourceMode};
 
 #[test]
 fn program_lines() {
@@ -327,11 +327,11 @@ fn programs_that_come_line_by_line_call_the_same_programs() {
             "",
         ] {
             let program = format!("{main}{body}");
-            let whole = bench(Handed::Whole).run(&[&program, "M30"]);
-            let lines = bench(Handed::LineByLine).run(&[&program, "M30"]);
+            let whole = bench(SourceMode::Whole).run(&[&program, "M30"]);
+            let lines = bench(SourceMode::LineByLine).run(&[&program, "M30"]);
             assert_eq!(lines, whole, "{program:?}");
-            let whole = bench(Handed::Whole).keep_going().run(&[&program]);
-            let lines = bench(Handed::LineByLine).keep_going().run(&[&program]);
+            let whole = bench(SourceMode::Whole).keep_going().run(&[&program]);
+            let lines = bench(SourceMode::LineByLine).keep_going().run(&[&program]);
             assert_eq!(lines, whole, "{program:?}");
         }
     }
@@ -439,7 +439,7 @@ impl frictcomp::timeline::Sink for Nothing {
 fn a_start_program_is_looked_for_beside_the_main_program() {
     // R2.15: and does not run when it is refused
     let machine = format!("[machine]\nstart_program = \"start.nc\"\n{MACHINE}");
-    for handed in [Handed::Whole, Handed::LineByLine] {
+    for handed in [SourceMode::Whole, SourceMode::LineByLine] {
         let bench = Bench::on(&machine).handed(handed);
         let refused = bench
             .file("start.nc", "X[COMP OFF FRICT]\n$IF 1\nM17")
@@ -460,11 +460,10 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
         };
         let mut lines = frictcomp::text::TextLines::new("M30");
         let program = match handed {
-            Handed::Whole => frictcomp::session::Program::Whole(frictcomp::text::SourceFile::new(
-                "dir/main.nc",
-                "M30",
-            )),
-            Handed::LineByLine => frictcomp::session::Program::Lines(&mut lines),
+            SourceMode::Whole => frictcomp::session::Program::Whole(
+                frictcomp::text::SourceFile::new("dir/main.nc", "M30"),
+            ),
+            SourceMode::LineByLine => frictcomp::session::Program::Lines(&mut lines),
         };
         let _ = session.program("dir/main.nc", program, &mut find, &mut Nothing);
         assert_eq!(asked, ["dir/main.nc"]);

@@ -3,7 +3,7 @@
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 
 /// What is left of X, Y and the transcript.
 fn left(bench: &Bench, program: &str) -> (State, State, String) {
@@ -39,7 +39,7 @@ fn a_block_that_may_be_skipped_makes_unknown_what_it_switches() {
         "/#MACHINE DATA [AX=X P-AXIS-00522=0]\nM30",
     ];
     for program in programs {
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             for bench in [
                 Bench::new().passing_branches(),
                 Bench::new().passing_branches().check_all(),
@@ -196,7 +196,7 @@ fn a_jump_beside_a_probe_may_be_taken() {
         "N20 $IF 1 $GOTO N50 G310 X10",
     ] {
         let program = format!("{jump}\nX[COMP OFF FRICT]\nN50:\n[OUT]\nM30");
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             let (x, _, said) = left(&Bench::new().passing_branches().handed(handed), &program);
             assert_eq!(x, State::Unknown, "{jump}\n{said}");
             assert!(said.contains("FC902"), "{jump}\n{said}");

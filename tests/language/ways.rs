@@ -2,7 +2,7 @@
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 
 /// Programs that an unknown value may lead elsewhere, with what is left of X.
 const PROGRAMS: [(&str, State); 24] = [
@@ -120,7 +120,7 @@ fn what_another_way_leaves_otherwise_is_unknown() {
     // R2.51 R2.52
     for (program, expected) in PROGRAMS {
         let bench = || Bench::new().passing_branches().keep_going();
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             let (claimed, said) = left(&bench().handed(handed), program);
             assert_eq!(claimed, expected, "{program}\n{said}");
             assert!(said.contains("FC90"), "{program}\n{said}");

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 use frictcomp::machine::Machine;
 
 fn run(program: &str) -> String {
@@ -416,7 +416,7 @@ fn main_axes_of_a_cycle() {
 
 /// What a program says, in each way to hand it over.
 fn said_in_every_way(program: &str) -> [String; 2] {
-    [Handed::Whole, Handed::LineByLine].map(|handed| {
+    [SourceMode::Whole, SourceMode::LineByLine].map(|handed| {
         let bench = Bench::new().keep_going().handed(handed);
         bench.run(&[program])
     })

@@ -33,7 +33,7 @@ frict_comp = true
 
 /// How programs are handed to a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Handed {
+pub(crate) enum SourceMode {
     Whole,
     LineByLine,
 }
@@ -44,7 +44,7 @@ pub(crate) struct Bench {
     pub(crate) options: SessionOptions,
     pub(crate) files: BTreeMap<String, String>,
     pub(crate) kinds: Vec<Kind>,
-    handed: Handed,
+    handed: SourceMode,
 }
 
 impl Bench {
@@ -58,11 +58,11 @@ impl Bench {
             options: SessionOptions::default().with_wording(Some(frictcomp_report::command_line)),
             files: BTreeMap::new(),
             kinds: vec![Kind::Frict],
-            handed: Handed::Whole,
+            handed: SourceMode::Whole,
         }
     }
 
-    pub(crate) fn handed(mut self, handed: Handed) -> Self {
+    pub(crate) fn handed(mut self, handed: SourceMode) -> Self {
         self.handed = handed;
         self
     }
@@ -249,8 +249,8 @@ impl Bench {
             );
             let mut lines = TextLines::new(text);
             let program = match self.handed {
-                Handed::Whole => Program::Whole(SourceFile::new(name.as_str(), *text)),
-                Handed::LineByLine => Program::Lines(&mut lines),
+                SourceMode::Whole => Program::Whole(SourceFile::new(name.as_str(), *text)),
+                SourceMode::LineByLine => Program::Lines(&mut lines),
             };
             let files = self.files.clone();
             let mut find = move |name: &str, _: &str| {

@@ -8,7 +8,7 @@ use frictcomp::comp::AxisIndex;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::machine::Machine;
 use frictcomp::parse_comp;
-use frictcomp_host::{ConfigurationChoice, Ledger, LoadedMachine, MachineOptions, Machines};
+use frictcomp_host::{ConfigurationChoice, FileRegistry, LoadedMachine, MachineOptions, Machines};
 
 use crate::failure::{Failure, c_text};
 
@@ -35,7 +35,7 @@ impl FrictcompMachine {
             options.startup = Some(PathBuf::from(path));
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        let loaded = Machines::new(options, &Ledger::default()).for_folder(folder)?;
+        let loaded = Machines::new(options, &FileRegistry::default()).for_folder(folder)?;
         Ok(Self::of(&loaded))
     }
 

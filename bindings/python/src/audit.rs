@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{AxisAudit, ProgramAudit};
 use frictcomp::text::shown_path;
-use frictcomp_host::{ArchiveAuditor, AuditOptions, Ledger, MachineOptions, Machines};
+use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, MachineOptions, Machines};
 use frictcomp_report::audit::{AuditReport, MachineAudit, records};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -71,7 +71,7 @@ fn audited(
     options: AuditOptions,
     stop: &Stop,
 ) -> Result<Audited, Failure> {
-    let machines = Machines::new(machine, &Ledger::default()).on_disk(&programs.disk);
+    let machines = Machines::new(machine, &FileRegistry::default()).on_disk(&programs.disk);
     let mut machines = machines.watched_by(Arc::new(stop.clone()));
     let (inputs, mut errors) = programs.found(&mut machines);
     machines.look_ahead(&inputs);

@@ -8,8 +8,8 @@ use frictcomp::Severity;
 use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, Disk, ExecutedProgram, HostError, Input, Ledger, LoadedMachine, MachineOptions,
-    Machines, Naming, in_order, main_programs, processors, run_alone,
+    Axes, Disk, ExecutedProgram, FileRegistry, HostError, Input, LoadedMachine, MachineOptions,
+    Machines, Naming, SingleRun, in_order, main_programs, processors, run_alone,
 };
 use pyo3::prelude::*;
 
@@ -61,7 +61,7 @@ struct Found<'a> {
 impl Job {
     fn done(self, stop: &Stop) -> Result<Said, Failure> {
         let mut machines =
-            Machines::new(self.machine, &Ledger::default()).on_disk(&self.programs.disk);
+            Machines::new(self.machine, &FileRegistry::default()).on_disk(&self.programs.disk);
         let disk = self.programs.disk.clone();
         let (inputs, mut errors) = self.programs.found(&mut machines);
         machines.look_ahead(&inputs);
@@ -123,7 +123,7 @@ fn check_file<'a>(
     let options = SessionOptions::from(run)
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone());
-    let alone = Alone {
+    let alone = SingleRun {
         options,
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,

@@ -8,7 +8,8 @@ use frictcomp::comp::State;
 use frictcomp::session::{Motions, Options, SessionOptions};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, Ledger, LoadedMachine, MachineOptions, Naming, read_value_list, run_alone,
+    Axes, FileRegistry, LoadedMachine, MachineOptions, Naming, SingleRun, read_value_list,
+    run_alone,
 };
 use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSample, CurrentSink, ProgramCurrents, Reading,
@@ -151,7 +152,7 @@ impl Job {
         let loaded = machine_of(self.machine.clone(), &self.programs, Vec::new())?;
         let mut loaded = loaded.as_ref().clone();
         let list = match &self.value_list {
-            Some(path) => Some(read_value_list(path, &Ledger::default())?.list),
+            Some(path) => Some(read_value_list(path, &FileRegistry::default())?.list),
             None => None,
         };
         let followed = axes_to_follow(&self.axes, &mut loaded.machine, list.as_ref())
@@ -197,7 +198,7 @@ impl Job {
         Ok(CurrentOptions::from(planner).with_reading(self.reading))
     }
 
-    fn alone(&self, loaded: &LoadedMachine) -> Result<Alone, Failure> {
+    fn alone(&self, loaded: &LoadedMachine) -> Result<SingleRun, Failure> {
         for (name, position) in &self.start {
             if loaded.machine.find(name).is_none() || !position.is_finite() {
                 return Err(
@@ -206,7 +207,7 @@ impl Job {
                 );
             }
         }
-        Ok(Alone {
+        Ok(SingleRun {
             options: SessionOptions::from(self.run.with_motions(Motions::Taken))
                 .with_levels(loaded.levels.clone())
                 .with_settings(loaded.settings.clone())

@@ -8,8 +8,8 @@ use frictcomp::machine::{Machine, Setting};
 use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    switched_axes,
+    ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
+    OutsidePolicy, switched_axes,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -67,7 +67,7 @@ impl PyMachine {
             ..MachineOptions::default()
         };
         if allow_outside {
-            options.elsewhere = Elsewhere::Allowed;
+            options.outside_policy = OutsidePolicy::Allowed;
         }
         for (name, value) in variables.unwrap_or_default() {
             let value = match value {
@@ -90,7 +90,7 @@ impl PyMachine {
             configuration,
             startup,
             enable,
-            elsewhere,
+            outside_policy,
             settings,
             ..
         } = &self.0;
@@ -111,7 +111,7 @@ impl PyMachine {
         given.set_item("isolated", *configuration == ConfigurationChoice::Isolated)?;
         given.set_item("enable", enable)?;
         given.set_item("variables", variables)?;
-        given.set_item("allow_outside", *elsewhere == Elsewhere::Allowed)?;
+        given.set_item("allow_outside", *outside_policy == OutsidePolicy::Allowed)?;
         Ok(((), given))
     }
 
@@ -160,7 +160,7 @@ pub(crate) fn machine_of(
     programs: &Programs,
     left: Vec<String>,
 ) -> Result<Arc<LoadedMachine>, Failure> {
-    let mut machines = Machines::new(options, &Ledger::default()).on_disk(&programs.disk);
+    let mut machines = Machines::new(options, &FileRegistry::default()).on_disk(&programs.disk);
     machines.look_ahead(&programs.inputs);
     if !left.is_empty() {
         // Other runs of the same machine name the others.

@@ -3,7 +3,7 @@
 use frictcomp::session::{Options, SessionOptions, StopPolicy};
 use frictcomp::{Diagnostic, Session};
 use frictcomp_host::{
-    self, MachineOptions, Naming, Surroundings, expect_axes, open_session, run_programs,
+    self, MachineOptions, Naming, RunContext, expect_axes, open_session, run_programs,
     switched_axes,
 };
 use pyo3::prelude::*;
@@ -91,7 +91,7 @@ impl Job {
             inputs,
             said: &said,
         };
-        let surroundings = Surroundings::new(&loaded, Naming::AsGiven);
+        let surroundings = RunContext::new(&loaded, Naming::AsGiven);
         let mut recorder = Recorder::new(self.shown, stop);
         let played = run_programs(&mut session, programs, &surroundings, &mut recorder)?;
         let saved = session.save();

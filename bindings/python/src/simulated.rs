@@ -8,7 +8,7 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points};
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    CircleChannels, Ledger, Watch, compare, find_plant, memory_for_simulation, read_circles,
+    CircleChannels, FileRegistry, Watch, compare, find_plant, memory_for_simulation, read_circles,
     read_value_list, tune as search,
 };
 use frictcomp_physics::circle::Aim;
@@ -115,7 +115,7 @@ impl Simulated {
         stop: &Stop,
     ) -> Result<String, Failure> {
         memory_for_simulation()?;
-        let plant = find_plant(&self.plant, &Ledger::default())?;
+        let plant = find_plant(&self.plant, &FileRegistry::default())?;
         let (compensation, origin) = match lists {
             None => (Method::of_plant(&plant), ListOrigin::Plant),
             Some(lists) => {
@@ -138,7 +138,8 @@ impl Simulated {
 }
 
 fn read(lists: Lists) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let list = |path: &PathBuf| Ok::<_, Failure>(read_value_list(path, &Ledger::default())?.list);
+    let list =
+        |path: &PathBuf| Ok::<_, Failure>(read_value_list(path, &FileRegistry::default())?.list);
     let name = |path: &PathBuf| shown_path(path);
     match &lists {
         Lists::Both(path) => {
@@ -211,7 +212,7 @@ pub(crate) fn tune(
     let plant = plant.to_owned();
     let report = interruptible(py, move |stop| {
         memory_for_simulation()?;
-        let plant = find_plant(&plant, &Ledger::default())?;
+        let plant = find_plant(&plant, &FileRegistry::default())?;
         let name = plant.name.clone();
         let task = Task {
             plant,

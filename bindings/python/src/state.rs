@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frictcomp::session::SavedState;
-use frictcomp_host::{Ledger, OutputFiles, StateFile};
+use frictcomp_host::{FileRegistry, OutputFiles, StateFile};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -136,7 +136,7 @@ impl Start {
 
 /// Writes a state to its file.
 pub(crate) fn save(file: &StateFile, state: &SavedState) -> Result<(), Failure> {
-    let mut outputs = OutputFiles::new(&Ledger::default());
+    let mut outputs = OutputFiles::new(&FileRegistry::default());
     file.save(state, &mut outputs)?;
     Ok(outputs.finish(|_| ())?)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use frictcomp::audit::AxisAudit;
 use frictcomp::session::Options;
-use frictcomp_host::{ArchiveAuditor, AuditOptions, Input, Ledger, Machines};
+use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines};
 use frictcomp_report::audit::{AuditReport, MachineAudit, Word};
 use frictcomp_report::html::render_audit;
 use serde::Serialize;
@@ -82,7 +82,8 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
     for inputs in groups.into_values() {
         let folder = inputs.first().map_or("".as_ref(), Input::folder);
         let options = dropped.options(folder, enable);
-        let mut machines = Machines::new(options, &Ledger::default()).on_disk(&dropped.disk());
+        let mut machines =
+            Machines::new(options, &FileRegistry::default()).on_disk(&dropped.disk());
         machines.look_ahead(&inputs);
         let options = AuditOptions::new(Options::default());
         let (auditor, errors) = ArchiveAuditor::new(inputs, &mut machines, options);

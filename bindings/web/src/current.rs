@@ -6,7 +6,7 @@ use frictcomp::comp::State;
 use frictcomp::diagnostic::UnknownName;
 use frictcomp::machine::{Machine, Parameterisation};
 use frictcomp::session::{Motions, SessionOptions};
-use frictcomp_host::{Alone, Axes, Naming, run_alone};
+use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
 };
@@ -134,7 +134,7 @@ pub(crate) fn answer(
         .with_start(start)
         .with_wording(Some(page));
     session.run = session.run.with_motions(Motions::Taken);
-    let alone = Alone {
+    let alone = SingleRun {
         options: session,
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,

@@ -9,7 +9,7 @@ use frictcomp::machine::{NoLists, check_list};
 use frictcomp::text::SourceFile;
 use frictcomp_host::decode;
 use frictcomp_host::{
-    Disk, Input, Ledger, LoadedMachine, MachineOptions, Machines, OpenText, is_program,
+    Disk, FileRegistry, Input, LoadedMachine, MachineOptions, Machines, OpenText, is_program,
     nearest_config,
 };
 use serde::Serialize;
@@ -67,7 +67,7 @@ impl Dropped {
     pub(crate) fn files(&mut self) -> Vec<(String, Kind)> {
         let disk = self.disk();
         let mut machines =
-            Machines::new(MachineOptions::default(), &Ledger::default()).on_disk(&disk);
+            Machines::new(MachineOptions::default(), &FileRegistry::default()).on_disk(&disk);
         let files = self.files.iter().map(|(path, file)| {
             let kind = match file.kind {
                 Kind::Other => {
@@ -139,7 +139,7 @@ impl Dropped {
         enable: &[String],
     ) -> Result<Arc<LoadedMachine>, Refusal> {
         let options = self.options(input.folder(), enable);
-        let mut machines = Machines::new(options, &Ledger::default()).on_disk(&self.disk());
+        let mut machines = Machines::new(options, &FileRegistry::default()).on_disk(&self.disk());
         machines.look_ahead(std::slice::from_ref(input));
         Ok(machines.for_folder(input.folder())?)
     }

@@ -9,7 +9,7 @@ use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
 use frictcomp::text::LineSource;
 use frictcomp::timeline::EndedBy;
-use frictcomp_host::{Alone, Axes, Disk, LoadedMachine, Naming, run_alone};
+use frictcomp_host::{Axes, Disk, LoadedMachine, Naming, SingleRun, run_alone};
 use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
 use frictcomp_report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use serde::{Deserialize, Serialize};
@@ -165,7 +165,7 @@ pub(crate) enum Item<'a> {
 }
 
 /// How a program runs as on the command line, with advice in the words of a host.
-fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> Alone {
+fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> SingleRun {
     let stop = if settings.keep_going {
         StopPolicy::KeepGoing
     } else {
@@ -174,7 +174,7 @@ fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> Al
     let limits = Limits::default();
     let limits = limits.with_blocks(settings.max_blocks.unwrap_or(limits.blocks));
     let run = Options::default().with_stop(stop).with_limits(limits);
-    Alone {
+    SingleRun {
         options: SessionOptions::from(run)
             .with_levels(loaded.levels.clone())
             .with_settings(loaded.settings.clone())

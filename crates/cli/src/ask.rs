@@ -23,7 +23,8 @@ use frictcomp_host::ask::{
     with_findings,
 };
 use frictcomp_host::{
-    CONFIG_NAME, HostError, Ledger, LoadedMachine, MendedFile, read_text, write_mended, write_new,
+    CONFIG_NAME, FileRegistry, HostError, LoadedMachine, MendedFile, read_text, write_mended,
+    write_new,
 };
 
 /// Ask the control what its documents leave open: write NC programs that ask, read their answers,
@@ -67,8 +68,11 @@ fn parse_travel(text: &str) -> Result<f64, String> {
 
 /// Runs the command.
 pub(super) fn run(args: &AskArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let loaded = args.machine.machines(&ledger).for_folder(Path::new("."))?;
+    let registry = FileRegistry::default();
+    let loaded = args
+        .machine
+        .machines(&registry)
+        .for_folder(Path::new("."))?;
     let errors = loaded.diagnostics.iter();
     if errors.filter(|it| it.severity == Severity::Error).count() > 0 {
         let mut failure = Failure::new("the machine is not described without errors");
@@ -79,9 +83,9 @@ pub(super) fn run(args: &AskArgs, console: Console) -> Result<u8, Failure> {
         return args.list(&loaded.machine, console);
     }
     if args.read.is_empty() {
-        return args.write(&loaded, Outputs::new(&ledger, console));
+        return args.write(&loaded, Outputs::new(&registry, console));
     }
-    args.read_answers(&loaded, &ledger, console)
+    args.read_answers(&loaded, &registry, console)
 }
 
 impl AskArgs {
@@ -153,13 +157,13 @@ impl AskArgs {
     fn read_answers(
         &self,
         loaded: &LoadedMachine,
-        ledger: &Ledger,
+        registry: &FileRegistry,
         console: Console,
     ) -> Result<u8, Failure> {
         let mut answers = Vec::new();
         let mut findings = Vec::new();
         for path in &self.read {
-            ledger.reads("answers", path);
+            registry.reads("answers", path);
             let text = read_text(path)?;
             let changed = fs::metadata(path).and_then(|it| it.modified());
             let date = date_of(changed.map_err(|error| HostError::read(path, error))?);

@@ -27,8 +27,8 @@ use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{
-    ArchiveAuditor, AuditOptions, Input, Ledger, Machines, MendedProgram, find_programs, read_text,
-    write_mended,
+    ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines, MendedProgram, find_programs,
+    read_text, write_mended,
 };
 use frictcomp_report::audit::{
     AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
@@ -132,11 +132,11 @@ impl AuditArgs {
             )
             .with_help("leave `--format` out, or add `--write`"));
         }
-        let ledger = Ledger::default();
-        let mut outputs = Outputs::new(&ledger, console);
+        let registry = FileRegistry::default();
+        let mut outputs = Outputs::new(&registry, console);
         let mut target = outputs.result(self.output.as_deref())?;
         let mut html = outputs.optional("--html", self.html.as_deref())?;
-        let mut machines = self.machine.weighed(&self.severities, &ledger)?;
+        let mut machines = self.machine.weighed(&self.severities, &registry)?;
         let found = find_programs(&self.paths, |folder| machines.extensions(folder));
         if found.inputs.contains(&Input::Stdin) {
             return Err(Failure::new(
@@ -145,7 +145,7 @@ impl AuditArgs {
             .with_help("name a file"));
         }
         failures.extend(Failures::from(found.failures));
-        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), failures);
+        let auditor = self.auditor(found.inputs, (&mut machines, &registry), failures);
         if auditor.programs().is_empty() {
             return Ok(exit::CLEAN);
         }
@@ -181,7 +181,7 @@ impl AuditArgs {
             return Ok(exit::CLEAN);
         }
         outputs.finish()?;
-        self.machine.say_unread(&ledger, console);
+        self.machine.say_unread(&registry, console);
         let errors = say_lists(&auditor, console);
         let unknown = self.unknown_status(report.unknown(), console);
         let status = self.status(report.has_warnings(), errors);
@@ -192,11 +192,11 @@ impl AuditArgs {
     fn auditor(
         &self,
         inputs: Vec<Input>,
-        (machines, ledger): (&mut Machines, &Ledger),
+        (machines, registry): (&mut Machines, &FileRegistry),
         failures: &mut Failures,
     ) -> ArchiveAuditor {
         for input in &inputs {
-            input.note(ledger);
+            input.note(registry);
         }
         machines.look_ahead(&inputs);
         let run = self.execution.brief(StopPolicy::FirstError, RUNS);
@@ -238,13 +238,13 @@ impl AuditArgs {
             return Err(Failure::new("`--sequence` has no `--format csv`")
                 .with_help("write `--format text`, `json` or `ndjson`"));
         }
-        let ledger = Ledger::default();
-        let mut outputs = Outputs::new(&ledger, console);
+        let registry = FileRegistry::default();
+        let mut outputs = Outputs::new(&registry, console);
         let mut target = outputs.result(self.output.as_deref())?;
-        ledger.reads("sequence", order);
+        registry.reads("sequence", order);
         let inputs = programs_of(order)?;
-        let mut machines = self.machine.weighed(&self.severities, &ledger)?;
-        let auditor = self.auditor(inputs, (&mut machines, &ledger), failures);
+        let mut machines = self.machine.weighed(&self.severities, &registry)?;
+        let auditor = self.auditor(inputs, (&mut machines, &registry), failures);
         outputs.check()?;
         say_undescribed(&auditor, console);
         let steps = failures.keep(auditor.follow());
@@ -256,7 +256,7 @@ impl AuditArgs {
                 .fold(String::new(), |text, step| text + &step_line(step) + "\n"),
         })?;
         outputs.finish()?;
-        self.machine.say_unread(&ledger, console);
+        self.machine.say_unread(&registry, console);
         let is_cut = steps.iter().any(|step| step.stopped.is_some());
         let errors = say_lists(&auditor, console) || is_cut;
         let mut axes = steps.iter().flat_map(|step| &step.axes);

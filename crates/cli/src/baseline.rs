@@ -11,7 +11,7 @@ use super::console::Console;
 use super::failure::{Failure, shown};
 use super::outputs::{Outputs, write_text};
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp_host::{Ledger, OutputFile, read_text};
+use frictcomp_host::{FileRegistry, OutputFile, read_text};
 
 /// The version of the file.
 const SCHEMA: u64 = 1;
@@ -84,7 +84,11 @@ enum Purpose {
 
 impl BaselineArgs {
     /// Opens the file to be written, or reads the one that is there.
-    pub(super) fn open(&self, ledger: &Ledger, outputs: &mut Outputs) -> Result<Baseline, Failure> {
+    pub(super) fn open(
+        &self,
+        registry: &FileRegistry,
+        outputs: &mut Outputs,
+    ) -> Result<Baseline, Failure> {
         if let Some(path) = &self.write_baseline {
             return Ok(Baseline {
                 purpose: Purpose::Write(outputs.file("--write-baseline", path)?),
@@ -93,7 +97,7 @@ impl BaselineArgs {
         }
         match &self.baseline {
             Some(path) => {
-                ledger.reads("baseline", path);
+                registry.reads("baseline", path);
                 read(path)
             }
             None => Ok(Baseline::default()),

@@ -27,9 +27,9 @@ use frictcomp::session::{Causes, Findings, NoteKind, Notes};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, HostError, Input, Ledger,
-    LoadedMachine, Naming, Revision, find_programs, in_order, is_source, main_programs, processors,
-    run_alone,
+    Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
+    LoadedMachine, Naming, Revision, SingleRun, find_programs, in_order, is_source, main_programs,
+    processors, run_alone,
 };
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
@@ -94,7 +94,7 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     files.watch(args.paths.iter().map(PathBuf::as_path))?;
     let mut saved: Option<Vec<ChangedFile>> = None;
     loop {
-        let mut machines = args.machine.machines(&Ledger::default());
+        let mut machines = args.machine.machines(&FileRegistry::default());
         let found = find_programs(&args.paths, |folder| machines.extensions(folder));
         for input in &found.inputs {
             // Why a machine cannot be used is said by the check.
@@ -118,8 +118,8 @@ fn check(
     console: Console,
     (saved, failures): (Option<Vec<ChangedFile>>, &mut Failures),
 ) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
+    let registry = FileRegistry::default();
+    let mut machines = args.machine.weighed(&args.listing.severities, &registry)?;
     let Since { paths, revision } = args.since()?;
     let found = find_programs(&paths, |folder| machines.extensions(folder));
     failures.extend(Failures::from(found.failures));
@@ -138,10 +138,10 @@ fn check(
         inputs = failures.keep(changed).inputs;
     }
     for input in &inputs {
-        input.note(&ledger);
+        input.note(&registry);
     }
     machines.look_ahead(&inputs);
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.listing.output.as_deref())?;
     let mut bench = Bench {
         inputs: &inputs,
@@ -177,10 +177,10 @@ fn check(
     }
     say_undescribed(args, &jobs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
-    let mut baseline = args.baseline.open(&ledger, &mut outputs)?;
+    let mut baseline = args.baseline.open(&registry, &mut outputs)?;
     outputs.check()?;
     let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
-    let read: BTreeSet<String> = ledger.files().iter().map(|it| shown_path(it)).collect();
+    let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
     let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
     if let Some(record) = baseline.finish(console, is_checked)? {
         listing.record(&record);
@@ -193,7 +193,7 @@ fn check(
     for remark in machines.loaded().filter_map(remark) {
         console.remark(&remark);
     }
-    args.machine.say_unread(&ledger, console);
+    args.machine.say_unread(&registry, console);
     if args.listing.format == ListingFormat::Text
         && listing.tally().files > 0
         && !args.baseline.is_written()
@@ -301,7 +301,7 @@ impl CheckArgs {
         let loaded = loaded?;
         let mut options = self.execution.check(&loaded);
         options.run.notes = Notes::Taken;
-        let alone = Alone {
+        let alone = SingleRun {
             options,
             naming: Naming::AsGiven,
             axes: Axes::AsTheyOccur,
@@ -444,7 +444,7 @@ fn check_file(
     loaded: &LoadedMachine,
     execution: &ExecutionArgs,
 ) -> Result<Found, HostError> {
-    let alone = Alone {
+    let alone = SingleRun {
         options: execution.check(loaded),
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,

@@ -19,7 +19,7 @@ use super::values;
 use frictcomp::lists::FrictionList;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    CircleChannels, Ledger, compare, find_plant, memory_for_simulation, read_circles,
+    CircleChannels, FileRegistry, compare, find_plant, memory_for_simulation, read_circles,
 };
 use frictcomp_physics::circle::{
     Circle, CircularTest, CommandedCircle, Method, PathCentre, PlaneAxis,
@@ -109,20 +109,20 @@ enum Format {
 /// Runs the command.
 pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     memory_for_simulation()?;
-    let ledger = Ledger::default();
-    let mut outputs = Outputs::new(&ledger, console);
+    let registry = FileRegistry::default();
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     let report = if args.trace.is_empty() {
-        let (test, origin) = simulation(args, &ledger)?;
+        let (test, origin) = simulation(args, &registry)?;
         outputs.check()?;
         let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
         args.trace
             .iter()
-            .for_each(|path| ledger.reads("trace", path));
+            .for_each(|path| registry.reads("trace", path));
         outputs.check()?;
         let commanded = CommandedCircle {
             radius_mm: args.radius,
@@ -159,12 +159,15 @@ fn channels(args: &CircleArgs) -> CircleChannels {
 }
 
 /// What is simulated, and where the value lists come from.
-fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
-    let plant = find_plant(&args.plant, ledger)?;
+fn simulation(
+    args: &CircleArgs,
+    registry: &FileRegistry,
+) -> Result<(CircularTest, ListOrigin), Failure> {
+    let plant = find_plant(&args.plant, registry)?;
     let (compensation, origin) = match &args.value_list[..] {
         [] => (Method::of_plant(&plant), ListOrigin::Plant),
         given => {
-            let (lists, origin) = given_lists(given, ledger)?;
+            let (lists, origin) = given_lists(given, registry)?;
             (lists.map(|list| Some(list.into())), origin)
         }
     };
@@ -216,11 +219,11 @@ impl FromStr for AxisList {
 /// The lists that were given for both axes, or for each.
 fn given_lists(
     given: &[AxisList],
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<([FrictionList; 2], ListOrigin), Failure> {
     let name = |list: &AxisList| shown_path(&list.path);
     if let [both @ AxisList { axis: None, .. }] = given {
-        let list = value_list(&both.path, ledger)?;
+        let list = value_list(&both.path, registry)?;
         return Ok(([list.clone(), list], ListOrigin::File(name(both))));
     }
     let of = |axis: PlaneAxis| {
@@ -229,7 +232,10 @@ fn given_lists(
     };
     match (of(PlaneAxis::X), of(PlaneAxis::Y)) {
         (Some(x), Some(y)) if given.len() == 2 => Ok((
-            [value_list(&x.path, ledger)?, value_list(&y.path, ledger)?],
+            [
+                value_list(&x.path, registry)?,
+                value_list(&y.path, registry)?,
+            ],
             ListOrigin::EachAxis([name(x), name(y)]),
         )),
         _ => {

@@ -13,7 +13,7 @@ use super::painted::parts;
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{AxisSet, AxisType, Origin, Parameterisation};
-use frictcomp_host::{CONFIG_NAME, Ledger, LoadedMachine};
+use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
 use frictcomp_report::visible_line;
@@ -71,7 +71,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
 }
 
 fn show(args: &ShowArgs, console: Console) -> Result<u8, Failure> {
-    let mut machines = args.machine.machines(&Ledger::default());
+    let mut machines = args.machine.machines(&FileRegistry::default());
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);
@@ -116,7 +116,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     if let Some(cycle) = machine.cycle_time_ms {
         let _ = writeln!(output, "cycle time     {cycle} ms");
     }
-    for folder in &loaded.reach.program_dirs {
+    for folder in &loaded.search_path.program_dirs {
         let _ = writeln!(output, "programs in    {}", shown(folder));
     }
     let harmless: Vec<String> = machine.harmless.words().collect();

@@ -16,7 +16,7 @@ use frictcomp::text::shown_path;
 use frictcomp_host::conformance::{
     Answers, Case, CaseError, Compared, Mismatch, Totals, export, find_cases, run_case,
 };
-use frictcomp_host::{HostError, Ledger, read_text};
+use frictcomp_host::{FileRegistry, HostError, read_text};
 
 /// Run the conformance cases on this engine, write them for a control, or compare what a control
 /// answered
@@ -48,9 +48,9 @@ struct Answered {
 
 /// Runs the command.
 pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let cases = read_cases(&args.cases, &ledger)?;
-    let mut outputs = Outputs::new(&ledger, console);
+    let registry = FileRegistry::default();
+    let cases = read_cases(&args.cases, &registry)?;
+    let mut outputs = Outputs::new(&registry, console);
     if let Some(folder) = &args.export {
         return write_cases(&cases, folder, outputs);
     }
@@ -65,7 +65,7 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
             totals
         }
         Some(folder) => {
-            let answers = read_answers(folder, &ledger)?;
+            let answers = read_answers(folder, &registry)?;
             let (totals, found) = compare(&cases, &answers);
             answered = Some(found);
             totals
@@ -82,7 +82,7 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }
 
-fn read_cases(folder: &Path, ledger: &Ledger) -> Result<Vec<Case>, Failure> {
+fn read_cases(folder: &Path, registry: &FileRegistry) -> Result<Vec<Case>, Failure> {
     let files = find_cases(folder).map_err(|error| HostError::read(folder, error))?;
     if files.is_empty() {
         return Err(
@@ -91,7 +91,7 @@ fn read_cases(folder: &Path, ledger: &Ledger) -> Result<Vec<Case>, Failure> {
         );
     }
     let read = |file: PathBuf| {
-        ledger.reads("case", &file);
+        registry.reads("case", &file);
         let failed = |error: CaseError| {
             Failure::new(error.to_string()).with_help("docs/conformance.md says what a case holds")
         };
@@ -121,7 +121,7 @@ fn write_cases(cases: &[Case], folder: &Path, mut outputs: Outputs) -> Result<u8
 }
 
 /// Every file in a folder and below, for the lines that are answers.
-fn read_answers(folder: &Path, ledger: &Ledger) -> Result<Answers, Failure> {
+fn read_answers(folder: &Path, registry: &FileRegistry) -> Result<Answers, Failure> {
     let mut answers = Answers::default();
     let mut folders = vec![folder.to_owned()];
     while let Some(next) = folders.pop() {
@@ -133,7 +133,7 @@ fn read_answers(folder: &Path, ledger: &Ledger) -> Result<Answers, Failure> {
             } else if path.extension().is_some_and(|it| it == "txt")
                 && path.file_name().is_none_or(|name| name != "case.txt")
             {
-                ledger.reads("answers", &path);
+                registry.reads("answers", &path);
                 answers.add(&read_text(&path)?);
             }
         }

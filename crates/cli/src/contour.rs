@@ -15,7 +15,7 @@ use super::result::ResultArgs;
 use super::simulated::SimulationArgs;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp_host::{
-    Input, Ledger, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
+    FileRegistry, Input, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
 };
 use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
 use frictcomp_report::contour::{
@@ -76,22 +76,22 @@ enum Format {
 pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let input = args.input()?;
     let limits = args.limits()?;
-    let ledger = Ledger::default();
-    input.note(&ledger);
-    let mut outputs = Outputs::new(&ledger, console);
+    let registry = FileRegistry::default();
+    input.note(&registry);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let mut pictures = Pictures {
         svg: outputs.optional("--svg", args.svg.as_deref())?,
         html: outputs.optional("--html", args.html.as_deref())?,
     };
-    let mut machines = args.machine.machines(&ledger);
+    let mut machines = args.machine.machines(&registry);
     machines.look_ahead(std::slice::from_ref(&input));
     let loaded = machines.for_folder(input.folder())?;
     if let Some(remark) = remark(&loaded) {
         Console::talk(&remark);
     }
     let simulation = &args.simulation;
-    let setup = simulation.setup((&loaded, Naming::AsGiven), &args.execution, &ledger)?;
+    let setup = simulation.setup((&loaded, Naming::AsGiven), &args.execution, &registry)?;
     outputs.check()?;
     let target = &mut result;
     let mut contour = drive_contour(&input, &loaded, &setup, |options| {
@@ -135,7 +135,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
         .iter()
         .chain(&exceeded)
         .for_each(|line| Console::talk(line));
-    args.machine.say_unread(&ledger, console);
+    args.machine.say_unread(&registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed || !exceeded.is_empty() {
         exit::FOUND

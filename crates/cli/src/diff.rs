@@ -18,16 +18,16 @@ use frictcomp::comp::KindSet;
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    Alone, Axes, Input, Ledger, LoadedMachine, MachineOfVersions, MachineOwner, Naming,
+    Axes, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner, Naming, SingleRun,
     drive_contour, run_alone, switched_axes,
 };
 use frictcomp_physics::compare::{
     Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
 };
 use frictcomp_physics::contour::BlockDeviations;
+use frictcomp_report::compare::{ContoursReport, VersionsReport, render_json, render_text};
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_versions;
-use frictcomp_report::versions::{ContoursReport, VersionsReport, render_json, render_text};
 
 /// Show which compensation changes differ between two versions of a program
 ///
@@ -95,16 +95,16 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
             "write `frictcomp diff OLD NEW`, or compare with a revision: `frictcomp diff --git HEAD`",
         ));
     };
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     let inputs = [old_path, new_path].map(|path| Input::new(path));
     for input in &inputs {
         input.probe()?;
-        input.note(&ledger);
+        input.note(&registry);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
-    let mut machines = args.machine.machines(&ledger);
+    let mut machines = args.machine.machines(&registry);
     let machine = machines.for_versions(&inputs)?;
     outputs.check()?;
     if let Some(remark) = remark(&machine) {
@@ -116,7 +116,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         version_of(args, new, &machine.new)?,
     );
     let contours = if args.contour {
-        Some(contours(args, &inputs, (&machine, &ledger))?)
+        Some(contours(args, &inputs, (&machine, &registry))?)
     } else {
         None
     };
@@ -171,12 +171,12 @@ fn remark(machine: &MachineOfVersions) -> Option<String> {
 pub(super) fn contours(
     args: &DiffArgs,
     inputs: &[Input; 2],
-    (machine, ledger): (&MachineOfVersions, &Ledger),
+    (machine, registry): (&MachineOfVersions, &FileRegistry),
 ) -> Result<ContoursReport, Failure> {
     let mut plane = Default::default();
     let mut contour = |input, loaded| -> Result<VersionContour, Failure> {
         let of = (loaded, Naming::AsGiven);
-        let setup = args.simulation.setup(of, &args.execution, ledger)?;
+        let setup = args.simulation.setup(of, &args.execution, registry)?;
         let contour = drive_contour(input, loaded, &setup, |_| BlockDeviations::default())?;
         plane = setup.plane;
         Ok(contour.into())
@@ -196,7 +196,7 @@ pub(super) fn version_of(
     input: &Input,
     loaded: &LoadedMachine,
 ) -> Result<Version, Failure> {
-    let alone = Alone {
+    let alone = SingleRun {
         options: args.execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,

@@ -16,12 +16,12 @@ use super::painted::difference;
 use super::result::Format;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    ChangedPrograms, Disk, Input, Ledger, LoadedMachine, MachineOfVersions, MachineOwner, Machines,
-    OpenText, Revision, find_programs, processors,
+    ChangedPrograms, Disk, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner,
+    Machines, OpenText, Revision, find_programs, processors,
 };
 use frictcomp_physics::compare::{Agreement, ContourAgreement, Version, VersionComparison};
+use frictcomp_report::compare::{VersionsReport, render_json, render_text};
 use frictcomp_report::fitted;
-use frictcomp_report::versions::{VersionsReport, render_json, render_text};
 
 /// A program in both versions; one of them may not have it.
 struct Pair {
@@ -44,8 +44,8 @@ fn compare(
     revision: &str,
     (console, failures): (Console, &mut Failures),
 ) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let mut machines = args.machine.machines(&ledger);
+    let registry = FileRegistry::default();
+    let mut machines = args.machine.machines(&registry);
     let here = PathBuf::from(".");
     let paths = if args.paths.is_empty() {
         std::slice::from_ref(&here)
@@ -61,9 +61,9 @@ fn compare(
         failures.extend(Failures::from(found.failures));
     }
     for input in &changed.inputs {
-        input.note(&ledger);
+        input.note(&registry);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let disk = changed.disk(&revised)?;
@@ -82,7 +82,7 @@ fn compare(
         args,
         revision,
         disk,
-        ledger: &ledger,
+        registry: &registry,
     };
     let mut reports = Vec::new();
     for pair in &pairs {
@@ -218,7 +218,7 @@ struct Comparer<'a> {
     revision: &'a str,
     /// The disk of the revision.
     disk: Disk,
-    ledger: &'a Ledger,
+    registry: &'a FileRegistry,
 }
 
 impl Comparer<'_> {
@@ -245,7 +245,7 @@ impl Comparer<'_> {
                     owner: MachineOwner::Both,
                 };
                 let inputs = [one.clone(), other.clone()];
-                Some(contours(self.args, &inputs, (&machine, self.ledger))?)
+                Some(contours(self.args, &inputs, (&machine, self.registry))?)
             }
             _ => None,
         };

@@ -17,7 +17,7 @@ use frictcomp::drive_interface::{DriveReport, Evidence, SlaveOfAxis, check_drive
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_drives::{XmlError, read_devices, read_network};
-use frictcomp_host::{Disk, Ledger, read_list};
+use frictcomp_host::{Disk, FileRegistry, read_list};
 use frictcomp_report::drives::render_drives;
 use frictcomp_report::{ListingFormat, command_line};
 
@@ -65,11 +65,11 @@ fn parse_slave(text: &str) -> Result<SlaveOfAxis, String> {
 }
 
 /// What is known besides the lists.
-fn evidence(args: &DriveArgs, ledger: &Ledger) -> Result<Evidence, Failure> {
+fn evidence(args: &DriveArgs, registry: &FileRegistry) -> Result<Evidence, Failure> {
     let mut evidence = Evidence::default();
     let disk = Disk::default();
     if let Some(path) = &args.eni {
-        ledger.reads("network", path);
+        registry.reads("network", path);
         let network = read_network(&read_list(path, &disk)?).map_err(|error| unread(&error))?;
         for given in &args.slave {
             let drives = network.drives();
@@ -86,7 +86,7 @@ fn evidence(args: &DriveArgs, ledger: &Ledger) -> Result<Evidence, Failure> {
         evidence.network = Some(network);
     }
     for path in &args.esi {
-        ledger.reads("device description", path);
+        registry.reads("device description", path);
         let devices = read_devices(&read_list(path, &disk)?).map_err(|error| unread(&error))?;
         evidence.devices.extend(devices);
     }
@@ -151,20 +151,20 @@ pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
 }
 
 fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     let codes = args.listing.severities.filter()?;
     let files = args.lists.files()?;
-    let grounds = args.lists.grounds(&files);
-    let evidence = evidence(args, &ledger)?;
-    let mut outputs = Outputs::new(&ledger, console);
+    let allowed_roots = args.lists.allowed_roots(&files);
+    let evidence = evidence(args, &registry)?;
+    let mut outputs = Outputs::new(&registry, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let (mut reports, mut said) = (Vec::new(), Vec::new());
     for path in &files {
-        ledger.reads("list", path);
+        registry.reads("list", path);
         match args.lists.check(path) {
             Ok(report) => {
                 for file in &report.files {
-                    ledger.reads("list", Path::new(&**file));
+                    registry.reads("list", Path::new(&**file));
                 }
                 let drives = drives(&report, &evidence);
                 collect(&report, &drives, &mut said);
@@ -177,7 +177,7 @@ fn judge(args: &DriveArgs, console: Console, failures: &mut Failures) -> Result<
         }
     }
     check_axes(args, &reports)?;
-    grounds.conceal(&mut said);
+    allowed_roots.conceal(&mut said);
     codes.sift(&mut said);
     outputs.check()?;
     let mut listing = args.listing.lister(target)?;

@@ -18,14 +18,14 @@ use super::simulated::{SimulationArgs, Tolerance};
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    AgreedDrift, AgreedFile, AgreedKind, AgreedResults, Alone, Axes, HostError, Input, Ledger,
-    LoadedMachine, Machines, Naming, drive_contour, find_programs, run_alone,
+    Axes, FileRegistry, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, HostError, Input,
+    LoadedMachine, Machines, Naming, SingleRun, drive_contour, find_programs, run_alone,
 };
 use frictcomp_physics::contour::BlockDeviations;
-use frictcomp_report::contour::{AgreedContour, render_agreed};
+use frictcomp_report::contour::{GoldenContour, render_agreed};
 use frictcomp_report::{Report, Text, TextChange, TextOptions, render_unified};
 
-const TIMELINE: AgreedKind = AgreedKind {
+const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
     writer: "golden --update",
     tolerance_um: 0.0,
@@ -67,9 +67,9 @@ pub(super) struct GoldenArgs {
 struct Bench<'a> {
     args: &'a GoldenArgs,
     machines: Machines,
-    ledger: Ledger,
-    agreed: AgreedResults,
-    files: Vec<AgreedFile>,
+    registry: FileRegistry,
+    agreed: GoldenResults,
+    files: Vec<GoldenFile>,
     /// What to say of files that are no programs.
     passed_over: String,
 }
@@ -85,14 +85,14 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
         Tolerance::refuse_without_contour(args.tolerance)?;
         args.simulation.refuse_without_contour()?;
     }
-    let ledger = Ledger::default();
-    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
+    let registry = FileRegistry::default();
+    let mut machines = args.machine.weighed(&args.severities, &registry)?;
     let found = find_programs(&args.paths, |folder| machines.extensions(folder));
     failures.extend(Failures::from(found.failures));
-    let agreed = AgreedResults::of(args.kind(), &args.paths);
+    let agreed = GoldenResults::of(args.kind(), &args.paths);
     let mut files = Vec::new();
     for input in &found.inputs {
-        input.note(&ledger);
+        input.note(&registry);
         match agreed.beside(input) {
             Ok(file) => files.push(file),
             Err(error) => failures.push(error.into()),
@@ -103,7 +103,7 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
     let bench = Bench {
         args,
         machines,
-        ledger,
+        registry,
         agreed,
         files,
         passed_over: passed_over(found.passed_over),
@@ -120,16 +120,20 @@ impl Bench<'_> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();
         for file in &self.files {
-            let now = result(&file.program, (self.args, &mut self.machines), &self.ledger);
+            let now = result(
+                &file.program,
+                (self.args, &mut self.machines),
+                &self.registry,
+            );
             let name = shown(&file.path);
             match now.and_then(|now| Ok(self.agreed.compare(file, now)?)) {
-                Ok(AgreedDrift::AsAgreed) => {}
-                Ok(AgreedDrift::Missing { .. }) => {
+                Ok(GoldenDrift::AsAgreed) => {}
+                Ok(GoldenDrift::Missing { .. }) => {
                     missing += 1;
                     let line = console.fitted(&format!("{name} is missing\n"));
                     let _ = writeln!(output, "{line}");
                 }
-                Ok(AgreedDrift::Drifted { before, now }) => {
+                Ok(GoldenDrift::Drifted { before, now }) => {
                     drifted += 1;
                     let (agreed, found) = (format!("{name} (agreed)"), format!("{name} (now)"));
                     let change = TextChange {
@@ -161,9 +165,9 @@ impl Bench<'_> {
 
     fn update(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         let mut written = 0;
-        let (args, ledger) = (self.args, &self.ledger);
-        let now = |program: &Input| result(program, (args, &mut self.machines), ledger);
-        for updated in self.agreed.update::<Failure>(&self.files, ledger, now)? {
+        let (args, registry) = (self.args, &self.registry);
+        let now = |program: &Input| result(program, (args, &mut self.machines), registry);
+        for updated in self.agreed.update::<Failure>(&self.files, registry, now)? {
             for path in &updated.written {
                 console.remark(&format!("wrote `{}`", shown_path(path)));
             }
@@ -188,11 +192,11 @@ impl Bench<'_> {
 }
 
 impl GoldenArgs {
-    fn kind(&self) -> AgreedKind {
+    fn kind(&self) -> GoldenKind {
         if !self.contour {
             return TIMELINE;
         }
-        AgreedKind {
+        GoldenKind {
             extension: "contour",
             writer: "golden --contour --update",
             tolerance_um: self.tolerance.unwrap_or_default().um(),
@@ -212,11 +216,11 @@ impl GoldenArgs {
 fn result(
     program: &Input,
     (args, machines): (&GoldenArgs, &mut Machines),
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<String, Failure> {
     let loaded = machines.for_folder(program.folder())?;
     if args.contour {
-        contour(program, (args, &loaded), ledger)
+        contour(program, (args, &loaded), registry)
     } else {
         Ok(timeline(program, &loaded, &args.execution)?)
     }
@@ -226,13 +230,13 @@ fn result(
 fn contour(
     program: &Input,
     (args, loaded): (&GoldenArgs, &LoadedMachine),
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<String, Failure> {
     let simulation = &args.simulation;
     let of = (loaded, Naming::FileName);
-    let setup = simulation.setup(of, &args.execution, ledger)?;
+    let setup = simulation.setup(of, &args.execution, registry)?;
     let mut contour = drive_contour(program, loaded, &setup, |_| BlockDeviations::default())?;
-    let subject = AgreedContour {
+    let subject = GoldenContour {
         program: program.name(Naming::FileName),
         plant: simulation.plant().to_owned(),
         start: simulation.start.given().to_vec(),
@@ -248,7 +252,7 @@ fn timeline(
 ) -> Result<String, HostError> {
     let mut bytes = Vec::new();
     let mut report = Text::new(&mut bytes, TextOptions::default());
-    let alone = Alone {
+    let alone = SingleRun {
         options: execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::FileName,
         axes: Axes::Ahead,

@@ -16,7 +16,9 @@ use super::outputs::Outputs;
 use super::painted::parts;
 use super::result::ResultArgs;
 use frictcomp::session::NoProgram;
-use frictcomp_host::{CallGraph, GraphProgram, Ledger, MissingCall, find_programs, processors};
+use frictcomp_host::{
+    CallGraph, FileRegistry, GraphProgram, MissingCall, find_programs, processors,
+};
 use frictcomp_report::visible_line;
 
 /// The deepest call that is indented; deeper ones begin a tree of their own.
@@ -59,19 +61,19 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
         let failure = Failure::new("standard input has no folder in which it could be called");
         return Err(failure.with_help("name programs or folders"));
     }
-    let ledger = Ledger::default();
-    let mut machines = args.machine.machines(&ledger);
+    let registry = FileRegistry::default();
+    let mut machines = args.machine.machines(&registry);
     let found = find_programs(&args.paths, |folder| machines.extensions(folder));
     failures.extend(Failures::from(found.failures));
     for input in &found.inputs {
-        input.note(&ledger);
+        input.note(&registry);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.result.output.as_deref())?;
     outputs.check()?;
     let mut calls = failures.keep(CallGraph::of(&found.inputs, &mut machines, processors()));
     for program in calls.programs() {
-        program.input.note(&ledger);
+        program.input.note(&registry);
     }
     outputs.check()?;
     let mains = calls.mains(processors());

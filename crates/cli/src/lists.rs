@@ -14,7 +14,7 @@ use super::outputs::{Outputs, write_text};
 use super::painted::parts;
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::machine::{AcceptedList, ListsReport};
-use frictcomp_host::Ledger;
+use frictcomp_host::FileRegistry;
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::pictures::value_curves;
 use frictcomp_report::svg::Frame;
@@ -86,16 +86,16 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
 }
 
 fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     args.check_options()?;
     let codes = args.listing.severities.filter()?;
     let files = args.lists.files()?;
-    let grounds = args.lists.grounds(&files);
-    let mut outputs = Outputs::new(&ledger, console);
+    let allowed_roots = args.lists.allowed_roots(&files);
+    let mut outputs = Outputs::new(&registry, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
     for path in &files {
-        ledger.reads("list", path);
+        registry.reads("list", path);
         let mut report = match args.lists.check(path) {
             Ok(report) => report,
             Err(failure) => {
@@ -103,7 +103,7 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
                 continue;
             }
         };
-        grounds.conceal(&mut report.diagnostics);
+        allowed_roots.conceal(&mut report.diagnostics);
         codes.sift(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
             diagnostic.reword(Some(command_line));
@@ -112,7 +112,7 @@ fn check(args: &ListsArgs, console: Console, failures: &mut Failures) -> Result<
             }
         }
         for file in &report.files {
-            ledger.reads("list", Path::new(&**file));
+            registry.reads("list", Path::new(&**file));
         }
         reports.push(report);
     }

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::exit;
 use super::failure::Failure;
-use frictcomp_editor::lsp::{Farewell, serve_stdio};
+use frictcomp_editor::lsp::{Shutdown, serve_stdio};
 
 /// Serve an editor over the Language Server Protocol, on standard input and output
 ///
@@ -19,11 +19,11 @@ pub(super) struct LspArgs {
 
 /// Runs the command.
 pub(super) fn run(_: &LspArgs) -> Result<u8, Failure> {
-    let farewell =
+    let shutdown =
         serve_stdio().map_err(|error| Failure::new(format!("the server cannot start: {error}")))?;
-    Ok(match farewell {
-        Farewell::Proper => exit::CLEAN,
+    Ok(match shutdown {
+        Shutdown::Proper => exit::CLEAN,
         // The protocol wants 1 where a client ends the server without having asked for its end.
-        Farewell::Abrupt => exit::FOUND,
+        Shutdown::Abrupt => exit::FOUND,
     })
 }

@@ -16,8 +16,8 @@ use frictcomp::machine::Machine;
 use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    read_value_list, switched_axes, unread_variables,
+    ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
+    OutsidePolicy, read_value_list, switched_axes, unread_variables,
 };
 use frictcomp_report::command_line;
 
@@ -47,20 +47,20 @@ pub(super) struct MachineArgs {
 
 impl MachineArgs {
     /// The machines of the programs of a command.
-    pub(super) fn machines(&self, ledger: &Ledger) -> Machines {
-        self.with_codes(CodeFilter::default(), ledger)
+    pub(super) fn machines(&self, registry: &FileRegistry) -> Machines {
+        self.with_codes(CodeFilter::default(), registry)
     }
 
     /// The same, with changed severities.
     pub(super) fn weighed(
         &self,
         severities: &SeverityArgs,
-        ledger: &Ledger,
+        registry: &FileRegistry,
     ) -> Result<Machines, Failure> {
-        Ok(self.with_codes(severities.filter()?, ledger))
+        Ok(self.with_codes(severities.filter()?, registry))
     }
 
-    fn with_codes(&self, codes: CodeFilter, ledger: &Ledger) -> Machines {
+    fn with_codes(&self, codes: CodeFilter, registry: &FileRegistry) -> Machines {
         let given = self.settings.iter();
         let given = given.map(|set| (set.name.clone(), set.value.clone()));
         let options = MachineOptions {
@@ -71,11 +71,11 @@ impl MachineArgs {
             },
             startup: self.startup.clone(),
             enable: self.enable.clone(),
-            elsewhere: elsewhere(self.allow_outside),
+            outside_policy: outside_policy(self.allow_outside),
             settings: given.collect(),
             codes,
         };
-        let machines = Machines::new(options, ledger);
+        let machines = Machines::new(options, registry);
         match Terminal::watched() {
             Some(terminal) => machines.watched_by(Arc::new(terminal)),
             None => machines,
@@ -83,9 +83,9 @@ impl MachineArgs {
     }
 
     /// Says which `--set` names nothing in the programs that were read (R9.74).
-    pub(super) fn say_unread(&self, ledger: &Ledger, console: Console) {
+    pub(super) fn say_unread(&self, registry: &FileRegistry, console: Console) {
         let names = self.settings.iter().map(|set| set.name.as_str());
-        for variable in unread_variables(names, ledger) {
+        for variable in unread_variables(names, registry) {
             let near = variable.near;
             let meant = near.map_or(String::new(), |near| format!(", did you mean `{near}`?"));
             let name = variable.name;
@@ -95,11 +95,11 @@ impl MachineArgs {
 }
 
 /// What `--allow-outside` says.
-pub(super) fn elsewhere(is_allowed: bool) -> Elsewhere {
+pub(super) fn outside_policy(is_allowed: bool) -> OutsidePolicy {
     if is_allowed {
-        Elsewhere::Allowed
+        OutsidePolicy::Allowed
     } else {
-        Elsewhere::Kept
+        OutsidePolicy::Kept
     }
 }
 
@@ -135,8 +135,8 @@ pub(super) fn undescribed_remark<'a>(
 }
 
 /// The values that a list would give the control.
-pub(super) fn value_list(path: &Path, ledger: &Ledger) -> Result<FrictionList, Failure> {
-    let read = read_value_list(path, ledger)?;
+pub(super) fn value_list(path: &Path, registry: &FileRegistry) -> Result<FrictionList, Failure> {
+    let read = read_value_list(path, registry)?;
     let count = read.diagnostics.len();
     if count > 0 {
         let name = shown_path(path);

@@ -9,7 +9,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
-use frictcomp_host::Ledger;
+use frictcomp_host::FileRegistry;
 
 /// Print the manual page, or write one for each command
 #[derive(Debug, Args)]
@@ -27,7 +27,7 @@ pub(super) fn run(args: &ManArgs, tool: clap::Command, console: Console) -> Resu
         return Ok(exit::CLEAN);
     };
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
-    let mut outputs = Outputs::new(&Ledger::default(), console);
+    let mut outputs = Outputs::new(&FileRegistry::default(), console);
     for command in commands(tool) {
         let (name, text) = page(command)?;
         let mut file = outputs.file("man --output", &folder.join(name))?;

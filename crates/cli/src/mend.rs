@@ -17,7 +17,7 @@ use super::painted::difference;
 use frictcomp::session::{ProposedFixes, SafeFixes};
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    Alone, Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, in_order, mend,
+    Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, SingleRun, in_order, mend,
     processors, run_alone, write_mended,
 };
 use frictcomp_report::{TextChange, render_unified};
@@ -144,7 +144,7 @@ impl Bench<'_> {
         let mut fixes = SafeFixes::default();
         let run = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, HostError>)| {
             let loaded = loaded?;
-            let alone = Alone {
+            let alone = SingleRun {
                 options: execution.check(&loaded),
                 naming: Naming::AsGiven,
                 axes: Axes::AsTheyOccur,

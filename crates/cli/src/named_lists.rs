@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::failure::Failure;
-use super::machine::elsewhere;
+use super::machine::outside_policy;
 use frictcomp::comp::CncBuild;
 use frictcomp::machine::ListsReport;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
-    CONFIG_NAME, Disk, Grounds, check_list_file, is_configuration, nearest_config,
+    AllowedRoots, CONFIG_NAME, Disk, check_list_file, is_configuration, nearest_config,
 };
 
 /// The lists of a command.
@@ -43,12 +43,13 @@ impl NamedLists {
     }
 
     /// The folders whose lists are shown: the current one and those of the files.
-    pub(super) fn grounds(&self, files: &[PathBuf]) -> Grounds {
+    pub(super) fn allowed_roots(&self, files: &[PathBuf]) -> AllowedRoots {
         let named = files.iter().filter_map(|path| path.parent());
         let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();
         let real = real.iter().filter_map(|path| path.parent());
-        let grounds = Grounds::new(elsewhere(self.allow_outside)).with(Path::new(""));
-        named.chain(real).fold(grounds, Grounds::with)
+        let allowed_roots =
+            AllowedRoots::new(outside_policy(self.allow_outside)).with(Path::new(""));
+        named.chain(real).fold(allowed_roots, AllowedRoots::with)
     }
 
     /// Checks a list, or every list that a configuration names.

@@ -8,7 +8,7 @@ use super::console::{Console, Target};
 use super::failure::Failure;
 use frictcomp::session::SavedState;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Ledger, OutputFile, OutputFiles, Replaces, StateFile};
+use frictcomp_host::{FileRegistry, OutputFile, OutputFiles, Replaces, StateFile};
 
 /// The name that stands for standard output.
 const STDOUT: &str = "-";
@@ -23,9 +23,9 @@ pub(super) struct Outputs {
 
 impl Outputs {
     /// No output yet.
-    pub(super) fn new(ledger: &Ledger, console: Console) -> Self {
+    pub(super) fn new(registry: &FileRegistry, console: Console) -> Self {
         Self {
-            files: OutputFiles::new(ledger),
+            files: OutputFiles::new(registry),
             console,
             printing: None,
         }

@@ -24,8 +24,8 @@ use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::session::{Session, StopPolicy, undescribed};
 use frictcomp_host::{
-    ChangedPrograms, Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile,
-    Surroundings, expect_axes, is_source, open_session, processors, run_programs, switched_axes,
+    ChangedPrograms, FileRegistry, Input, LoadedMachine, Naming, Programs, RunContext, RunSummary,
+    StateFile, expect_axes, is_source, open_session, processors, run_programs, switched_axes,
 };
 use frictcomp_report::html::GivenForRun;
 use frictcomp_report::{
@@ -190,7 +190,7 @@ fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             console.explain(&failure);
         }
         loop {
-            let mut machines = args.machine.machines(&Ledger::default());
+            let mut machines = args.machine.machines(&FileRegistry::default());
             for input in &inputs {
                 // Why a machine cannot be used was said by the run.
                 let _ = machines.for_folder(input.folder());
@@ -212,15 +212,15 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     for input in &inputs {
         input.probe()?;
     }
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     for input in &inputs {
-        input.note(&ledger);
+        input.note(&registry);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let target = outputs.result(args.output.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     let mut html = html.map(|file| HtmlFile::new(file, args.kinds));
-    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
+    let mut machines = args.machine.weighed(&args.severities, &registry)?;
     machines.look_ahead(&inputs);
     if let Some(path) = args.state.as_deref() {
         // Another run of the same machine may bring the programs that name the others.
@@ -276,7 +276,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
-    args.machine.say_unread(&ledger, console);
+    args.machine.say_unread(&registry, console);
     if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }
@@ -297,16 +297,16 @@ fn play(
     start: &mut Start<'_>,
     report: Box<dyn Report>,
     html: Option<&mut HtmlFile>,
-) -> Result<(Option<Played>, Option<Code>), Failure> {
+) -> Result<(Option<RunSummary>, Option<Code>), Failure> {
     let timeline = SharedReport::new(report);
     let goes_on_alone = html.is_some();
     let mut listeners = Listeners::new(&timeline, html.map(HtmlFile::digest));
     // Between two reads of a program no record is on its way.
     let before_waiting = || timeline.flush();
-    let surroundings = Surroundings::new(start.loaded, Naming::AsGiven);
-    let surroundings = surroundings.before_waiting(&before_waiting);
+    let context = RunContext::new(start.loaded, Naming::AsGiven);
+    let context = context.before_waiting(&before_waiting);
     let session = &mut start.session;
-    let played = run_programs(session, start.programs, &surroundings, &mut listeners);
+    let played = run_programs(session, start.programs, &context, &mut listeners);
     let most_severe = listeners.most_severe();
     let mut report = timeline.into_report();
     report.finish().map_err(Failure::output)?;

@@ -13,7 +13,9 @@ use super::start::StartArgs;
 use super::values;
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
-use frictcomp_host::{ContourSetup, Ledger, LoadedMachine, Naming, NoDrivenContour, find_plant};
+use frictcomp_host::{
+    ContourSetup, FileRegistry, LoadedMachine, Naming, NoDrivenContour, find_plant,
+};
 use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
@@ -74,10 +76,10 @@ impl SimulationArgs {
         &self,
         (loaded, naming): (&LoadedMachine, Naming),
         execution: &ExecutionArgs,
-        ledger: &Ledger,
+        registry: &FileRegistry,
     ) -> Result<ContourSetup, Failure> {
         let given = self.value_list.iter().map(|(axis, path)| {
-            let list = value_list(path, ledger)?;
+            let list = value_list(path, registry)?;
             Ok((axis.clone(), shown_path(path), list))
         });
         let mut session = execution.options(loaded, StopPolicy::FirstError);
@@ -85,7 +87,7 @@ impl SimulationArgs {
         let plane = self.plane.clone();
         Ok(ContourSetup {
             plane: plane.unwrap_or_else(|| ["X", "Y"].map(str::to_owned)),
-            plant: find_plant(self.plant(), ledger)?,
+            plant: find_plant(self.plant(), registry)?,
             value_lists: given.collect::<Result<_, Failure>>()?,
             model: self.model.unwrap_or_default(),
             planner: self.planner(loaded)?,

@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
 use super::result::{Format, ResultArgs};
 use frictcomp::text::shown_path;
-use frictcomp_host::{Ledger, read_trace};
+use frictcomp_host::{FileRegistry, read_trace};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
 use frictcomp_report::html::render_trace;
 use frictcomp_report::pictures::channels;
@@ -41,9 +41,9 @@ pub(super) struct TraceArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    ledger.reads("trace", &args.file);
-    let mut outputs = Outputs::new(&ledger, console);
+    let registry = FileRegistry::default();
+    registry.reads("trace", &args.file);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;

@@ -14,7 +14,7 @@ use super::outputs::{Outputs, write_text};
 use super::recorded_files::recordings_in;
 use super::result::Format;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Ledger, read_axis};
+use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
 use frictcomp_report::pictures::friction_trend;
 use frictcomp_report::svg::Frame;
@@ -47,11 +47,11 @@ pub(super) struct TrendArgs {
 /// Runs the command.
 pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     let paths = recordings_in(&args.folder)?;
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     for path in &paths {
-        ledger.reads("trace", path);
+        registry.reads("trace", path);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.print("the result")?;
     outputs.check()?;

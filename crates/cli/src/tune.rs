@@ -18,7 +18,7 @@ use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::lists::{AxisType, ListHead, Points};
 use frictcomp::machine::Axis;
 use frictcomp::text::{Place, Span};
-use frictcomp_host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
+use frictcomp_host::{FileRegistry, OutputFile, find_plant, memory_for_simulation, tune};
 use frictcomp_physics::circle::Aim;
 use frictcomp_physics::circle::Checked;
 use frictcomp_physics::circle::{
@@ -151,25 +151,25 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         let message = format!("{} plants were given", args.plant.len());
         return Err(Failure::new(message).with_help(format!("give at most {MAX_PLANTS}")));
     }
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     let plants: Vec<Plant> = args
         .plant
         .iter()
-        .map(|name| find_plant(name, &ledger))
+        .map(|name| find_plant(name, &registry))
         .collect::<Result<_, _>>()?;
     if let Some(first) = plants.first()
         && (args.output.is_some() || args.output_dir.is_some())
     {
         check_list(first)?;
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
     let list = args.output.as_deref();
     let list = list
         .map(|path| outputs.list("--output", path))
         .transpose()?;
     let axis_lists = match &args.output_dir {
-        Some(folder) => axis_lists(folder, args, &mut outputs, &ledger)?,
+        Some(folder) => axis_lists(folder, args, &mut outputs, &registry)?,
         None => Vec::new(),
     };
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
@@ -267,10 +267,10 @@ fn axis_lists(
     folder: &Path,
     args: &TuneArgs,
     outputs: &mut Outputs,
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<Vec<AxisFile>, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
-    let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;
+    let loaded = args.machine.machines(registry).for_folder(Path::new("."))?;
     let linear: Vec<&Axis> = loaded
         .machine
         .axes

@@ -13,7 +13,7 @@ use super::machine::value_list;
 use super::outputs::Outputs;
 use super::result::{Format, ResultArgs};
 use frictcomp::text::shown_path;
-use frictcomp_host::{Ledger, read_axis};
+use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_physics::current::Reading;
 use frictcomp_recordings::identify::{Predictor, verify_followed};
 use frictcomp_recordings::trace::ChannelSelection;
@@ -58,11 +58,11 @@ pub(super) struct VerifyArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    ledger.reads("trace", &args.trace);
-    let mut outputs = Outputs::new(&ledger, console);
+    let registry = FileRegistry::default();
+    registry.reads("trace", &args.trace);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
-    let list = value_list(&args.value_list, &ledger)?;
+    let list = value_list(&args.value_list, &registry)?;
     outputs.check()?;
     let cycle_s = args.cycle.seconds()?;
     let selection = ChannelSelection {

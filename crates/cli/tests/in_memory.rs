@@ -13,8 +13,8 @@ use std::sync::Arc;
 use frictcomp::session::{Limits, Options, SessionOptions};
 use frictcomp_host::decode;
 use frictcomp_host::{
-    Alone, Axes, Disk, HostError, Input, Ledger, MachineOptions, Machines, Naming, OpenText,
-    find_programs, run_alone,
+    Axes, Disk, FileRegistry, HostError, Input, MachineOptions, Machines, Naming, OpenText,
+    SingleRun, find_programs, run_alone,
 };
 use frictcomp_report::{TimelineFormat, TimelineOptions, command_line};
 use workspace::root;
@@ -60,14 +60,15 @@ impl Write for Written {
 /// The records of a program on a disk in memory.
 fn records(program: &OpenText, disk: &Disk) -> Result<Vec<u8>, HostError> {
     let input = Input::Open(program.clone());
-    let mut machines = Machines::new(MachineOptions::default(), &Ledger::default()).on_disk(disk);
+    let mut machines =
+        Machines::new(MachineOptions::default(), &FileRegistry::default()).on_disk(disk);
     let loaded = machines.for_folder(input.folder())?;
     let limits = Limits::default().with_blocks(MAX_BLOCKS);
     let options = SessionOptions::from(Options::default().with_limits(limits))
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone())
         .with_wording(Some(command_line));
-    let alone = Alone {
+    let alone = SingleRun {
         options,
         naming: Naming::AsGiven,
         axes: Axes::Ahead,

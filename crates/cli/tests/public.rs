@@ -220,7 +220,7 @@ fn every_public_type_is_checked_to_be_send() {
         path.to_owned()
     });
     // They borrow what flushes the output of the thread that runs the programs.
-    let is_at_home = |item: &String| item == "host::Surroundings";
+    let is_at_home = |item: &String| item == "host::RunContext";
     let public: Vec<String> = public
         .filter(|item| is_type(item) && !is_at_home(item))
         .collect();

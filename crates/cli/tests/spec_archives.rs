@@ -262,15 +262,15 @@ N80 M30
         bench.status(&["check", "--write-baseline", "known.json", "."]),
         Some(0)
     );
-    let mut dice = fastrand::Rng::with_seed(17);
+    let mut random = fastrand::Rng::with_seed(17);
     // Ten at a time, a hundred times: 1 000 insertions.
     for _ in 0..100 {
         for name in ["a.nc", "sub.nc"] {
             let text = bench.read(name);
             let mut lines: Vec<&str> = text.lines().collect();
             for _ in 0..5 {
-                let line = ["", "(inserted)", "; L none.nc", "G4 F1"][dice.usize(..4)];
-                lines.insert(dice.usize(1..lines.len()), line);
+                let line = ["", "(inserted)", "; L none.nc", "G4 F1"][random.usize(..4)];
+                lines.insert(random.usize(1..lines.len()), line);
             }
             bench.write(name, &(lines.join("\n") + "\n"));
         }

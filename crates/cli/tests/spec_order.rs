@@ -10,7 +10,7 @@ mod ways;
 
 use std::fs;
 
-use archives::{AXES, Dice, Program};
+use archives::{AXES, Program, XorShift};
 use folder::Bench;
 use serde_json::Value;
 
@@ -67,11 +67,11 @@ fn axis<'a>(records: &'a [Value], file: &str, axis: &str) -> &'a Value {
 fn random_archives_do_what_they_were_made_to_do() {
     // R10.1, R10.2
     for seed in 1..40 {
-        let mut dice = Dice::new(seed);
+        let mut random = XorShift::new(seed);
         let bench = bench(&[]);
-        let count = 1 + dice.roll(12);
+        let count = 1 + random.roll(12);
         let programs: Vec<Program> = (0..count)
-            .map(|at| Program::random(&mut dice, at))
+            .map(|at| Program::random(&mut random, at))
             .collect();
         for program in &programs {
             fs::write(bench.folder().join(&program.name), &program.bytes).expect("written");
@@ -173,11 +173,11 @@ fn every_cure_ends_every_hazard_and_changes_nothing_else() {
     let mut mended = 0;
     for seed in 1..20 {
         for fix in ["leavers", "inheritors", "smaller"] {
-            let mut dice = Dice::new(seed);
+            let mut random = XorShift::new(seed);
             let bench = bench(&[]);
-            let count = 2 + dice.roll(8);
+            let count = 2 + random.roll(8);
             let programs: Vec<Program> = (0..count)
-                .map(|at| Program::random(&mut dice, at))
+                .map(|at| Program::random(&mut random, at))
                 .collect();
             for program in &programs {
                 fs::write(bench.folder().join(&program.name), &program.bytes).expect("written");

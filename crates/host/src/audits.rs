@@ -224,7 +224,8 @@ impl<'a> ProgramAuditor<'a> {
 
     fn finder(&self, input: &Input, disk: &Disk) -> ProgramFinder {
         let loaded = self.loaded;
-        ProgramFinder::new(input, &loaded.reach, Naming::AsGiven, disk).noting(&loaded.ledger)
+        ProgramFinder::new(input, &loaded.search_path, Naming::AsGiven, disk)
+            .noting(&loaded.registry)
     }
 
     fn run(

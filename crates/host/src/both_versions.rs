@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
+use super::allowed_roots::{AllowedRoots, OutsidePolicy};
 use super::discovery::{ConfigurationChoice, LoadedMachine, Machines};
 use super::error::HostError;
-use super::finder::Reach;
-use super::grounds::{Elsewhere, Grounds};
+use super::finder::SearchPath;
 use super::input::Input;
 
 /// The machine of two versions of a program: the same for both, each with the folders in which it
@@ -37,7 +37,7 @@ pub enum MachineOwner {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Nearness {
     /// It lies anywhere, like the copies that `git difftool` makes.
-    Elsewhere,
+    OutsidePolicy,
     /// It lies below the current folder.
     Here,
     /// It lies below a configuration.
@@ -72,11 +72,11 @@ impl Machines {
         }
         self.look_ahead(versions);
         let loaded = self.for_folder(new)?;
-        let mut reaches = [loaded.reach.clone(), loaded.reach.clone()];
+        let mut reaches = [loaded.search_path.clone(), loaded.search_path.clone()];
         if let MachineOwner::NewNotOld(path) = &owner
             && let Ok(own) = self.plain(Some(path))
         {
-            reaches[0] = with_own(&own.reach, &loaded.reach);
+            reaches[0] = with_own(&own.search_path, &loaded.search_path);
         }
         let nearness = [0, 1].map(|at| self.nearness(&folders[at], own[at].as_deref()));
         for (at, other) in [(0, 1), (1, 0)] {
@@ -87,31 +87,31 @@ impl Machines {
             };
             reaches[at].program_dirs.insert(0, beside);
         }
-        let [old, new] = reaches.map(|reach| LoadedMachine {
-            reach,
+        let [old, new] = reaches.map(|search_path| LoadedMachine {
+            search_path,
             ..(*loaded).clone()
         });
         Ok(MachineOfVersions { old, new, owner })
     }
 
     fn nearness(&self, folder: &Path, own: Option<&Path>) -> Nearness {
-        let here = Grounds::on(self.disk(), Elsewhere::Kept).with(Path::new(""));
+        let here = AllowedRoots::on(self.disk(), OutsidePolicy::Kept).with(Path::new(""));
         if own.is_some() {
             Nearness::Configured
         } else if here.holds(folder) {
             Nearness::Here
         } else {
-            Nearness::Elsewhere
+            Nearness::OutsidePolicy
         }
     }
 }
 
 /// The folders that a version has itself, then those of the machine that it runs on.
-fn with_own(own: &Reach, shared: &Reach) -> Reach {
+fn with_own(own: &SearchPath, shared: &SearchPath) -> SearchPath {
     let dirs = own.program_dirs.iter().chain(&shared.program_dirs);
-    Reach {
+    SearchPath {
         program_dirs: dirs.cloned().collect(),
         project: own.project.clone(),
-        elsewhere: shared.elsewhere,
+        outside_policy: shared.outside_policy,
     }
 }

@@ -376,7 +376,7 @@ impl Finders {
         if let Some(found) = self.found.get(&key) {
             return found.clone();
         }
-        let new = || ProgramFinder::new(caller, &loaded.reach, Naming::AsGiven, &loaded.disk);
+        let new = || ProgramFinder::new(caller, &loaded.search_path, Naming::AsGiven, &loaded.disk);
         let finder = self.of_folders.entry(folder).or_insert_with(new);
         let found = finder.place(name, caller.folder());
         self.found.insert(key, found.clone());

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::discovery::LoadedMachine;
-use super::dry_run::{Alone, Axes, run_alone};
+use super::dry_run::{Axes, SingleRun, run_alone};
 use super::error::HostError;
 use super::input::{Input, Naming};
 use super::watch::{Done, Watch};
@@ -77,7 +77,7 @@ pub fn drive_contour<S: ContourSink>(
         return Err(NoDrivenContour::OnlyOnce);
     }
     let mut loaded = loaded.clone();
-    let alone = || Alone {
+    let alone = || SingleRun {
         options: SessionOptions {
             run: setup.session.run.with_motions(Motions::Taken),
             ..setup.session.clone()

@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::allowed_roots::{AllowedRoots, OutsidePolicy};
 use super::assumed::{AxesOfPrograms, assume_axes};
 use super::disk::Disk;
 use super::error::HostError;
 use super::file_kind::CONFIG_NAME;
-use super::finder::Reach;
-use super::grounds::{Elsewhere, Grounds};
+use super::finder::SearchPath;
 use super::input::Input;
-use super::ledger::Ledger;
 use super::list_files::{ListsOnDisk, read_list};
 use super::paths::relative;
+use super::registry::FileRegistry;
 use super::watch::{Watch, Watcher};
 use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity};
 use frictcomp::lists::Parameter;
@@ -44,7 +44,7 @@ pub struct MachineOptions {
     /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
     pub enable: Vec<String>,
     /// What becomes of programs and lists outside the folders.
-    pub elsewhere: Elsewhere,
+    pub outside_policy: OutsidePolicy,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
     /// Which codes count.
@@ -61,7 +61,7 @@ pub struct LoadedMachine {
     /// The user's severities.
     pub levels: Levels,
     /// Where called programs may lie.
-    pub reach: Reach,
+    pub search_path: SearchPath,
     /// What there is to say about the lists.
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters, by axis.
@@ -75,7 +75,7 @@ pub struct LoadedMachine {
     /// The extensions of files that are programs.
     pub extensions: Option<Vec<String>>,
     /// Where the files of a run on this machine are noted.
-    pub ledger: Ledger,
+    pub registry: FileRegistry,
     /// The disk that runs on this machine read from.
     pub disk: Disk,
     /// The watcher of the runs on this machine.
@@ -83,10 +83,10 @@ pub struct LoadedMachine {
 }
 
 impl LoadedMachine {
-    fn new(configuration: Configuration, path: &Path, ledger: &Ledger) -> Self {
-        ledger.reads("configuration", path);
+    fn new(configuration: Configuration, path: &Path, registry: &FileRegistry) -> Self {
+        registry.reads("configuration", path);
         for file in &configuration.files {
-            ledger.reads("list", Path::new(&**file));
+            registry.reads("list", Path::new(&**file));
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let folders = configuration.program_dirs.iter();
@@ -94,13 +94,13 @@ impl LoadedMachine {
             machine: configuration.machine,
             settings: configuration.settings,
             levels: configuration.levels,
-            reach: Reach {
+            search_path: SearchPath {
                 // Written on Windows, read anywhere.
                 program_dirs: folders
                     .map(|written| folder.join(written.replace('\\', "/")))
                     .collect(),
                 project: folder.to_owned(),
-                elsewhere: Elsewhere::Kept,
+                outside_policy: OutsidePolicy::Kept,
             },
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
@@ -111,17 +111,17 @@ impl LoadedMachine {
                 given if given.is_empty() => None,
                 given => Some(given),
             },
-            ledger: ledger.clone(),
+            registry: registry.clone(),
             disk: Disk::default(),
             watch: Arc::default(),
         }
     }
 
     /// The machine without a configuration.
-    fn unconfigured(ledger: &Ledger) -> Self {
+    fn unconfigured(registry: &FileRegistry) -> Self {
         Self {
             machine: Machine::unconfigured(),
-            ledger: ledger.clone(),
+            registry: registry.clone(),
             ..Self::default()
         }
     }
@@ -138,7 +138,7 @@ impl LoadedMachine {
 #[derive(Debug)]
 pub struct Machines {
     options: MachineOptions,
-    ledger: Ledger,
+    registry: FileRegistry,
     disk: Disk,
     /// The axes of the programs, where axes are asked for.
     ahead: Option<AxesOfPrograms>,
@@ -152,10 +152,10 @@ pub struct Machines {
 
 impl Machines {
     /// No machine yet. The files that are read are noted in the ledger.
-    pub fn new(options: MachineOptions, ledger: &Ledger) -> Self {
+    pub fn new(options: MachineOptions, registry: &FileRegistry) -> Self {
         Self {
             options,
-            ledger: ledger.clone(),
+            registry: registry.clone(),
             disk: Disk::default(),
             ahead: None,
             watch: Arc::default(),
@@ -229,15 +229,15 @@ impl Machines {
             let project = loaded
                 .origin
                 .as_ref()
-                .map(|_| loaded.reach.project.as_path());
-            let dirs = loaded.reach.program_dirs.iter().map(PathBuf::as_path);
+                .map(|_| loaded.search_path.project.as_path());
+            let dirs = loaded.search_path.program_dirs.iter().map(PathBuf::as_path);
             project.into_iter().chain(dirs)
         })
     }
 
     /// The files that were read for machines and programs so far.
     pub(super) fn files_read(&self) -> Vec<PathBuf> {
-        self.ledger.files()
+        self.registry.files()
     }
 
     /// Has a configuration count for the programs of a folder, unless the user chose another one.
@@ -299,9 +299,9 @@ impl Machines {
         let options = &self.options;
         let mut loaded = match config {
             Some(path) => self.read_config(path)?,
-            None => LoadedMachine::unconfigured(&self.ledger),
+            None => LoadedMachine::unconfigured(&self.registry),
         };
-        loaded.reach.elsewhere = options.elsewhere;
+        loaded.search_path.outside_policy = options.outside_policy;
         if let Some(path) = &options.startup {
             let axes = self.read_startup(path)?;
             loaded.machine = axes.machine;
@@ -320,19 +320,21 @@ impl Machines {
         let text = read_list(path, &self.disk)?;
         match Configuration::from_toml(text, &mut ListsOnDisk::new(&self.disk)) {
             Ok(configuration) => {
-                let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
-                let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
-                grounds.conceal(&mut loaded.diagnostics);
+                let mut loaded = LoadedMachine::new(configuration, path, &self.registry);
+                let allowed_roots =
+                    self.options
+                        .allowed_roots(path, &loaded.search_path, &self.disk);
+                allowed_roots.conceal(&mut loaded.diagnostics);
                 Ok(loaded)
             }
             Err(error) => {
-                let reach = Reach {
+                let search_path = SearchPath {
                     project: path.parent().unwrap_or(path).to_owned(),
-                    ..Reach::default()
+                    ..SearchPath::default()
                 };
                 let mut diagnostics = vec![*error.diagnostic];
-                let grounds = self.options.grounds(path, &reach, &self.disk);
-                grounds.conceal(&mut diagnostics);
+                let allowed_roots = self.options.allowed_roots(path, &search_path, &self.disk);
+                allowed_roots.conceal(&mut diagnostics);
                 Err(HostError::Configuration {
                     path: path.to_owned(),
                     diagnostics,
@@ -358,9 +360,11 @@ impl Machines {
                 message: wrong.message.clone(),
             });
         }
-        let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
-        let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
-        grounds.conceal(&mut loaded.diagnostics);
+        let mut loaded = LoadedMachine::new(configuration, path, &self.registry);
+        let allowed_roots = self
+            .options
+            .allowed_roots(path, &loaded.search_path, &self.disk);
+        allowed_roots.conceal(&mut loaded.diagnostics);
         Ok(loaded)
     }
 
@@ -381,18 +385,18 @@ impl Machines {
 
 impl MachineOptions {
     /// The folders whose lists are shown: the current one, that of a file and those of programs.
-    fn grounds(&self, path: &Path, reach: &Reach, disk: &Disk) -> Grounds {
-        let reach = Reach {
-            elsewhere: self.elsewhere,
-            ..reach.clone()
+    fn allowed_roots(&self, path: &Path, search_path: &SearchPath, disk: &Disk) -> AllowedRoots {
+        let search_path = SearchPath {
+            outside_policy: self.outside_policy,
+            ..search_path.clone()
         };
-        let grounds = reach.grounds(disk).with(Path::new(""));
+        let allowed_roots = search_path.allowed_roots(disk).with(Path::new(""));
         // A file that the user names lies where it lies; one that was found may be a link.
         match (&self.configuration, disk.real(path)) {
             (ConfigurationChoice::File(_), Ok(real)) => {
-                grounds.with(real.parent().unwrap_or(&real))
+                allowed_roots.with(real.parent().unwrap_or(&real))
             }
-            _ => grounds,
+            _ => allowed_roots,
         }
     }
 }

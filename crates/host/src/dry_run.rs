@@ -8,9 +8,9 @@ use super::axes_ahead::AxesAhead;
 use super::discovery::LoadedMachine;
 use super::disk::Disk;
 use super::error::HostError;
-use super::finder::{ProgramFinder, Reach};
+use super::finder::{ProgramFinder, SearchPath};
 use super::input::{Input, Naming, Opened};
-use super::ledger::Ledger;
+use super::registry::FileRegistry;
 use super::state_file::StateFile;
 use super::switched_axes::switched_axes;
 use super::watch::{Watch, Watched};
@@ -21,21 +21,21 @@ use frictcomp::timeline::Sink;
 
 /// Where called programs are looked for, and how files are named.
 #[derive(Clone)]
-pub struct Surroundings<'a> {
-    reach: Reach,
-    ledger: Ledger,
+pub struct RunContext<'a> {
+    search_path: SearchPath,
+    registry: FileRegistry,
     disk: Disk,
     watch: Arc<Watch>,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
 }
 
-impl<'a> Surroundings<'a> {
+impl<'a> RunContext<'a> {
     /// What a machine's configuration says about them.
     pub fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
         Self {
-            reach: loaded.reach.clone(),
-            ledger: loaded.ledger.clone(),
+            search_path: loaded.search_path.clone(),
+            registry: loaded.registry.clone(),
             disk: loaded.disk.clone(),
             watch: Arc::clone(&loaded.watch),
             naming,
@@ -59,11 +59,11 @@ impl<'a> Surroundings<'a> {
 pub fn run_program(
     session: &mut Session,
     input: &Input,
-    surroundings: &Surroundings<'_>,
+    context: &RunContext<'_>,
     sink: &mut dyn Sink,
 ) -> Result<ControlFlow<()>, HostError> {
-    let name = input.name(surroundings.naming);
-    let watch = &*surroundings.watch;
+    let name = input.name(context.naming);
+    let watch = &*context.watch;
     let mut watched;
     let sink: &mut dyn Sink = if watch.is_on() {
         watched = Watched::new(sink, watch);
@@ -71,15 +71,15 @@ pub fn run_program(
     } else {
         sink
     };
-    let Surroundings {
-        reach,
+    let RunContext {
+        search_path,
         naming,
         disk,
-        ledger,
+        registry,
         ..
-    } = surroundings;
-    let mut finder = ProgramFinder::new(input, reach, *naming, disk).noting(ledger);
-    let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
+    } = context;
+    let mut finder = ProgramFinder::new(input, search_path, *naming, disk).noting(registry);
+    let flow = match input.open(context.naming, context.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {
             let flow = session.program(&name, Program::Lines(&mut lines), &mut finder, sink);
@@ -134,7 +134,7 @@ pub struct Programs<'a> {
 
 /// How far programs were run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Played {
+pub struct RunSummary {
     /// `Break` when the sink wanted no more.
     pub flow: ControlFlow<()>,
     /// How many programs were left when the session stopped.
@@ -148,9 +148,9 @@ pub struct Played {
 pub fn run_programs(
     session: &mut Session,
     programs: Programs<'_>,
-    surroundings: &Surroundings<'_>,
+    context: &RunContext<'_>,
     sink: &mut dyn Sink,
-) -> Result<Played, HostError> {
+) -> Result<RunSummary, HostError> {
     let mut flow = session.begin(programs.said, sink);
     let mut unrun = programs.inputs.len();
     for input in programs.inputs {
@@ -158,18 +158,18 @@ pub fn run_programs(
             break;
         }
         unrun -= 1;
-        flow = run_program(session, input, surroundings, sink)?;
+        flow = run_program(session, input, context, sink)?;
     }
     if flow.is_continue() {
         flow = session.finish(sink);
     } else {
         unrun = 0;
     }
-    Ok(Played { flow, unrun })
+    Ok(RunSummary { flow, unrun })
 }
 
 /// How a program runs in a session of its own.
-pub struct Alone {
+pub struct SingleRun {
     /// How the session runs.
     pub options: SessionOptions,
     /// How files are named in records.
@@ -195,10 +195,10 @@ pub enum Axes {
 pub fn run_alone(
     input: &Input,
     loaded: &LoadedMachine,
-    alone: Alone,
+    alone: SingleRun,
     sink: &mut dyn Sink,
 ) -> Result<Session, HostError> {
-    let surroundings = Surroundings::new(loaded, alone.naming);
+    let context = RunContext::new(loaded, alone.naming);
     let mut options = alone.options;
     if !loaded.machine.is_described() {
         options.switched = switched_axes([input]);
@@ -209,7 +209,7 @@ pub fn run_alone(
     }
     let mut flow = begin(&mut session, loaded, sink);
     if flow.is_continue() {
-        flow = run_program(&mut session, input, &surroundings, sink)?;
+        flow = run_program(&mut session, input, &context, sink)?;
     }
     if flow.is_continue() {
         let _ = session.finish(sink);

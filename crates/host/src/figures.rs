@@ -9,7 +9,7 @@ const UNIT: &str = " µm";
 
 /// The text of today, in which each line stays as it was agreed on if only its figures changed, and
 /// none by more than the tolerance. A line is the same one if it is the same but for its figures.
-pub(super) fn settled(before: &str, now: String, tolerance_um: f64) -> String {
+pub(super) fn diff_with_tolerance(before: &str, now: String, tolerance_um: f64) -> String {
     if tolerance_um <= 0.0 || before == now {
         return now;
     }
@@ -73,7 +73,7 @@ mod tests {
     fn only_figures_have_a_tolerance() {
         // R9.84
         let agreed = "max  9.8 µm\n  1.0 µm  N10 X10.5\n  2.0 µm  N20 X1\n";
-        let of = |now: &str| settled(agreed, now.to_owned(), 0.5);
+        let of = |now: &str| diff_with_tolerance(agreed, now.to_owned(), 0.5);
         let near = "max 10.2 µm\n  1.4 µm  N10 X10.5\n  2.0 µm  N20 X1\n";
         assert_eq!(of(near), agreed);
         // A coordinate is no figure; the other lines stay as they were agreed on.

@@ -6,40 +6,42 @@ use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::allowed_roots::{AllowedRoots, OutsidePolicy};
 use super::disk::Disk;
-use super::grounds::{Elsewhere, Grounds};
 use super::input::{Input, Naming};
-use super::ledger::{Ledger, PROGRAM};
 use super::open_text::OpenText;
 use super::paths::{Entry, normal, spelt_as};
+use super::registry::{FileRegistry, PROGRAM};
 use frictcomp::session::{Finder, NoProgram};
 use frictcomp::text::SourceFile;
 
 /// Where the programs that are called may lie besides their caller's folder.
 #[derive(Debug, Clone, Default)]
-pub struct Reach {
+pub struct SearchPath {
     /// The folders of `program_dirs`, which are searched in this order.
     pub program_dirs: Vec<PathBuf>,
     /// The folder of the configuration; empty, the current one, without.
     pub project: PathBuf,
     /// What becomes of programs that lie elsewhere.
-    pub elsewhere: Elsewhere,
+    pub outside_policy: OutsidePolicy,
 }
 
-impl Reach {
+impl SearchPath {
     /// The project, the configured folders and everything below them.
-    pub fn grounds(&self, disk: &Disk) -> Grounds {
-        let grounds = Grounds::on(disk, self.elsewhere).with(&self.project);
+    pub fn allowed_roots(&self, disk: &Disk) -> AllowedRoots {
+        let allowed_roots = AllowedRoots::on(disk, self.outside_policy).with(&self.project);
         self.program_dirs
             .iter()
-            .fold(grounds, |grounds, folder| grounds.with(folder))
+            .fold(allowed_roots, |allowed_roots, folder| {
+                allowed_roots.with(folder)
+            })
     }
 }
 
 /// Finds called programs beside the caller and in the configured folders.
 pub struct ProgramFinder {
     folders: Vec<PathBuf>,
-    grounds: Grounds,
+    allowed_roots: AllowedRoots,
     naming: Naming,
     /// Where the files lie that were named so far.
     known: HashMap<String, PathBuf>,
@@ -48,13 +50,13 @@ pub struct ProgramFinder {
     /// What the folders hold that were searched, by names in lower case.
     listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
     /// Where the files are noted that were read.
-    ledger: Ledger,
+    registry: FileRegistry,
     disk: Disk,
 }
 
 impl ProgramFinder {
     /// A finder for the programs that `main` calls.
-    pub fn new(main: &Input, reach: &Reach, naming: Naming, disk: &Disk) -> Self {
+    pub fn new(main: &Input, search_path: &SearchPath, naming: Naming, disk: &Disk) -> Self {
         let mut known = HashMap::new();
         let mut names = HashMap::new();
         if let Input::File(path) | Input::Open(OpenText { path, .. }) = main {
@@ -63,21 +65,21 @@ impl ProgramFinder {
             known.insert(name, path.clone());
         }
         Self {
-            folders: reach.program_dirs.clone(),
-            grounds: reach.grounds(disk).with(main.folder()),
+            folders: search_path.program_dirs.clone(),
+            allowed_roots: search_path.allowed_roots(disk).with(main.folder()),
             naming,
             known,
             names,
             listings: HashMap::new(),
-            ledger: Ledger::default(),
+            registry: FileRegistry::default(),
             disk: disk.clone(),
         }
     }
 
     /// The same, which notes what it reads.
-    pub fn noting(self, ledger: &Ledger) -> Self {
-        let ledger = ledger.clone();
-        Self { ledger, ..self }
+    pub fn noting(self, registry: &FileRegistry) -> Self {
+        let registry = registry.clone();
+        Self { registry, ..self }
     }
 
     fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
@@ -145,12 +147,12 @@ impl ProgramFinder {
             return Err(NoProgram::Absent);
         }
         let name = &*native(name);
-        if !self.grounds.may_hold(&folder.join(name)) {
+        if !self.allowed_roots.may_hold(&folder.join(name)) {
             return Err(NoProgram::Outside);
         }
         let path = self.existing(folder, name).ok_or(NoProgram::Absent)?;
         let entry = self.disk.entry(&path).map_err(|error| unusable(&error))?;
-        if !self.grounds.holds(&path) {
+        if !self.allowed_roots.holds(&path) {
             return Err(NoProgram::Outside);
         }
         match entry {
@@ -247,8 +249,8 @@ impl ProgramFinder {
 impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
         let path = self.locate(name, caller);
-        let path = path.inspect_err(|_| self.ledger.misses(name))?;
-        self.ledger.reads(PROGRAM, &path);
+        let path = path.inspect_err(|_| self.registry.misses(name))?;
+        self.registry.reads(PROGRAM, &path);
         let text = self.disk.read(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), text))
     }
@@ -288,12 +290,12 @@ mod tests {
         std::fs::write(path("cycles/drill.nc"), "folder").unwrap();
         std::fs::write(path("cycles/deep/x.nc"), "deep").unwrap();
         let main = Input::File(path("main.nc"));
-        let reach = Reach {
+        let search_path = SearchPath {
             program_dirs: vec![path("cycles")],
-            ..Reach::default()
+            ..SearchPath::default()
         };
         for naming in [Naming::AsGiven, Naming::FileName] {
-            let mut finder = ProgramFinder::new(&main, &reach, naming, &Disk::default());
+            let mut finder = ProgramFinder::new(&main, &search_path, naming, &Disk::default());
             let caller = main.name(naming);
             let mut find = |name: &str| {
                 let found = finder.find(name, &caller).ok();
@@ -328,16 +330,20 @@ mod tests {
             std::fs::write(path(name), "text").unwrap();
         }
         let main = Input::File(path("project/programs/main.nc"));
-        let reach = |elsewhere| Reach {
+        let search_path = |outside_policy| SearchPath {
             program_dirs: vec![path("shared")],
             project: path("project"),
-            elsewhere,
+            outside_policy,
         };
         let caller = main.name(Naming::AsGiven);
         let secret = path("secret.nc").display().to_string();
-        let why = |elsewhere, name: &str| {
-            let mut finder =
-                ProgramFinder::new(&main, &reach(elsewhere), Naming::AsGiven, &Disk::default());
+        let why = |outside_policy, name: &str| {
+            let mut finder = ProgramFinder::new(
+                &main,
+                &search_path(outside_policy),
+                Naming::AsGiven,
+                &Disk::default(),
+            );
             finder
                 .find(name, &caller)
                 .map(|file| file.text().to_owned())
@@ -349,7 +355,11 @@ mod tests {
             "deep/x.nc",
             r"C:\CNC\prg\main.nc",
         ] {
-            assert_eq!(why(Elsewhere::Kept, name).as_deref(), Ok("text"), "{name}");
+            assert_eq!(
+                why(OutsidePolicy::Kept, name).as_deref(),
+                Ok("text"),
+                "{name}"
+            );
         }
         for name in [
             "../../secret.nc",
@@ -360,19 +370,22 @@ mod tests {
             r"D:\secret.nc",
         ] {
             assert_eq!(
-                why(Elsewhere::Kept, name),
+                why(OutsidePolicy::Kept, name),
                 Err(NoProgram::Outside),
                 "{name}"
             );
         }
         assert_eq!(
-            why(Elsewhere::Allowed, "../../secret.nc").as_deref(),
+            why(OutsidePolicy::Allowed, "../../secret.nc").as_deref(),
             Ok("text")
         );
-        assert_eq!(why(Elsewhere::Allowed, &secret).as_deref(), Ok("text"));
-        assert_eq!(why(Elsewhere::Kept, "not-there.nc"), Err(NoProgram::Absent));
+        assert_eq!(why(OutsidePolicy::Allowed, &secret).as_deref(), Ok("text"));
+        assert_eq!(
+            why(OutsidePolicy::Kept, "not-there.nc"),
+            Err(NoProgram::Absent)
+        );
         let folder = NoProgram::Unusable("is a folder".to_owned());
-        assert_eq!(why(Elsewhere::Kept, "folder.nc"), Err(folder));
+        assert_eq!(why(OutsidePolicy::Kept, "folder.nc"), Err(folder));
     }
 
     #[test]
@@ -385,8 +398,9 @@ mod tests {
         }
         std::fs::write(path("main.nc"), "").unwrap();
         let main = Input::File(path("main.nc"));
-        let reach = Reach::default();
-        let mut finder = ProgramFinder::new(&main, &reach, Naming::FileName, &Disk::default());
+        let search_path = SearchPath::default();
+        let mut finder =
+            ProgramFinder::new(&main, &search_path, Naming::FileName, &Disk::default());
         let mut find = |name: &str| finder.find(name, "main.nc").ok().unwrap();
         let (one, two, again) = (
             find("one/sub.nc"),

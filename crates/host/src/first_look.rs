@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
 
+use super::atomic_file::{AtomicFile, Placed, take_away_left};
 use super::disk::Disk;
 use super::error::HostError;
 use super::file_kind::is_list;
@@ -14,7 +15,6 @@ use super::list_files::{ListsOnDisk, read_list};
 use super::paths::normal;
 use super::paths::relative;
 use super::read::read_text;
-use super::unfinished::{Placed, UnfinishedFile, take_away_left};
 use super::walk::find_programs;
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::ListKind;
@@ -50,7 +50,7 @@ pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, Host
 /// There is such a file, or it cannot be written.
 pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
     let mut placed = Placed::default();
-    let written = UnfinishedFile::begin(target).and_then(|mut file| {
+    let written = AtomicFile::begin(target).and_then(|mut file| {
         take_away_left(&file, &mut BTreeSet::new());
         file.write_all(text.as_bytes())?;
         file.take_free_place()?;

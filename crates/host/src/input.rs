@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::error::HostError;
-use super::ledger::{Ledger, PROGRAM};
+use super::fixed_length::FixedLengthReader;
 use super::lines::LineReader;
 use super::open_text::OpenText;
 use super::read::{read_text, read_whole};
-use super::steady::Steady;
+use super::registry::{FileRegistry, PROGRAM};
 use crate::decode::decode;
 use frictcomp::syntax::FlowScan;
 use frictcomp::text::{LineSource, SourceFile, shown_path};
@@ -114,12 +114,12 @@ impl Input {
     }
 
     /// Notes the program among the files that are read.
-    pub fn note(&self, ledger: &Ledger) {
+    pub fn note(&self, registry: &FileRegistry) {
         let path = match self {
             Self::File(path) | Self::Open(OpenText { path, .. }) => path,
             Self::Stdin => Path::new(STDIN),
         };
-        ledger.reads(PROGRAM, path);
+        registry.reads(PROGRAM, path);
     }
 
     /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to
@@ -138,7 +138,9 @@ impl Input {
             Self::Open(open) => Ok(open_text(open, self.name(naming))),
             Self::Stdin => Ok(match standard_input() {
                 // A file redirected with `<` must not change while it is read, like one that is named.
-                Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
+                Some((file, metadata)) => {
+                    arriving(FixedLengthReader::new(file, &metadata), before_waiting)
+                }
                 None => arriving(io::stdin().lock(), before_waiting),
             }),
         }
@@ -197,7 +199,7 @@ fn open_file<'a>(
     if !metadata.is_file() {
         return Ok(arriving(file, before_waiting));
     }
-    let mut lines = LineReader::of_length(Steady::new(file, &metadata), metadata.len());
+    let mut lines = LineReader::of_length(FixedLengthReader::new(file, &metadata), metadata.len());
     if !lines.is_wide() && !lines.scan()?.needs_whole_text() {
         return Ok(Opened::Lines(lines.boxed()));
     }

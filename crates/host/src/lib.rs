@@ -20,9 +20,10 @@
 //! # Ok::<(), frictcomp_host::NotEncodable>(())
 //! ```
 
-mod agreed;
+mod allowed_roots;
 pub mod ask;
 mod assumed;
+mod atomic_file;
 mod audits;
 mod axes_ahead;
 mod both_versions;
@@ -42,12 +43,12 @@ mod figures;
 mod file_kind;
 mod finder;
 mod first_look;
+mod fixed_length;
 mod git;
-mod grounds;
+mod golden;
 mod in_use;
 mod input;
 mod interrupt;
-mod ledger;
 mod lines;
 mod list_files;
 mod main_programs;
@@ -60,22 +61,21 @@ mod parameter_files;
 mod paths;
 mod pieces;
 mod read;
+mod registry;
 pub mod replay;
 mod shared_map;
 mod signatures;
 mod simulations;
 mod state_file;
-mod steady;
 mod switched_axes;
 mod trace_error;
 mod traces;
-mod unfinished;
 mod unread;
 mod walk;
 mod watch;
 mod workers;
 
-pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
+pub use allowed_roots::{AllowedRoots, OutsidePolicy};
 pub use audits::{ArchiveAuditor, AuditOptions};
 pub use both_versions::{MachineOfVersions, MachineOwner};
 pub use call_graph::{CallGraph, FoundCall, GraphProgram, MissingCall};
@@ -87,19 +87,18 @@ pub use digest::{sha256_of, sha256_of_text};
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;
 pub use dry_run::{
-    Alone, Axes, Played, Programs, Surroundings, expect_axes, open_session, run_alone, run_program,
-    run_programs,
+    Axes, Programs, RunContext, RunSummary, SingleRun, expect_axes, open_session, run_alone,
+    run_program, run_programs,
 };
 pub use encoded_text::{EncodedText, NotEncodable};
 pub use error::HostError;
 pub use file_kind::{CONFIG_NAME, is_program, is_source};
-pub use finder::{ProgramFinder, Reach};
+pub use finder::{ProgramFinder, SearchPath};
 pub use first_look::{outline_of, write_new};
 pub use git::{ChangedFile, OldFile, Revision};
-pub use grounds::{Elsewhere, Grounds};
+pub use golden::{GoldenDrift, GoldenFile, GoldenKind, GoldenResults, UpdatedFolder};
 pub use input::{Input, Naming, reopen};
 pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
-pub use ledger::{Ledger, Replaces};
 pub use list_files::{ListsOnDisk, read_list};
 pub use main_programs::{ExecutedProgram, main_programs};
 pub use memory::memory_for_simulation;
@@ -108,6 +107,7 @@ pub use open_text::OpenText;
 pub use outputs::{OutputFile, OutputFiles};
 pub use parameter_files::{check_list_file, find_plant, read_value_list};
 pub use read::read_text;
+pub use registry::{FileRegistry, Replaces};
 pub use signatures::{SignedAt, signatures_of};
 pub use simulations::{compare, tune};
 pub use state_file::StateFile;

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use super::atomic_file::{AtomicFile, Placed};
 use super::error::HostError;
 use super::read::{read_bytes, read_text};
-use super::unfinished::{Placed, UnfinishedFile};
 use crate::decode::decode;
 use crate::encoded_text::EncodedText;
 use frictcomp::diagnostic::{Fix, edits};
@@ -103,7 +103,7 @@ pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Resu
             return Err(HostError::ChangedMeanwhile(path.clone()));
         }
         let failed = |error| HostError::write(path, error);
-        let mut file = UnfinishedFile::begin(path).map_err(failed)?;
+        let mut file = AtomicFile::begin(path).map_err(failed)?;
         file.write_all(&mended.bytes).map_err(failed)?;
         file.sync().map_err(failed)?;
         file.check_place().map_err(failed)?;

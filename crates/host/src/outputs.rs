@@ -6,16 +6,16 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::atomic_file::{AtomicFile, Placed, take_away_left};
 use super::error::HostError;
-use super::ledger::{Claim, Ledger, Replaces};
-use super::unfinished::{Placed, UnfinishedFile, take_away_left};
+use super::registry::{Claim, FileRegistry, Replaces};
 use frictcomp::text::shown_path;
 
 /// The files that a piece of work writes. Dropped before [`finish`](Self::finish), nothing was
 /// written.
 #[derive(Debug)]
 pub struct OutputFiles {
-    ledger: Ledger,
+    registry: FileRegistry,
     claims: Vec<Claim>,
     open: Vec<OutputFile>,
     /// The number of inputs that the claims were compared with before.
@@ -35,7 +35,7 @@ enum Place {
     /// A device or a pipe, which cannot be replaced.
     Open(Box<dyn Write + Send>),
     /// Beside the file whose place it takes.
-    Beside(UnfinishedFile),
+    Beside(AtomicFile),
 }
 
 impl fmt::Debug for Place {
@@ -49,9 +49,9 @@ impl fmt::Debug for Place {
 
 impl OutputFiles {
     /// No output yet; those to come are compared with the inputs of a ledger.
-    pub fn new(ledger: &Ledger) -> Self {
+    pub fn new(registry: &FileRegistry) -> Self {
         Self {
-            ledger: ledger.clone(),
+            registry: registry.clone(),
             claims: Vec::new(),
             open: Vec::new(),
             compared: 0,
@@ -62,8 +62,8 @@ impl OutputFiles {
     /// Some of the outputs of other work, which has compared them with all inputs that are known.
     pub(super) fn part_of(whole: &Self) -> Self {
         Self {
-            compared: whole.ledger.count(),
-            ..Self::new(&whole.ledger)
+            compared: whole.registry.count(),
+            ..Self::new(&whole.registry)
         }
     }
 
@@ -101,7 +101,7 @@ impl OutputFiles {
     /// # Errors
     /// It cannot be written.
     pub fn begin(&mut self, path: &Path) -> Result<OutputFile, HostError> {
-        let beside = UnfinishedFile::begin(path).map_err(|error| HostError::write(path, error))?;
+        let beside = AtomicFile::begin(path).map_err(|error| HostError::write(path, error))?;
         take_away_left(&beside, &mut self.swept);
         Ok(self.keep(path, Place::Beside(beside)))
     }
@@ -111,7 +111,7 @@ impl OutputFiles {
     /// # Errors
     /// An output is an input or another output.
     pub fn check(&self) -> Result<(), HostError> {
-        self.ledger.check(&self.claims, self.compared)
+        self.registry.check(&self.claims, self.compared)
     }
 
     /// Everything is written: every file takes its place, and `placed` hears of each.
@@ -123,7 +123,7 @@ impl OutputFiles {
             file.sync()?;
         }
         // What the programs called is known now.
-        self.ledger.check(&self.claims, self.compared)?;
+        self.registry.check(&self.claims, self.compared)?;
         // All take their place, or none.
         for file in &self.open {
             if let Place::Beside(beside) = &*file.place() {

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::disk::Disk;
 use super::error::HostError;
-use super::ledger::Ledger;
 use super::list_files::{ListsOnDisk, read_list};
 use super::read::read_text;
+use super::registry::FileRegistry;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ReadList};
 use frictcomp::machine::{ListsReport, check_configuration, check_list};
@@ -17,8 +17,8 @@ use frictcomp_physics::simulation::{Plant, Preset};
 ///
 /// # Errors
 /// The file cannot be read, or the control would not take it.
-pub fn read_value_list(path: &Path, ledger: &Ledger) -> Result<ReadList, HostError> {
-    ledger.reads("value list", path);
+pub fn read_value_list(path: &Path, registry: &FileRegistry) -> Result<ReadList, HostError> {
+    registry.reads("value list", path);
     let source = SourceFile::new(shown_path(path), read_text(path)?);
     FrictionList::read(source).map_err(|refused| HostError::ValueList {
         path: path.to_owned(),
@@ -31,7 +31,7 @@ pub fn read_value_list(path: &Path, ledger: &Ledger) -> Result<ReadList, HostErr
 ///
 /// # Errors
 /// There is no such preset, or the file cannot be used.
-pub fn find_plant(name: &str, ledger: &Ledger) -> Result<Plant, HostError> {
+pub fn find_plant(name: &str, registry: &FileRegistry) -> Result<Plant, HostError> {
     let unknown = match name.parse::<Preset>() {
         Ok(preset) => return Ok(preset.plant()),
         Err(unknown) => unknown,
@@ -41,7 +41,7 @@ pub fn find_plant(name: &str, ledger: &Ledger) -> Result<Plant, HostError> {
     if !is_file {
         return Err(HostError::NoPlant(unknown));
     }
-    ledger.reads("plant", path);
+    registry.reads("plant", path);
     let source = SourceFile::new(name.to_owned(), read_text(path)?);
     Plant::from_toml(source).map_err(|error| HostError::Plant {
         path: path.to_owned(),

@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 use fnv::FnvHasher;
 use serde::Deserialize;
 
+use super::atomic_file::target;
 use super::error::HostError;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
-use super::unfinished::target;
 use frictcomp::session::{STATE_SCHEMA, SavedState, StateError};
 use frictcomp::text::shown_json;
 
@@ -225,7 +225,7 @@ fn suffixed(path: &Path, suffix: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ledger::Ledger;
+    use super::super::registry::FileRegistry;
     use super::*;
 
     fn state() -> SavedState {
@@ -241,7 +241,7 @@ mod tests {
         let path = folder.path().join("state.json");
         let file = StateFile::lock(&path).unwrap();
         assert!(file.load().unwrap().is_none());
-        let mut outputs = OutputFiles::new(&Ledger::default());
+        let mut outputs = OutputFiles::new(&FileRegistry::default());
         file.save(&state(), &mut outputs).unwrap();
         outputs.finish(|_| ()).unwrap();
         drop(file);
@@ -264,7 +264,7 @@ mod tests {
         saved.macros.insert(hidden.to_owned(), hidden.to_owned());
         saved.lost_parameters = Some(hidden.into());
         let file = StateFile::lock(&path).unwrap();
-        let mut outputs = OutputFiles::new(&Ledger::default());
+        let mut outputs = OutputFiles::new(&FileRegistry::default());
         file.save(&saved, &mut outputs).unwrap();
         outputs.finish(|_| ()).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
@@ -292,7 +292,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state.json");
         let file = StateFile::lock(&path).unwrap();
-        let mut outputs = OutputFiles::new(&Ledger::default());
+        let mut outputs = OutputFiles::new(&FileRegistry::default());
         file.save(&state(), &mut outputs).unwrap();
         outputs.finish(|_| ()).unwrap();
         let whole = std::fs::read(&path).unwrap();

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::ledger::Ledger;
 use super::read::read_bytes;
+use super::registry::FileRegistry;
 use frictcomp::diagnostic::did_you_mean;
 use frictcomp::syntax::code_words;
 
@@ -21,14 +21,14 @@ pub struct UnreadVariable {
 /// again: then there are none.
 pub fn unread_variables<'a>(
     names: impl IntoIterator<Item = &'a str>,
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Vec<UnreadVariable> {
     let mut unread: BTreeSet<&str> = names.into_iter().collect();
-    if unread.is_empty() || ledger.has_streams() {
+    if unread.is_empty() || registry.has_streams() {
         return Vec::new();
     }
     let mut variables = BTreeSet::new();
-    for path in ledger.programs() {
+    for path in registry.programs() {
         if unread.is_empty() {
             break;
         }

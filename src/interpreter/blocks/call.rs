@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::Code;
 use crate::interpreter::programs::wanted::Wanted;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
@@ -19,7 +19,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn wanted(
         &mut self,
         call: &Call,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Wanted>, Box<Fault>> {
         let name = self.called_name(call.name, at)?;
         let mut own = BTreeMap::new();
@@ -41,8 +41,8 @@ impl Interpreter {
                 part: None,
             })),
             Value::Unknown(cause) => {
-                self.forget_all(&cause);
-                if self.work.unread.get() {
+                self.havoc_all(&cause);
+                if self.scratch.unread.get() {
                     return Ok(None);
                 }
                 let fault = Fault::new(
@@ -66,7 +66,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn called_name(
         &mut self,
         name: CallName,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Value, Box<Fault>> {
         Ok(match name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
@@ -80,7 +80,7 @@ impl Interpreter {
 }
 
 /// Where the name of a program stands in its block, without its quotes.
-fn named(name: CallName, at: &At<'_>) -> Option<Span> {
+fn named(name: CallName, at: &BlockContext<'_>) -> Option<Span> {
     let span = match name {
         CallName::Literal(span) | CallName::Quoted(span) => span,
         CallName::Variable(_) => return None,

@@ -8,9 +8,9 @@ use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis, Moves};
 use crate::interpreter::effects::couple::{ends_following, gear_of};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 impl Interpreter {
@@ -18,7 +18,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn move_by_bracket(
         &mut self,
         bracket: AxisBracket<'_>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) {
         let Some(axis) = self.axis_named(bracket.name) else {
             return;
@@ -33,12 +33,12 @@ impl Interpreter {
             return;
         };
         self.see(axis);
-        self.state.control.modal.forget_position(axis);
+        self.state.control.modal.havoc_position(axis);
         if row.moves == Moves::Follower {
             self.gear_in(axis, &body);
             return;
         }
-        self.work.also_moved.push(MovedAxis {
+        self.scratch.also_moved.push(MovedAxis {
             axis,
             span,
             kind: row.kind,
@@ -59,7 +59,7 @@ impl Interpreter {
             named
         };
         for axis in axes {
-            self.work.also_moved.push(MovedAxis {
+            self.scratch.also_moved.push(MovedAxis {
                 axis,
                 span,
                 kind: row.kind,
@@ -70,7 +70,7 @@ impl Interpreter {
 
     /// `#ROTATION ON [ANGLE=30]`: whether a motion along one axis of the plane certainly moves the other
     /// one, too.
-    pub(in crate::interpreter) fn rotate(&mut self, name: &str, rest: &str, at: &At<'_>) {
+    pub(in crate::interpreter) fn rotate(&mut self, name: &str, rest: &str, at: &BlockContext<'_>) {
         if !name.starts_with("#ROTATION") {
             return;
         }
@@ -89,7 +89,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn carry_along(&mut self, words: AxisWords) {
         let carries = self.state.control.couplings.carry()
             || !self.state.control.modal.transformed.is_empty()
-            || self.work.word_row.is_some();
+            || self.scratch.word_row.is_some();
         if carries && self.state.control.described.is_none() {
             self.carry(words);
         }
@@ -97,7 +97,7 @@ impl Interpreter {
 
     #[inline(never)]
     fn carry(&mut self, words: AxisWords) {
-        let row = self.work.word_row;
+        let row = self.scratch.word_row;
         if let Some(row) = row.filter(|row| row.certainty == Certainty::Possible) {
             self.leave_to_operator(row.kind, row.moves);
         }
@@ -110,7 +110,7 @@ impl Interpreter {
     /// In manual mode the operator moves axes.
     fn leave_to_operator(&mut self, kind: MotionKind, moves: Moves) {
         let words: Vec<_> = self
-            .work
+            .scratch
             .moved
             .iter()
             .map(|it| (it.axis, it.span))
@@ -122,7 +122,7 @@ impl Interpreter {
             words
         };
         for (axis, span) in axes {
-            self.work.also_moved.push(MovedAxis {
+            self.scratch.also_moved.push(MovedAxis {
                 axis,
                 span,
                 kind,
@@ -167,9 +167,9 @@ impl Interpreter {
 
     /// A motion word in a rotated or transformed frame moves its other axes, too.
     fn move_in_frame(&mut self) {
-        let of_words = self.work.moved.iter().map(|it| (it.axis, it.span));
+        let of_words = self.scratch.moved.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
-        let unknown = self.work.also_moved.iter().filter(moves);
+        let unknown = self.scratch.also_moved.iter().filter(moves);
         let in_motion: Vec<_> = of_words
             .clone()
             .chain(unknown.map(|it| (it.axis, it.span)))
@@ -202,7 +202,7 @@ impl Interpreter {
                 kind: MotionKind::Frame,
                 certainty,
             });
-        self.work.also_moved.extend(found);
+        self.scratch.also_moved.extend(found);
     }
 
     /// Axes that follow what the block moves.
@@ -215,9 +215,9 @@ impl Interpreter {
             AxisWords::Homing => MotionKind::Homing,
             _ => MotionKind::Coupled,
         };
-        let of_words = self.work.moved.iter().filter(|_| moves);
+        let of_words = self.scratch.moved.iter().filter(|_| moves);
         let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
-        let in_motion = of_words.chain(self.work.also_moved.iter().copied());
+        let in_motion = of_words.chain(self.scratch.also_moved.iter().copied());
         let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
         for moved in in_motion {
             let known = moving.entry(moved.axis).or_insert(moved);
@@ -269,6 +269,6 @@ impl Interpreter {
             known.is_none_or(|known| known.certainty > motion.certainty)
         };
         let new: Vec<_> = moving.into_values().filter(is_new).collect();
-        self.work.also_moved.extend(new);
+        self.scratch.also_moved.extend(new);
     }
 }

@@ -5,7 +5,7 @@ use crate::comp::{
 };
 use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
 use crate::interpreter::coordinates::chain;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -15,15 +15,15 @@ use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
 
 impl Interpreter {
-    pub(in crate::interpreter) fn comp(&mut self, command: &CompCommand, at: &At<'_>) {
-        let before = self.work.changes.len();
+    pub(in crate::interpreter) fn comp(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
+        let before = self.scratch.changes.len();
         let axis = match self.addressed(&command.axis) {
             Ok(Addressed::Axis(axis)) => Ok(axis),
             Ok(Addressed::Absent(Some(axis))) => {
-                return self.doubt(axis, command.selection.kinds());
+                return self.havoc(axis, command.selection.kinds());
             }
             Ok(Addressed::Any | Addressed::Absent(None)) => {
-                return self.doubt_any_axis(command.selection.kinds());
+                return self.havoc_any_axis(command.selection.kinds());
             }
             Err(error) => Err(error),
         };
@@ -37,7 +37,7 @@ impl Interpreter {
             control.possible.replace(axis, selection.kinds());
             control
                 .compensation
-                .switch(axis, selection, &mut self.work.changes)
+                .switch(axis, selection, &mut self.scratch.changes)
                 .map(|()| axis)
         });
         match &result {
@@ -52,13 +52,13 @@ impl Interpreter {
             }
             Err(error) => {
                 let diagnostic = self.refusal(error, command, at);
-                self.work.diagnostics.push(diagnostic);
+                self.scratch.diagnostics.push(diagnostic);
             }
         }
-        self.work.outcomes.push(Outcome {
+        self.scratch.outcomes.push(Outcome {
             command: command.clone(),
             result,
-            changes: self.work.changes.len() - before,
+            changes: self.scratch.changes.len() - before,
         });
     }
 
@@ -68,7 +68,7 @@ impl Interpreter {
         &self,
         command: &CompCommand,
         axis: AxisIndex,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Option<CompensationError> {
         let compensation = &self.state.control.compensation;
         let kinds = command.selection.kinds();
@@ -115,7 +115,7 @@ impl Interpreter {
         if !self.machine.readings.takes_second(Question::OrderInBlock) {
             return selection;
         }
-        let earlier = self.work.outcomes.iter();
+        let earlier = self.scratch.outcomes.iter();
         let earlier = earlier.filter(|it| it.result.as_ref().ok() == Some(&axis));
         let named = earlier.fold(KindSet::NONE, |named, it| {
             named.union(it.command.selection.kinds())
@@ -128,7 +128,7 @@ impl Interpreter {
     }
 
     /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
-    fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+    fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         if self.state.control.compensation.coupling(axis) != Coupling::Perhaps {
             return;
         }
@@ -140,12 +140,12 @@ impl Interpreter {
         let fault = Fault::new(Code::Fc902, command.span, message)
             .with_help("release all couplings first, with `#DISABLE AX LINK ALL`");
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        self.work.diagnostics.push(diagnostic);
+        self.scratch.diagnostics.push(diagnostic);
     }
 
     /// FC411: the control may refuse COMP while a transformation is active; which ones is not
     /// documented (R1.42).
-    fn warn_transformed(&mut self, command: &CompCommand, at: &At<'_>) {
+    fn warn_transformed(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let active = self.state.control.modal.transformed.iter();
         let active: Vec<String> = active
             .filter(|name| chain::is_transformation(name))
@@ -163,13 +163,13 @@ impl Interpreter {
             "switch compensation before the transformation is activated, or after its end",
         );
         let diagnostic = at.diagnostic(fault).with_axis(command.axis.clone());
-        self.work.diagnostics.push(diagnostic);
+        self.scratch.diagnostics.push(diagnostic);
     }
 
     /// FC301: the same axis and kind twice in one block with opposite states.
-    fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+    fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         let on = |selection| matches!(selection, Selection::On(_));
-        let opposite = self.work.outcomes.iter().find_map(|earlier| {
+        let opposite = self.scratch.outcomes.iter().find_map(|earlier| {
             let same_axis = earlier.result.as_ref().ok() == Some(&axis);
             let kinds = earlier
                 .command
@@ -198,12 +198,12 @@ impl Interpreter {
                 .diagnostic(fault)
                 .with_axis(name.clone())
                 .with_label(at.place(first), "the opposite command is here");
-            self.work.diagnostics.push(diagnostic);
+            self.scratch.diagnostics.push(diagnostic);
         }
     }
 
     /// FC305: a kind that the configured build does not know (R1.10).
-    fn warn_build(&mut self, command: &CompCommand, at: &At<'_>) {
+    fn warn_build(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let Some(build) = self.machine.build else {
             return;
         };
@@ -222,7 +222,7 @@ impl Interpreter {
                         "`{keyword}` exists only since CNC build {since}; the machine has {build}"
                     ),
                 );
-                self.work
+                self.scratch
                     .diagnostics
                     .push(at.diagnostic(fault).with_axis(command.axis.clone()));
             }
@@ -230,7 +230,7 @@ impl Interpreter {
     }
 
     /// FC303: selected, but nothing to work with (R1.26).
-    fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+    fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &BlockContext<'_>) {
         let selects =
             matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
         if !selects
@@ -264,12 +264,17 @@ impl Interpreter {
             format!("friction compensation of axis `{name}` is selected without effect: {missing}"),
         )
         .with_help(help);
-        self.work
+        self.scratch
             .diagnostics
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }
 
-    fn refusal(&self, error: &CompensationError, command: &CompCommand, at: &At<'_>) -> Diagnostic {
+    fn refusal(
+        &self,
+        error: &CompensationError,
+        command: &CompCommand,
+        at: &BlockContext<'_>,
+    ) -> Diagnostic {
         let name = &command.axis;
         let axis_span = Span::new(
             command.span.start as usize,

@@ -1,6 +1,6 @@
 //! `#VAR` and `#DELETE` (R2.34).
 
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::target::Place;
@@ -20,7 +20,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn delete(
         &mut self,
         hash: &Hash,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
         for argument in &hash.arguments {
             let Operand::Expression(place) = *argument else {
@@ -47,16 +47,16 @@ impl Interpreter {
     pub(in crate::interpreter) fn declare(
         &mut self,
         declarations: &[Declaration],
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
         self.journal.begin_anew();
         self.write_anything();
         for declaration in declarations {
-            let mut stack = std::mem::take(&mut self.work.stack);
+            let mut stack = std::mem::take(&mut self.scratch.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
                 evaluator.dimensions(declaration.target.place, &mut stack)
             });
-            self.work.stack = stack;
+            self.scratch.stack = stack;
             let dimensions = dimensions?;
             let name = declared_name(declaration, at);
             let mut values = Vec::with_capacity(declaration.initial.len());
@@ -68,7 +68,7 @@ impl Interpreter {
             } else {
                 Value::Number(0.0)
             };
-            self.work.wrote = true;
+            self.scratch.wrote = true;
             let memory = &mut self.state.control.memory;
             if dimensions.is_empty() {
                 let value = values.into_iter().next().unwrap_or(default);

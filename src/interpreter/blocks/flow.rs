@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
@@ -35,7 +35,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn one_line_condition(
         &mut self,
         flow: &Flow,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<bool>, Box<Fault>> {
         let Flow::If(condition) = flow else {
             return Ok(None);
@@ -62,7 +62,7 @@ impl Interpreter {
         &mut self,
         flow: &Flow,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let Some(frame) = self.state.control.frames.running_mut() else {
             return Ok(None);
@@ -167,7 +167,7 @@ impl Interpreter {
         condition: Operand,
         next: EntryIndex,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
@@ -194,7 +194,7 @@ impl Interpreter {
         condition: Operand,
         region: Range<EntryIndex>,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
@@ -216,7 +216,7 @@ impl Interpreter {
         &mut self,
         (condition, repeats): (Operand, Truth),
         region: Range<EntryIndex>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         if let Value::Unknown(cause) = &value {
@@ -240,7 +240,7 @@ impl Interpreter {
         count: &Count,
         opener: EntryIndex,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let counter = &count.counter;
         let end = self.value(count.end, at)?;
@@ -279,7 +279,7 @@ impl Interpreter {
         &mut self,
         opener: EntryIndex,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Ok(None);
@@ -331,7 +331,7 @@ impl Interpreter {
         &mut self,
         target: &JumpTarget,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = match target {
             JumpTarget::Number(operand) => self.value(*operand, at)?,
@@ -375,14 +375,23 @@ impl Interpreter {
     }
 
     /// A jump that may be taken (R2.91): the dry run goes on after it.
-    pub(in crate::interpreter) fn leave_jump(&mut self, cause: &Arc<str>, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn leave_jump(
+        &mut self,
+        cause: &Arc<str>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
         if self.pass_jump(cause, at) {
             self.doubt_jump("whether this jump is taken", cause, span, at);
         }
     }
 
     /// Passes over the jumps of a block, which may be taken; whether anything differs where they are.
-    pub(in crate::interpreter) fn pass_jump(&mut self, cause: &Arc<str>, at: &At<'_>) -> bool {
+    pub(in crate::interpreter) fn pass_jump(
+        &mut self,
+        cause: &Arc<str>,
+        at: &BlockContext<'_>,
+    ) -> bool {
         let mut differs = false;
         for item in &at.block.items {
             if let Item::Flow(Flow::Goto(target), _) = item {
@@ -399,7 +408,7 @@ impl Interpreter {
         flow: &Flow,
         cause: &Arc<str>,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Option<Step> {
         let whole = self.current_block();
         let region = match flow {
@@ -417,8 +426,8 @@ impl Interpreter {
     }
 
     /// FC902: a jump that is not known offline (R2.91).
-    fn doubt_jump(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &At<'_>) {
-        if self.work.unread.get() {
+    fn doubt_jump(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
+        if self.scratch.unread.get() {
             return;
         }
         let value = unknown_value(cause);

@@ -8,12 +8,12 @@ use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::effects::machine_data::{Written, enables, is_machine_data, written};
 use crate::interpreter::programs::file_names::is_file_name;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::values::value::Value;
 use crate::readings::{Alternative, Question};
@@ -28,19 +28,19 @@ impl Interpreter {
     pub(in crate::interpreter) fn hash(
         &mut self,
         hash: &Hash,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let rest = hash.rest.of(at.text);
         if !goes_on(&hash.name) {
-            self.work.rests.set(true);
+            self.scratch.rests.set(true);
         }
         match hash.name.as_str() {
             "#VAR" => return self.declare(&hash.declarations, at),
             "#DELETE" => return self.delete(hash, at),
             "#TIME" => {
-                intent.axis_words = AxisWords::Other;
-                self.work.dwells = true;
+                outcome.axis_words = AxisWords::Other;
+                self.scratch.dwells = true;
                 if let Some(&time) = hash.arguments.first() {
                     let seconds = self.value(time, at)?.number();
                     self.geometry().dwell = Some(seconds);
@@ -76,9 +76,9 @@ impl Interpreter {
                         .end_description(&description.before);
                 }
             }
-            "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
+            "#RT WHILE" => self.real_time_loop(hash.span, at, outcome),
             "#RT ENDWHILE" => {}
-            "#ERROR" => self.report_error(hash, at, intent),
+            "#ERROR" => self.report_error(hash, at, outcome),
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.control.modal.hash(name);
@@ -105,15 +105,15 @@ impl Interpreter {
     }
 
     /// What a command does beside that to what is followed here (R2.93).
-    fn touch(&mut self, hash: &Hash, at: &At<'_>) {
+    fn touch(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         match hash_command(&hash.name) {
             Some(Touches::Motion) => {
-                self.state.control.modal.forget_positions();
+                self.state.control.modal.havoc_positions();
                 self.perhaps_move_all();
             }
             Some(Touches::Friction) => {
                 for axis in self.axes_or_all(hash.rest.of(at.text)) {
-                    self.doubt(axis, KindSet::of(Kind::Frict));
+                    self.havoc(axis, KindSet::of(Kind::Frict));
                 }
                 self.say_undescribed(hash, at);
             }
@@ -122,8 +122,8 @@ impl Interpreter {
     }
 
     /// FC902: the effect of the command is described nowhere, so that states became unknown.
-    fn say_undescribed(&mut self, hash: &Hash, at: &At<'_>) {
-        let doubted = self.work.doubted.iter();
+    fn say_undescribed(&mut self, hash: &Hash, at: &BlockContext<'_>) {
+        let doubted = self.scratch.doubted.iter();
         let names = doubted.map(|(axis, _)| format!("`{}`", self.machine.axis(*axis).name));
         let names: Vec<String> = names.take(MAX_NAMED).collect();
         let [first, ..] = names.as_slice() else {
@@ -142,32 +142,32 @@ impl Interpreter {
         let fault = fault.with_help(format!(
             "a COMP command after it makes the state known again, `{axis}[COMP ON FRICT]`"
         ));
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC314: the whole list of the axis is transferred again (R2.92).
-    fn write_machine_data(&mut self, hash: &Hash, at: &At<'_>) {
+    fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let text = hash.rest.of(at.text);
         let lost = self.transferred(hash, at);
         let friction = written(text) == Written::Friction;
         if lost.is_empty() && !friction {
             return;
         }
-        let doubts = self.work.doubted.len();
+        let doubts = self.scratch.doubted.len();
         let reading = self.machine.readings.of(Question::MachineData);
         for (axis, kinds) in lost {
             match reading {
                 Some(Alternative::First) if !friction || enables(text) => {
                     self.return_to_start(axis);
-                    self.doubt(axis, kinds.without(KindSet::of(Kind::Frict)));
+                    self.havoc(axis, kinds.without(KindSet::of(Kind::Frict)));
                 }
                 Some(Alternative::Second) if !friction || enables(text) => {
-                    self.doubt(axis, kinds.without(KindSet::of(Kind::Frict)));
+                    self.havoc(axis, kinds.without(KindSet::of(Kind::Frict)));
                 }
-                _ => self.doubt(axis, kinds),
+                _ => self.havoc(axis, kinds),
             }
         }
-        let doubted = self.work.doubted.get(doubts..).unwrap_or_default();
+        let doubted = self.scratch.doubted.get(doubts..).unwrap_or_default();
         let named: Vec<String> = doubted
             .iter()
             .map(|(axis, kinds)| {
@@ -192,21 +192,21 @@ impl Interpreter {
         let fault = Fault::new(Code::Fc314, hash.span, message)
             .with_help("set the state after it, with `X[COMP ON FRICT]` for instance");
         let diagnostic = at.diagnostic(fault);
-        self.work.diagnostics.push(diagnostic);
+        self.scratch.diagnostics.push(diagnostic);
     }
 
     /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
-    fn real_time_loop(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) {
+    fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         let whole = self.current_block();
         if !whole.is_empty() {
             let cause = "V.RTG.LOOP.ENABLED".into();
-            intent.step = self.skip_unknown(whole, &cause, span, at);
+            outcome.step = self.skip_unknown(whole, &cause, span, at);
         }
     }
 
     /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
     /// class that is known it is taken for a warning (tf5200, 207457163).
-    fn report_error(&mut self, hash: &Hash, at: &At<'_>, intent: &mut Intent) {
+    fn report_error(&mut self, hash: &Hash, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         let class = remedy_class(hash.rest.of(at.text));
         let class = class.and_then(|class| self.number_in(class, at));
         let Some(class) = class.filter(|class| *class >= 1.0) else {
@@ -217,9 +217,9 @@ impl Interpreter {
             format!("the control stops here: the program reports an error with `RC={class}`");
         let fault = Fault::new(Code::Fc318, hash.span, message)
             .with_help("with `RC=0` it is a warning, and the program goes on");
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
         if self.options.stop == StopPolicy::FirstError {
-            intent.step = Some(Step::End(EndedBy::Error));
+            outcome.step = Some(Step::End(EndedBy::Error));
         }
     }
 

@@ -7,9 +7,9 @@ use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
-use crate::interpreter::run::at::At;
-use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{CallScope, GCall, Hash};
@@ -21,14 +21,14 @@ impl Interpreter {
         &mut self,
         word: FunctionWord,
         span: Span,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) {
         let FunctionWord { letter, number } = word;
         if letter == b'M' {
             match number {
                 Some(number) if !chain::is_named_m(number) => {
-                    let called = self.call_word(word, span, at, intent);
+                    let called = self.call_word(word, span, at, outcome);
                     if !called && !self.machine.harmless.has_function(letter, number) {
                         self.state
                             .control
@@ -43,10 +43,10 @@ impl Interpreter {
         if !self.calls_by_words() {
             return;
         }
-        self.call_word(word, span, at, intent);
+        self.call_word(word, span, at, outcome);
         if letter == b'T' && self.machine.programs.data_with_tool {
             // P-CHAN-00014: T selects the tool data, too.
-            self.call_word(word.of_data(), span, at, intent);
+            self.call_word(word.of_data(), span, at, outcome);
         }
     }
 
@@ -55,14 +55,14 @@ impl Interpreter {
         &mut self,
         word: FunctionWord,
         span: Span,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> bool {
         match self.configured(word) {
             Configured::None => return false,
             Configured::Program(name) => {
                 let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
-                intent.calls.push(wanted);
+                outcome.calls.push(wanted);
             }
             Configured::Unknown(cause) => self.unknown_program(&cause, span, at),
         }
@@ -74,10 +74,10 @@ impl Interpreter {
         &mut self,
         number: u32,
         span: Span,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> bool {
-        if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, intent) {
+        if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, outcome) {
             return true;
         }
         if self.machine.harmless.has_function(b'G', i64::from(number)) {
@@ -101,8 +101,8 @@ impl Interpreter {
     pub(in crate::interpreter) fn g_call(
         &mut self,
         call: &GCall,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let mut own = BTreeMap::new();
         for (place, operand) in (1..).zip(&call.arguments) {
@@ -113,7 +113,7 @@ impl Interpreter {
         match self.configured(FunctionWord::g(call.number)) {
             Configured::Program(name) => {
                 let wanted = Wanted::program(CallScope::Global, name, at.in_block(call.span));
-                intent.calls.push(Wanted { own, ..wanted });
+                outcome.calls.push(Wanted { own, ..wanted });
             }
             Configured::Unknown(cause) => self.unknown_program(&cause, call.span, at),
             Configured::None => {
@@ -132,7 +132,7 @@ impl Interpreter {
     }
 
     /// FC325: a word that calls a program calls none here, once a word and program (R2.94).
-    fn warn_not_configured(&mut self, number: u32, span: Span, at: &At<'_>) {
+    fn warn_not_configured(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
         if !self.is_new_word(&word) {
             return;
@@ -146,11 +146,11 @@ impl Interpreter {
              `[machine]` if it switches no compensation and moves no axis"
         );
         let fault = Fault::new(Code::Fc325, at.in_block(span), message).with_help(help);
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC210: a G function that no public list names, once a word and program (R2.94).
-    fn warn_unknown_g(&mut self, number: u32, span: Span, at: &At<'_>) {
+    fn warn_unknown_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
         if !self.is_new_word(&word) {
             return;
@@ -163,18 +163,18 @@ impl Interpreter {
             "if it moves no axis and no origin, set `harmless = [\"{word}\"]` in `[machine]` of frictcomp.toml"
         );
         let fault = Fault::new(Code::Fc210, at.in_block(span), message).with_help(help);
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
-    pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &At<'_>) {
+    pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         for (word, name) in file_names(hash.rest.of(at.text)) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),
                 FileName::Elsewhere(name) => self.named_elsewhere(name),
             };
             self.state.control.named.insert(word, value);
-            self.work.wrote = true;
+            self.scratch.wrote = true;
         }
     }
 

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::run::at::{At, MacroCode, Shown};
+use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
 use crate::interpreter::run::hash_parts::point_after;
-use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stopping::{is_harmless, stops};
 use crate::interpreter::values::cause::{PROBE, how_to_set, unknown_value};
 use crate::interpreter::values::expression::unquoted;
@@ -36,10 +36,10 @@ impl Interpreter {
     }
 
     /// Adds what is wrong with the text, up to the first error when that stops the program.
-    pub(in crate::interpreter) fn take_faults(&mut self, at: &At<'_>, stopped: bool) {
+    pub(in crate::interpreter) fn take_faults(&mut self, at: &BlockContext<'_>, stopped: bool) {
         let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
-            .work
+            .scratch
             .diagnostics
             .iter()
             .find(error)
@@ -60,14 +60,14 @@ impl Interpreter {
             .iter()
             .filter(|fault| fault.span.start <= limit && !is_harmless(harmless, fault, at.text))
         {
-            self.work.diagnostics.push(at.diagnostic(fault.clone()));
+            self.scratch.diagnostics.push(at.diagnostic(fault.clone()));
         }
     }
 
     pub(in crate::interpreter) fn items(
         &mut self,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
         limit: Option<u32>,
     ) {
         let limit = limit.unwrap_or(u32::MAX);
@@ -76,10 +76,10 @@ impl Interpreter {
             if !is_reached(word.span) {
                 return;
             }
-            if self.plain_word(word, intent) {
+            if self.plain_word(word, outcome) {
                 continue;
             }
-            let done = self.word(word, at, intent);
+            let done = self.word(word, at, outcome);
             if self.say(done, at).is_break() {
                 return;
             }
@@ -88,10 +88,10 @@ impl Interpreter {
             if !is_reached(item.span()) {
                 return;
             }
-            let done = self.item(item, at, intent);
+            let done = self.item(item, at, outcome);
             // After a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
             let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
-                && intent.step.is_some();
+                && outcome.step.is_some();
             if self.say(done, at).is_break() || leaves {
                 return;
             }
@@ -100,7 +100,7 @@ impl Interpreter {
 
     /// Says what is wrong with a part of the block. `Break` where the control goes no further.
     #[inline]
-    fn say(&mut self, done: Result<(), Box<Fault>>, at: &At<'_>) -> ControlFlow<()> {
+    fn say(&mut self, done: Result<(), Box<Fault>>, at: &BlockContext<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
             self.complain(*fault, at);
         }
@@ -114,22 +114,28 @@ impl Interpreter {
     /// Whether the control stops at what was said about the block.
     #[inline]
     pub(in crate::interpreter) fn is_halted(&self) -> bool {
-        self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops)
+        self.options.stop == StopPolicy::FirstError && self.scratch.diagnostics.iter().any(stops)
     }
 
     #[cold]
-    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &At<'_>) {
-        if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
-            self.work.diagnostics.push(at.diagnostic(fault));
+    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
+        if self.scratch.diagnostics.len() < MAX_SAID || !self.scratch.diagnostics.iter().any(stops)
+        {
+            self.scratch.diagnostics.push(at.diagnostic(fault));
         } else {
-            self.work.unsaid.get_or_insert((fault.span, 0)).1 += 1;
+            self.scratch.unsaid.get_or_insert((fault.span, 0)).1 += 1;
         }
     }
 
     #[inline(never)]
-    fn item(&mut self, item: &Item, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
+    fn item(
+        &mut self,
+        item: &Item,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) -> Result<(), Box<Fault>> {
         match item {
-            Item::Word(word) => self.word(word, at, intent),
+            Item::Word(word) => self.word(word, at, outcome),
             Item::Comp(command) => {
                 self.comp(command, at);
                 Ok(())
@@ -152,7 +158,7 @@ impl Interpreter {
             }
             Item::BareNumber(operand, span) => {
                 let value = self.value(*operand, at)?;
-                if intent.axis_words != AxisWords::Motion {
+                if outcome.axis_words != AxisWords::Motion {
                     self.geometry().dwell = Some(value.number());
                     return Ok(());
                 }
@@ -165,10 +171,10 @@ impl Interpreter {
             }
             Item::Assign(assignment) => self.assign(*assignment, at),
             Item::Hash(hash) => {
-                self.hash(hash, at, intent)?;
+                self.hash(hash, at, outcome)?;
                 if let Some(point) = point_after(hash, at) {
                     let inner = at.rest(&point);
-                    self.items(&inner, intent, None);
+                    self.items(&inner, outcome, None);
                     self.take_faults(&inner, false);
                 }
                 Ok(())
@@ -176,15 +182,15 @@ impl Interpreter {
             Item::MacroDefinition(name, code) => {
                 let (name, code) = (unquoted(name.of(at.text)), unquoted(code.of(at.text)));
                 self.state.control.memory.define_macro(name, code);
-                self.work.wrote = true;
+                self.scratch.wrote = true;
                 Ok(())
             }
-            Item::GCall(call) => self.g_call(call, at, intent),
-            Item::Sequence(sequence) => self.sequence(sequence, at, intent),
-            Item::Return(back) => self.return_to(back, at, intent),
+            Item::GCall(call) => self.g_call(call, at, outcome),
+            Item::Sequence(sequence) => self.sequence(sequence, at, outcome),
+            Item::Return(back) => self.return_to(back, at, outcome),
             Item::Call(call) => {
                 let wanted = self.wanted(call, at)?;
-                intent.calls.extend(wanted);
+                outcome.calls.extend(wanted);
                 Ok(())
             }
             Item::Flow(flow, span) => {
@@ -196,34 +202,34 @@ impl Interpreter {
                     Ok::<_, Box<Fault>>(Some(false))
                 })?;
                 if condition.is_some() {
-                    intent.condition = condition;
+                    outcome.condition = condition;
                     return Ok(());
                 }
-                if intent.condition == Some(false) {
+                if outcome.condition == Some(false) {
                     return Ok(());
                 }
-                if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(intent, at) {
+                if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(outcome, at) {
                     if !self.part_at_probe(at) {
                         self.leave_jump(&PROBE.into(), *span, at);
                     }
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);
-                intent.step = step.or_else(|fault| {
+                outcome.step = step.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
                     Ok::<_, Box<Fault>>(self.undecided(flow, &cause, *span, at))
                 })?;
                 Ok(())
             }
-            Item::MacroUse(span) => self.expand(*span, at, intent),
+            Item::MacroUse(span) => self.expand(*span, at, outcome),
             Item::Unread(_, span) if self.machine.harmless.has_command(span.of(at.text)) => {
                 let (name, _) = hash_name(span.of(at.text));
                 self.pass_over(&name, *span, at);
                 Ok(())
             }
             Item::Unread(effect, span) => {
-                self.forget_unread(*effect, &span.of(at.text).into());
+                self.havoc_unread(*effect, &span.of(at.text).into());
                 Ok(())
             }
             Item::Label(_) | Item::BadCommand(_) => Ok(()),
@@ -232,17 +238,22 @@ impl Interpreter {
 
     /// A condition that cannot be computed: what depends on it is not known, and is not said again
     /// (R2.51, R2.71).
-    fn undecidable(&mut self, fault: Fault, at: &At<'_>) -> Result<(), Box<Fault>> {
+    fn undecidable(&mut self, fault: Fault, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if self.options.stop == StopPolicy::FirstError {
             return Err(Box::new(fault));
         }
         self.complain(fault, at);
-        self.work.unread.set(true);
+        self.scratch.unread.set(true);
         Ok(())
     }
 
     /// A macro in place of words: its code is a block of its own, executed here (R2.35).
-    fn expand(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
+    fn expand(
+        &mut self,
+        span: Span,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) -> Result<(), Box<Fault>> {
         let name = unquoted(span.of(at.text));
         let code = match self.state.control.memory.macro_code(name) {
             Some(Value::Text(code)) => Arc::clone(code),
@@ -271,26 +282,29 @@ impl Interpreter {
             depth,
         };
         let inner = at.in_macro(&code, span, &shown);
-        let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());
-        let also_moved = self.work.also_moved.len();
-        let (switched, noted) = (self.work.outcomes.len(), self.work.notes.borrow().len());
+        let (said, moved) = (self.scratch.diagnostics.len(), self.scratch.moved.len());
+        let also_moved = self.scratch.also_moved.len();
+        let (switched, noted) = (
+            self.scratch.outcomes.len(),
+            self.scratch.notes.borrow().len(),
+        );
         let limit = self.first_refusal(&block);
-        self.items(&inner, intent, limit);
+        self.items(&inner, outcome, limit);
         self.take_faults(&inner, limit.is_some());
         // What is said about the macro's code is shown where the macro is used.
-        for diagnostic in &mut self.work.diagnostics[said..] {
+        for diagnostic in &mut self.scratch.diagnostics[said..] {
             diagnostic.place = at.place(span);
         }
-        for word in &mut self.work.moved[moved..] {
+        for word in &mut self.scratch.moved[moved..] {
             word.span = span;
         }
-        for motion in &mut self.work.also_moved[also_moved..] {
+        for motion in &mut self.scratch.also_moved[also_moved..] {
             motion.span = span;
         }
-        for outcome in &mut self.work.outcomes[switched..] {
+        for outcome in &mut self.scratch.outcomes[switched..] {
             outcome.command.span = span;
         }
-        for note in &mut self.work.notes.borrow_mut()[noted..] {
+        for note in &mut self.scratch.notes.borrow_mut()[noted..] {
             note.place = at.place(span);
         }
         Ok(())
@@ -298,7 +312,7 @@ impl Interpreter {
 
     /// A macro whose code is not known may do anything (R2.51).
     fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
-        self.forget_all(cause);
+        self.havoc_all(cause);
         let what = unknown_value(cause);
         let message = format!(
             "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
@@ -307,7 +321,7 @@ impl Interpreter {
         Box::new(fault.with_help(how_to_set(cause)))
     }
 
-    pub(in crate::interpreter) fn block_number(&mut self, at: &At<'_>) -> Option<i64> {
+    pub(in crate::interpreter) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {
         let number = at.block.number.as_ref()?;
         let value = match &number.value {
             Operand::Number(number) => return rounded(*number),
@@ -324,6 +338,6 @@ impl Interpreter {
 }
 
 /// What a fault is about.
-fn cause_of(fault: &Fault, at: &At<'_>) -> Arc<str> {
+fn cause_of(fault: &Fault, at: &BlockContext<'_>) -> Arc<str> {
     fault.span.of(at.text).trim().into()
 }

@@ -5,7 +5,7 @@ use crate::interpreter::coordinates::contouring::ContouringCommand;
 use crate::interpreter::coordinates::pace::Factors;
 use crate::interpreter::coordinates::simplified::{self, Holds, Simplification};
 use crate::interpreter::coordinates::slope::SlopeSelection;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
 
@@ -39,7 +39,11 @@ impl Interpreter {
     }
 
     /// `G163=50`: the radius of circles, as R (R2.45). Whether there is a value.
-    pub(in crate::interpreter) fn radius_word(&mut self, span: Span, at: &At<'_>) -> bool {
+    pub(in crate::interpreter) fn radius_word(
+        &mut self,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> bool {
         let Some((_, value)) = span.of(at.text).split_once('=') else {
             return false;
         };
@@ -49,7 +53,7 @@ impl Interpreter {
     }
 
     /// `G129=70` (PM/206578955)
-    pub(in crate::interpreter) fn weigh_rapid(&mut self, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn weigh_rapid(&mut self, span: Span, at: &BlockContext<'_>) {
         let value = span.of(at.text).split_once('=').map(|(_, value)| value);
         let percent = value.and_then(|value| self.number_in(value.trim(), at));
         let weight = percent.filter(|it| *it > 0.0).map(|it| it / 100.0);
@@ -57,13 +61,18 @@ impl Interpreter {
     }
 
     /// What a `#` command says about the velocity of paths.
-    pub(in crate::interpreter) fn pace_command(&mut self, name: &str, rest: &str, at: &At<'_>) {
+    pub(in crate::interpreter) fn pace_command(
+        &mut self,
+        name: &str,
+        rest: &str,
+        at: &BlockContext<'_>,
+    ) {
         match name {
             "#OVERRIDE" => {
                 let change = self.factors_in(rest, at);
                 self.state.control.modal.pace.override_path(change);
             }
-            "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
+            "#MAIN SPINDLE" => self.state.control.modal.pace.havoc_spindle(),
             _ => {
                 if let Some(command) = ContouringCommand::of(name) {
                     let before = *self.state.control.modal.contouring_of(command);
@@ -82,7 +91,11 @@ impl Interpreter {
     }
 
     /// A command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
-    pub(in crate::interpreter) fn bracket(&mut self, bracket: AxisBracket<'_>, at: &At<'_>) {
+    pub(in crate::interpreter) fn bracket(
+        &mut self,
+        bracket: AxisBracket<'_>,
+        at: &BlockContext<'_>,
+    ) {
         let AxisBracket {
             name,
             keyword,
@@ -97,7 +110,7 @@ impl Interpreter {
                 self.spindle_words(body, at);
             } else if self.machine.channel.main_spindle.is_empty() {
                 // It may be the main spindle under its own name.
-                self.state.control.modal.pace.forget_spindle();
+                self.state.control.modal.pace.havoc_spindle();
             }
             return;
         }
@@ -115,7 +128,7 @@ impl Interpreter {
     }
 
     /// The words in the bracket of the main spindle.
-    fn spindle_words(&mut self, body: &str, at: &At<'_>) {
+    fn spindle_words(&mut self, body: &str, at: &BlockContext<'_>) {
         for word in body.split_ascii_whitespace() {
             let upper = word.to_ascii_uppercase();
             if upper.starts_with("REV") {
@@ -130,7 +143,11 @@ impl Interpreter {
     }
 
     /// What an override changes.
-    fn factors_in(&mut self, text: &str, at: &At<'_>) -> impl FnOnce(&mut Factors) + use<> {
+    fn factors_in(
+        &mut self,
+        text: &str,
+        at: &BlockContext<'_>,
+    ) -> impl FnOnce(&mut Factors) + use<> {
         let [feed, rapid] = [FEED, RAPID].map(|key| {
             let value = value_after(key, text)?;
             let percent = self.number_in(value, at);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -30,7 +30,7 @@ impl Interpreter {
         cause: &Arc<str>,
         (kind, span): (ConditionKind, Span),
         goals: [Goal; 2],
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
         let Operand::Expression(expression) = condition else {
             return false;
@@ -67,7 +67,11 @@ impl Interpreter {
     }
 
     /// The state that a condition asks for, where it is unknown because ways differ.
-    fn tested_state(&self, condition: Operand, at: &At<'_>) -> Option<((AxisIndex, Kind), Truth)> {
+    fn tested_state(
+        &self,
+        condition: Operand,
+        at: &BlockContext<'_>,
+    ) -> Option<((AxisIndex, Kind), Truth)> {
         let Operand::Expression(expression) = condition else {
             return None;
         };
@@ -111,7 +115,7 @@ impl Interpreter {
         cause: &Arc<str>,
         span: Span,
         goals: [Goal; 2],
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
         let question = Question {
             kind: ConditionKind::Loop,
@@ -128,7 +132,7 @@ impl Interpreter {
         &mut self,
         condition: Operand,
         cause: &Arc<str>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
         let Some((to, span)) = self.only_jump(at) else {
             return false;
@@ -139,7 +143,7 @@ impl Interpreter {
     }
 
     /// The run parts where a probe answers, or does not (R2.91).
-    pub(in crate::interpreter) fn part_at_probe(&mut self, at: &At<'_>) -> bool {
+    pub(in crate::interpreter) fn part_at_probe(&mut self, at: &BlockContext<'_>) -> bool {
         let Some((to, span)) = self.only_jump(at) else {
             return false;
         };
@@ -156,7 +160,7 @@ impl Interpreter {
 
     /// Where the one jump of a block goes; `None` where that is not known, or where the block does
     /// more than jump and move.
-    fn only_jump(&mut self, at: &At<'_>) -> Option<(EntryIndex, Span)> {
+    fn only_jump(&mut self, at: &BlockContext<'_>) -> Option<(EntryIndex, Span)> {
         let mut jump = None;
         for item in &at.block.items {
             match item {
@@ -186,7 +190,7 @@ impl Interpreter {
         operand: Operand,
         cause: &Arc<str>,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
         let Operand::Expression(expression) = operand else {
             return false;
@@ -230,7 +234,7 @@ impl Interpreter {
     }
 
     /// The cases of the `$SWITCH` that is executed, with their values, and where all else goes.
-    fn cases(&mut self, at: &At<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
+    fn cases(&mut self, at: &BlockContext<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
         let unit = self.state.control.frames.running()?.unit;
         let whole = self.current_block();
         let mut cases: Vec<(EntryIndex, Value)> = Vec::new();
@@ -298,7 +302,7 @@ impl Interpreter {
             after,
         };
         let shown = Shown::default();
-        let at = At::of_parsed(parsed, self.state.control.frames.level(), &shown);
+        let at = BlockContext::of_parsed(parsed, self.state.control.frames.level(), &shown);
         let mark = parsed.text.trim_start();
         let is_bare = mark.strip_prefix('/').is_some_and(|rest| {
             !rest
@@ -334,7 +338,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn exit(
         &mut self,
         target: &JumpTarget,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Exit, Box<Fault>> {
         let value = match target {
             JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
@@ -349,14 +353,14 @@ impl Interpreter {
     }
 
     /// Takes a note of the level as of a value of the machine.
-    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &str, at: &At<'_>) {
+    pub(in crate::interpreter) fn note_unknown(&mut self, cause: &str, at: &BlockContext<'_>) {
         if self.options.notes == Notes::Taken {
             let note = Note {
                 kind: NoteKind::Unknown,
                 name: cause.to_owned(),
                 place: at.place(Span::new(0, at.text.trim_end().len())),
             };
-            self.work.notes.borrow_mut().push(note);
+            self.scratch.notes.borrow_mut().push(note);
         }
     }
 }

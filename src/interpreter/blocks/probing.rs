@@ -1,16 +1,20 @@
 //! Blocks whose jump waits for the signal of a probe (R2.91).
 
 use crate::interpreter::coordinates::chain::is_measuring;
-use crate::interpreter::run::at::At;
-use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::value::exact;
 use crate::syntax::ast::{Address, Item};
 
 impl Interpreter {
     /// Whether the jump of a block waits for the signal of a probe (R2.91).
-    pub(in crate::interpreter) fn jump_is_probed(&mut self, intent: &Intent, at: &At<'_>) -> bool {
-        if intent.probes {
+    pub(in crate::interpreter) fn jump_is_probed(
+        &mut self,
+        outcome: &BlockOutcome,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        if outcome.probes {
             return true;
         }
         let words = at.block.items.iter().filter_map(|item| match item {

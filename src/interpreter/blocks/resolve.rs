@@ -5,7 +5,7 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::{ModalCycles, Repeated, RepeatedCall};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -24,12 +24,12 @@ impl Interpreter {
     pub(in crate::interpreter) fn resolve_all(
         &mut self,
         calls: Vec<Wanted>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Vec<Request> {
         let mut requests = Vec::new();
         for wanted in calls {
-            let refused = self.work.diagnostics.iter().any(stops);
+            let refused = self.scratch.diagnostics.iter().any(stops);
             if refused && self.options.stop == StopPolicy::FirstError {
                 break;
             }
@@ -42,7 +42,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn resolve(
         &mut self,
         wanted: Wanted,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Request> {
         if self.is_external(&wanted) {
@@ -77,7 +77,7 @@ impl Interpreter {
                 let cause = program(&wanted.name);
                 self.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
-                self.work.diagnostics.push(at.diagnostic(*fault));
+                self.scratch.diagnostics.push(at.diagnostic(*fault));
                 return None;
             }
         };
@@ -86,7 +86,9 @@ impl Interpreter {
             // What is wrong with the file is said at the first call of it (R2.85).
             if self.state.control.refused.insert(found.unit) {
                 let refused = &self.programs.index(found.unit).refused;
-                self.work.diagnostics.extend(refused.said.iter().cloned());
+                self.scratch
+                    .diagnostics
+                    .extend(refused.said.iter().cloned());
             }
             if self.options.stop == StopPolicy::FirstError {
                 return None;
@@ -110,8 +112,8 @@ impl Interpreter {
                 ),
             )
             .with_help(Advice::RaiseBudget(Budget::Calls));
-            self.work.diagnostics.push(at.diagnostic(fault));
-            self.work.too_deep = self.options.stop != StopPolicy::KeepGoing;
+            self.scratch.diagnostics.push(at.diagnostic(fault));
+            self.scratch.too_deep = self.options.stop != StopPolicy::KeepGoing;
             return None;
         }
         let passage = self.passage(&wanted, found, at).ok()?;
@@ -125,7 +127,7 @@ impl Interpreter {
     }
 
     /// A program that is on the machine only (R2.83): whatever it may change is unknown after it.
-    fn pass_over_external(&mut self, wanted: Wanted, at: &At<'_>) {
+    fn pass_over_external(&mut self, wanted: Wanted, at: &BlockContext<'_>) {
         let name = wanted.name;
         self.pass_over(&name, wanted.span, at);
         self.leave_to_machine(&name);
@@ -165,7 +167,7 @@ impl Interpreter {
         &mut self,
         step: Option<Step>,
         moved: bool,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
         if self.state.control.cycles.is_empty() {
@@ -192,7 +194,7 @@ impl Interpreter {
         &mut self,
         cycle: Repeated,
         calls: &[Request],
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Request> {
         let found = match &cycle.call {
@@ -212,8 +214,8 @@ impl Interpreter {
             let section = self.programs.section(found);
             let region = section.start..section.end;
             let cause = self.programs.index(found.unit).source.name().clone();
-            self.forget_region(found.unit, region, &cause);
-            self.forget_called(finder);
+            self.havoc_region(found.unit, region, &cause);
+            self.havoc_called(finder);
             return None;
         }
         Some(Request {
@@ -243,7 +245,7 @@ impl Interpreter {
         &mut self,
         wanted: &Wanted,
         found: ProgramId,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<Passage>, ()> {
         let Some(part) = &wanted.part else {
             return Ok(None);
@@ -290,11 +292,11 @@ impl Interpreter {
     }
 
     /// Says that a program has no such block; what was read line by line is not kept.
-    fn no_block(&mut self, name: &LabelName, unit: usize, span: Span, at: &At<'_>) {
+    fn no_block(&mut self, name: &LabelName, unit: usize, span: Span, at: &BlockContext<'_>) {
         let source = &self.programs.index(unit).source;
         let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
         let fault = if is_cut {
-            self.forget_all(&"L SEQUENCE".into());
+            self.havoc_all(&"L SEQUENCE".into());
             Fault::new(
                 Code::Fc902,
                 span,
@@ -308,14 +310,14 @@ impl Interpreter {
                 format!("block `{name}` does not exist in this program"),
             )
         };
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// The program ends, after the configured program that runs before its end (R2.15).
     pub(in crate::interpreter) fn program_end(
         &mut self,
         by: EndedBy,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Step {
         if self.state.control.ending.is_none() {

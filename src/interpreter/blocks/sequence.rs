@@ -3,11 +3,11 @@
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{Part, Wanted};
-use crate::interpreter::run::at::At;
-use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::Frame;
-use crate::interpreter::run::step::{Destination, Sought, Step};
+use crate::interpreter::run::step::{Destination, PendingLabel, Step};
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::Fault;
 use crate::syntax::ast::{CallScope, JumpTarget, Levels, Operand, Return, Sequence};
@@ -18,8 +18,8 @@ impl Interpreter {
     pub(in crate::interpreter) fn sequence(
         &mut self,
         sequence: &Sequence,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let span = sequence.span;
         let name = match sequence.name {
@@ -64,7 +64,7 @@ impl Interpreter {
             here: name.is_empty(),
         };
         let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
-        intent.calls.push(Wanted {
+        outcome.calls.push(Wanted {
             part: Some(part),
             ..wanted
         });
@@ -75,7 +75,7 @@ impl Interpreter {
     fn label_of(
         &mut self,
         target: JumpTarget,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Option<LabelName>, Box<Fault>> {
         let value = match target {
             JumpTarget::Label(name) => {
@@ -95,8 +95,8 @@ impl Interpreter {
     pub(in crate::interpreter) fn return_to(
         &mut self,
         back: &Return,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let here = self.state.control.frames.level();
         let level = match back.levels {
@@ -106,7 +106,7 @@ impl Interpreter {
                 let value = self.value(operand, at)?;
                 if let Value::Unknown(cause) = &value {
                     self.unknown_program(cause, back.span, at);
-                    intent.returns = true;
+                    outcome.returns = true;
                     return Ok(());
                 }
                 let number = value
@@ -126,7 +126,7 @@ impl Interpreter {
             }
         };
         if here == 0 {
-            intent.returns = true;
+            outcome.returns = true;
             return Ok(());
         }
         let entry = match back.target {
@@ -134,7 +134,7 @@ impl Interpreter {
             Some(target) => {
                 let Some(name) = self.label_of(target, at)? else {
                     self.unknown_program("N", back.span, at);
-                    intent.step = Some(Step::ReturnTo(Destination { level, entry: None }));
+                    outcome.step = Some(Step::ReturnTo(Destination { level, entry: None }));
                     return Ok(());
                 };
                 let frame = self.state.control.frames.at_level(level);
@@ -152,7 +152,7 @@ impl Interpreter {
                     if !arrives || level > 0 {
                         return Err(Box::new(missing));
                     }
-                    self.sought = Some(Sought {
+                    self.sought = Some(PendingLabel {
                         label: name,
                         missing: at.diagnostic(missing),
                     });
@@ -160,13 +160,13 @@ impl Interpreter {
                 found
             }
         };
-        intent.step = Some(Step::ReturnTo(Destination { level, entry }));
+        outcome.step = Some(Step::ReturnTo(Destination { level, entry }));
         Ok(())
     }
 
     /// FC317: the control warns and goes back to the main program (PM/206781707). A subprogram that
     /// is run by itself is none.
-    fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &At<'_>) {
+    fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &BlockContext<'_>) {
         if here == 0 || number <= here {
             return;
         }
@@ -176,6 +176,6 @@ impl Interpreter {
         );
         let fault = Fault::new(Code::Fc317, span, message)
             .with_help("`M17 [MAIN]` says that the main program is meant");
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 }

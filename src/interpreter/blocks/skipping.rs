@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::RepeatedCall;
-use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::region::Region;
 use crate::interpreter::values::cause::skip_level;
 use crate::syntax::ast::{Block, Flow, Item};
@@ -18,18 +18,18 @@ impl Interpreter {
     pub(in crate::interpreter) fn perhaps_execute(
         &mut self,
         level: u8,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) {
         let cause = skip_level(level);
         self.note_unknown(&cause, at);
         self.perhaps_refused(at);
         if let Some((flow, span)) = structure(at.block) {
-            intent.step = self.undecided(flow, &cause, span, at);
+            outcome.step = self.undecided(flow, &cause, span, at);
             return;
         }
         self.open_undecided(&cause, Span::new(0, at.text.trim_end().len()), at);
-        let region = self.forget_block(at, &cause);
+        let region = self.havoc_block(at, &cause);
         self.perhaps_repeat_cycles(&region, &cause);
         let next = self
             .state
@@ -41,7 +41,7 @@ impl Interpreter {
     }
 
     /// Says which COMP commands and values the control refuses if it executes the block.
-    fn perhaps_refused(&mut self, at: &At<'_>) {
+    fn perhaps_refused(&mut self, at: &BlockContext<'_>) {
         let after = at.block.items.iter().filter_map(|item| match item {
             Item::Word(word) => word.value,
             Item::Assign(assignment) => Some(assignment.value),
@@ -58,15 +58,15 @@ impl Interpreter {
             _ => None,
         });
         let before = self.state.control.compensation.clone();
-        let (changes, outcomes) = (self.work.changes.len(), self.work.outcomes.len());
-        let doubted = self.work.doubted.len();
+        let (changes, outcomes) = (self.scratch.changes.len(), self.scratch.outcomes.len());
+        let doubted = self.scratch.doubted.len();
         for command in commands {
             self.comp(command, at);
         }
         self.state.control.compensation = before;
-        self.work.changes.truncate(changes);
-        self.work.outcomes.truncate(outcomes);
-        self.work.doubted.truncate(doubted);
+        self.scratch.changes.truncate(changes);
+        self.scratch.outcomes.truncate(outcomes);
+        self.scratch.doubted.truncate(doubted);
     }
 
     /// A modal cycle is repeated after the block if the control executes it.
@@ -79,7 +79,7 @@ impl Interpreter {
                 RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => {
                     let section = self.programs.section(found);
                     let blocks = section.start..section.end;
-                    self.forget_region(found.unit, blocks, cause);
+                    self.havoc_region(found.unit, blocks, cause);
                 }
                 RepeatedCall::External(name) => self.leave_to_machine(&name),
             }

@@ -16,7 +16,7 @@ use crate::text::Span;
 impl Interpreter {
     /// The geometry words of the block.
     pub(in crate::interpreter) fn geometry(&mut self) -> &mut Geometry {
-        self.work.geometry.get_or_insert_default()
+        self.scratch.geometry.get_or_insert_default()
     }
 
     /// I, J, K or R of a circle.
@@ -43,7 +43,7 @@ impl Interpreter {
     #[inline]
     pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
         let turns = matches!(self.state.control.modal.functions.motion, 2 | 3);
-        if (turns || self.work.geometry.is_some()) && words == AxisWords::Motion {
+        if (turns || self.scratch.geometry.is_some()) && words == AxisWords::Motion {
             self.move_around_in_plane(turns);
         }
     }
@@ -51,25 +51,28 @@ impl Interpreter {
     fn move_around_in_plane(&mut self, turns: bool) {
         let letters = [b'X', b'Y'].map(|letter| self.main_axis(letter));
         let plane = letters.into_iter().flatten();
-        let geometry = self.work.geometry.as_ref();
+        let geometry = self.scratch.geometry.as_ref();
         let centred = geometry.is_some_and(|it| it.centre.iter().any(Option::is_some));
         let is_circle = turns || !self.state.control.modal.is_known(Group::Motion);
-        let own = self.work.moved.len();
-        let word = self.work.moved.iter();
+        let own = self.scratch.moved.len();
+        let word = self.scratch.moved.iter();
         let word = word.filter(|word| letters.contains(&Some(word.axis)));
         let word = word.map(|word| word.span).next();
         let along = geometry.and_then(|it| it.span);
         let Some(span) = along.filter(|_| centred).or(word) else {
             return;
         };
-        if !is_circle || (!turns && !centred) || self.work.dwells {
+        if !is_circle || (!turns && !centred) || self.scratch.dwells {
             return;
         }
         for axis in plane {
-            if self.work.moved[..own].iter().all(|word| word.axis != axis) {
+            if self.scratch.moved[..own]
+                .iter()
+                .all(|word| word.axis != axis)
+            {
                 self.see(axis);
-                self.work.seen |= 1 << (axis.get() % 64);
-                self.work.moved.push(AxisWord {
+                self.scratch.seen |= 1 << (axis.get() % 64);
+                self.scratch.moved.push(AxisWord {
                     axis,
                     span,
                     value: None,
@@ -77,7 +80,7 @@ impl Interpreter {
                 });
             }
         }
-        let around = self.work.moved.len() - own;
+        let around = self.scratch.moved.len() - own;
         if around > 0 {
             self.geometry().around = around;
         }
@@ -86,8 +89,8 @@ impl Interpreter {
     /// The words of the block that say where axes go.
     #[inline]
     pub(in crate::interpreter) fn coordinates(&self) -> usize {
-        let around = self.work.geometry.as_ref().map_or(0, |it| it.around);
-        self.work.moved.len() - around
+        let around = self.scratch.geometry.as_ref().map_or(0, |it| it.around);
+        self.scratch.moved.len() - around
     }
 
     /// `G04 P1`: the parameter holds the seconds (PM/206132747).
@@ -112,7 +115,7 @@ impl Interpreter {
         from: Option<Vec<Option<f64>>>,
         words: AxisWords,
     ) {
-        let geometry = self.work.geometry.take();
+        let geometry = self.scratch.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
             // The radius holds until another one is given (PM, radius programming).
             self.state.control.modal.radius = radius;
@@ -123,9 +126,9 @@ impl Interpreter {
         if let Some(Motion::Travel(travel)) = &motion
             && matches!(travel.form, Form::Arc(_))
         {
-            self.work.aside.arc = Some(travel.clone());
+            self.scratch.aside.arc = Some(travel.clone());
         }
-        self.work.motion = motion.filter(|_| self.options.motions == Motions::Taken);
+        self.scratch.motion = motion.filter(|_| self.options.motions == Motions::Taken);
     }
 
     fn motion(
@@ -134,13 +137,13 @@ impl Interpreter {
         from: Vec<Option<f64>>,
         words: AxisWords,
     ) -> Option<Motion> {
-        if self.work.dwells {
-            let by_axis = self.work.moved.first().map(|word| word.value);
+        if self.scratch.dwells {
+            let by_axis = self.scratch.moved.first().map(|word| word.value);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
         let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let centred = geometry.centre.iter().any(Option::is_some);
-        let moves = !self.work.moved.is_empty() || (circular && centred);
+        let moves = !self.scratch.moved.is_empty() || (circular && centred);
         let form = match words {
             _ if !moves => return None,
             AxisWords::Motion | AxisWords::Measuring => self.form(geometry, &from),
@@ -150,7 +153,7 @@ impl Interpreter {
         let modal = &self.state.control.modal;
         Some(Motion::Travel(Travel {
             form,
-            axes: self.work.moved.iter().map(|word| word.axis).collect(),
+            axes: self.scratch.moved.iter().map(|word| word.axis).collect(),
             from,
             to: modal.positions().to_vec(),
             feed: self.path_feed(geometry),
@@ -280,14 +283,14 @@ impl Interpreter {
         if geometry.at_full_speed {
             return pace.weight(haste);
         }
-        pace.share(haste, self.work.moved.iter().map(|word| word.axis))
+        pace.share(haste, self.scratch.moved.iter().map(|word| word.axis))
     }
 
     /// A feed in mm, or in degrees where only rotary axes move.
     fn per_minute(&self, feed: ProgrammedFeed) -> Option<f64> {
         let is_rotary =
             |word: &AxisWord| self.machine.axis(word.axis).axis_type == AxisType::Rotary;
-        let moved = &self.work.moved;
+        let moved = &self.scratch.moved;
         if !moved.is_empty() && moved.iter().all(is_rotary) {
             return Some(feed.value);
         }

@@ -13,10 +13,10 @@ use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
 use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
-use crate::interpreter::run::intent::{Feed, Intent};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::readings::Question;
@@ -47,8 +47,8 @@ impl Interpreter {
     pub(in crate::interpreter) fn word(
         &mut self,
         word: &Word,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let number = match &word.value {
             None => None,
@@ -65,14 +65,14 @@ impl Interpreter {
                 value: number,
                 span: word.span,
             };
-            return self.letter(word, at, intent);
+            return self.letter(word, at, outcome);
         }
         self.named_word(word, number, at);
         Ok(())
     }
 
     /// A word whose address is not one of the letters that all axes and functions have.
-    fn named_word(&mut self, word: &Word, number: Option<f64>, at: &At<'_>) {
+    fn named_word(&mut self, word: &Word, number: Option<f64>, at: &BlockContext<'_>) {
         let name = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
@@ -99,31 +99,33 @@ impl Interpreter {
     }
 
     /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
-    fn lower_axis(&mut self, letter: u8, span: Span, at: &At<'_>) {
+    fn lower_axis(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
         let upper = letter.to_ascii_uppercase();
         let axis = self.letters[usize::from(upper - b'A')];
         let mut fault = not_known(span.of(at.text), span);
         if let Some(axis) = axis {
-            self.state.control.modal.forget_position(axis);
+            self.state.control.modal.havoc_position(axis);
             fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
         }
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// A word of an axis that the machine does not have.
-    fn lack_axis(&mut self, name: &str, span: Span, at: &At<'_>) {
+    fn lack_axis(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         let exchanged = &self.state.control.channel_axes;
         let is_exchanged = exchanged.doubtful || exchanged.names.contains_key(name);
         if self.machine.axes_are_listed && !is_exchanged {
-            self.work.lacking.push((name.to_owned(), at.in_block(span)));
+            self.scratch
+                .lacking
+                .push((name.to_owned(), at.in_block(span)));
         }
         self.pass_over(name, span, at);
     }
 
     /// FC210: the block moves axes that the lists do not name (R2.94). Once an axis and program.
     #[cold]
-    pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &At<'_>) {
-        for (name, span) in std::mem::take(&mut self.work.lacking) {
+    pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
+        for (name, span) in std::mem::take(&mut self.scratch.lacking) {
             let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
             if !moves || !self.is_new_word(&name) {
                 continue;
@@ -139,15 +141,15 @@ impl Interpreter {
                 .collect();
             let fault = Fault::new(Code::Fc210, span, message)
                 .with_help(format!("the lists name {}", known.join(", ")));
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.scratch.diagnostics.push(at.diagnostic(fault));
         }
     }
 
     /// FC210: a word that is not known here may do anything (R2.70).
-    fn unread_word(&mut self, span: Span, at: &At<'_>) {
+    fn unread_word(&mut self, span: Span, at: &BlockContext<'_>) {
         let text = span.of(at.text);
-        self.forget_all(&text.into());
-        self.work
+        self.havoc_all(&text.into());
+        self.scratch
             .diagnostics
             .push(at.diagnostic(not_known(text, span)));
     }
@@ -155,7 +157,11 @@ impl Interpreter {
     /// Takes a word that most blocks are made of and that nothing can be said about: a coordinate, a
     /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
-    pub(in crate::interpreter) fn plain_word(&mut self, word: &Word, intent: &mut Intent) -> bool {
+    pub(in crate::interpreter) fn plain_word(
+        &mut self,
+        word: &Word,
+        outcome: &mut BlockOutcome,
+    ) -> bool {
         let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
             return false;
         };
@@ -167,8 +173,8 @@ impl Interpreter {
             return true;
         }
         match letter {
-            b'F' => intent.feed = Feed::Given(Some(number)),
-            b'G' => return self.modal_word(number, intent),
+            b'F' => outcome.feed = Feed::Given(Some(number)),
+            b'G' => return self.modal_word(number, outcome),
             _ => return false,
         }
         true
@@ -176,14 +182,14 @@ impl Interpreter {
 
     /// Puts a G function of a group into force, unless the block has another one of the group.
     #[inline]
-    fn modal_word(&mut self, number: f64, intent: &mut Intent) -> bool {
+    fn modal_word(&mut self, number: f64, outcome: &mut BlockOutcome) -> bool {
         let Some(number) = exact(number) else {
             return false;
         };
         let Some(group) = Group::of(number) else {
             return false;
         };
-        if *intent.groups[group as usize].get_or_insert(number) != number {
+        if *outcome.groups[group as usize].get_or_insert(number) != number {
             return false;
         }
         self.state.control.modal.set(group, number);
@@ -199,9 +205,9 @@ impl Interpreter {
     ) {
         self.see(axis);
         let bit = 1 << (axis.get() % 64);
-        self.work.again |= self.work.seen & bit;
-        self.work.seen |= bit;
-        self.work.moved.push(AxisWord {
+        self.scratch.again |= self.scratch.seen & bit;
+        self.scratch.seen |= bit;
+        self.scratch.moved.push(AxisWord {
             axis,
             span,
             value,
@@ -210,7 +216,11 @@ impl Interpreter {
     }
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
-    pub(in crate::interpreter) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &At<'_>) {
+    pub(in crate::interpreter) fn refuse_repeated_axes(
+        &mut self,
+        words: AxisWords,
+        at: &BlockContext<'_>,
+    ) {
         let modal = &self.state.control.modal;
         let absolute = modal.functions.absolute && modal.is_known(Group::Distance);
         if !absolute || words == AxisWords::Other {
@@ -218,8 +228,8 @@ impl Interpreter {
         }
         let (mut first, mut said) = (BTreeMap::new(), BTreeSet::new());
         let machine = Arc::clone(&self.machine);
-        let diagnostics = &mut self.work.diagnostics;
-        self.work.moved.retain(|word| {
+        let diagnostics = &mut self.scratch.diagnostics;
+        self.scratch.moved.retain(|word| {
             let Some(&earlier) = first.get(&word.axis) else {
                 first.insert(word.axis, word.span);
                 return true;
@@ -245,13 +255,13 @@ impl Interpreter {
         let homing_counts = self.machine.readings.takes_second(Question::Homing);
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
             || (homing_counts && words == AxisWords::Homing);
-        let of_words = self.work.moved.iter().filter(|_| is_motion);
+        let of_words = self.scratch.moved.iter().filter(|_| is_motion);
         let of_words = of_words.map(|word| (word.axis, word.span));
         let counts = |motion: &&MovedAxis| {
             motion.certainty == Certainty::Certain
                 && (homing_counts || motion.kind != MotionKind::Homing)
         };
-        let others = self.work.also_moved.iter().filter(counts);
+        let others = self.scratch.also_moved.iter().filter(counts);
         of_words
             .chain(others.map(|motion| (motion.axis, motion.span)))
             .collect()
@@ -259,7 +269,7 @@ impl Interpreter {
 
     /// The state in which the block moves an axis (R1.9).
     fn state_in_motion(&self, axis: AxisIndex, kind: Kind) -> State {
-        let mut changes = self.work.changes.iter();
+        let mut changes = self.scratch.changes.iter();
         let first = changes.find(|change| (change.axis, change.kind) == (axis, kind));
         let is_after = self.machine.readings.takes_second(Question::WithMotion);
         match first.filter(|_| is_after) {
@@ -269,7 +279,11 @@ impl Interpreter {
     }
 
     /// P-ERR-70435: an axis moves without a compensation that it requires.
-    pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
+    pub(in crate::interpreter) fn check_required(
+        &mut self,
+        words: AxisWords,
+        at: &BlockContext<'_>,
+    ) {
         if !self.any_required {
             return;
         }
@@ -291,7 +305,7 @@ impl Interpreter {
                     let help = format!("set it before, with `{name}[COMP ON {keyword}]`");
                     let fault = Fault::new(Code::Fc902, span, message).with_help(help);
                     let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-                    self.work.diagnostics.push(diagnostic);
+                    self.scratch.diagnostics.push(diagnostic);
                 }
                 continue;
             };
@@ -305,15 +319,15 @@ impl Interpreter {
                 "switch it on first, with `{name}[COMP ON {keyword}]`"
             ));
             let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-            self.work.diagnostics.push(diagnostic);
+            self.scratch.diagnostics.push(diagnostic);
         }
     }
 
     fn letter(
         &mut self,
         word: LetterWord,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let LetterWord {
             letter,
@@ -333,18 +347,18 @@ impl Interpreter {
             return Ok(());
         }
         match (letter, whole) {
-            (b'G', Some(number)) => return self.g_word(number, span, at, intent),
+            (b'G', Some(number)) => return self.g_word(number, span, at, outcome),
             (b'G', None) => {
-                intent.probes = true;
+                outcome.probes = true;
                 self.unknown_word("G", span, at);
-                self.state.control.modal.forget_g(None);
+                self.state.control.modal.havoc_g(None);
             }
-            (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
-            (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
-            (b'M', Some(17 | 29)) => intent.returns = true,
+            (b'M', Some(30)) => outcome.end = Some(EndedBy::M30),
+            (b'M', Some(2)) => outcome.end = Some(EndedBy::M02),
+            (b'M', Some(17 | 29)) => outcome.returns = true,
             (b'S', _) => self.state.control.modal.pace.speed(number),
             (b'E', _) => self.geometry().end_feed = Some(number),
-            (b'F', _) => intent.feed = Feed::Given(number),
+            (b'F', _) => outcome.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
                 // It may be M30 or M17.
@@ -354,18 +368,18 @@ impl Interpreter {
             }
             (b'M' | b'T' | b'D', number) => {
                 // A function may wait for its acknowledgement.
-                self.work.rests.set(true);
+                self.scratch.rests.set(true);
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.control.modal.pace.m(number);
                 }
-                self.function_word(FunctionWord { letter, number }, span, at, intent);
+                self.function_word(FunctionWord { letter, number }, span, at, outcome);
             }
             (b'R', _) => {
-                intent.radius = Some(at.in_block(span));
+                outcome.radius = Some(at.in_block(span));
                 self.circle_word(letter, number, span);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
-            (b'P', _) if self.work.dwells => self.dwell_parameter(number),
+            (b'P', _) if self.scratch.dwells => self.dwell_parameter(number),
             (b'H' | b'N', _) => {}
             (b'O', _) if is_program_number(at.block) => self.pass_over("O", span, at),
             _ if !is_letter(letter) => self.unread_word(span, at),
@@ -378,17 +392,17 @@ impl Interpreter {
         &mut self,
         number: i64,
         span: Span,
-        at: &At<'_>,
-        intent: &mut Intent,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
         let Ok(number) = u32::try_from(number) else {
             self.pass_over(&format!("G{number}"), span, at);
             return Ok(());
         };
         let group = Group::of(number);
-        intent.probes |= chain::is_measuring(number);
+        outcome.probes |= chain::is_measuring(number);
         if let Some(group) = group {
-            let first = *intent.groups[group as usize].get_or_insert(number);
+            let first = *outcome.groups[group as usize].get_or_insert(number);
             if first != number {
                 return Err(Box::new(
                     Fault::new(
@@ -403,8 +417,8 @@ impl Interpreter {
         match (group, number) {
             (Some(group), _) => self.state.control.modal.set(group, number),
             (None, 4) => {
-                intent.axis_words = AxisWords::Other;
-                self.work.dwells = true;
+                outcome.axis_words = AxisWords::Other;
+                self.scratch.dwells = true;
             }
             (None, 20..=23) => self.state.control.modal.mirror(number),
             // PM/207256971, 207263627
@@ -413,7 +427,7 @@ impl Interpreter {
             // PM/969743115: its axis words are the centre of the rotation.
             (None, 68) => {
                 self.state.control.modal.hash("#ROTATION ON");
-                intent.axis_words = AxisWords::Other;
+                outcome.axis_words = AxisWords::Other;
                 self.pass_over("G68", span, at);
             }
             (None, 69) => {
@@ -421,12 +435,12 @@ impl Interpreter {
                 self.pass_over("G69", span, at);
             }
             (None, 60) => {
-                self.work.rests.set(true);
+                self.scratch.rests.set(true);
                 self.geometry().end = BlockEnd::ExactStop;
             }
             // PM/206744331
             (None, 166) => self.geometry().at_full_speed = true,
-            (None, 163) if self.radius_word(span, at) => intent.radius = Some(at.in_block(span)),
+            (None, 163) if self.radius_word(span, at) => outcome.radius = Some(at.in_block(span)),
             (None, 129) => {
                 self.weigh_rapid(span, at);
                 self.pass_over("G129", span, at);
@@ -435,24 +449,24 @@ impl Interpreter {
                 self.state.control.modal.pace.cut(number == 96);
                 self.pass_over(&format!("G{number}"), span, at);
             }
-            (None, 92) => intent.axis_words = AxisWords::Reference,
+            (None, 92) => outcome.axis_words = AxisWords::Reference,
             // G61 and the like have no bearing on the compensation; a configured cycle has.
             (None, _) => {
-                if self.g_program(number, span, at, intent) {
+                if self.g_program(number, span, at, outcome) {
                     return Ok(());
                 }
                 if let Some(row) = moving::of_g(number) {
-                    self.work.word_row = Some(row);
-                    self.work.rests.set(true);
+                    self.scratch.word_row = Some(row);
+                    self.scratch.rests.set(true);
                 }
                 if number == HOMING {
-                    intent.axis_words = AxisWords::Homing;
+                    outcome.axis_words = AxisWords::Homing;
                 } else if NO_MOTION.contains(&number) {
-                    intent.axis_words = AxisWords::Other;
+                    outcome.axis_words = AxisWords::Other;
                 } else if let Some(reason) = foreign(number) {
                     self.geometry().foreign = Some(reason);
                     if chain::is_measuring(number) {
-                        intent.axis_words = AxisWords::Measuring;
+                        outcome.axis_words = AxisWords::Measuring;
                     }
                 }
                 if let Some((what, holds)) = simplified::of_g(number) {
@@ -466,52 +480,56 @@ impl Interpreter {
 
     /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
     /// wherever they stand, and F belongs to the feed mode of its block.
-    pub(in crate::interpreter) fn move_axes(&mut self, intent: &Intent, at: &At<'_>) {
-        if let Feed::Given(feed) = intent.feed {
+    pub(in crate::interpreter) fn move_axes(
+        &mut self,
+        outcome: &BlockOutcome,
+        at: &BlockContext<'_>,
+    ) {
+        if let Feed::Given(feed) = outcome.feed {
             self.state.control.modal.set_feed(feed);
         }
         if self.state.control.described.is_some() {
-            self.work.moved.clear();
-            self.work.geometry = None;
+            self.scratch.moved.clear();
+            self.scratch.geometry = None;
             return;
         }
         // The lint of switches on the way looks at arcs (R1.57).
         let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let start = (is_arc || self.options.motions == Motions::Taken).then(|| self.stand());
-        let before = intent.radius.map(|_| self.ends());
+        let before = outcome.radius.map(|_| self.ends());
         let coordinates = self.coordinates();
         let modal = &mut self.state.control.modal;
-        match intent.axis_words {
-            AxisWords::Motion => modal.move_axes(&mut self.work.moved[..coordinates]),
+        match outcome.axis_words {
+            AxisWords::Motion => modal.move_axes(&mut self.scratch.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
-                for word in &self.work.moved {
-                    modal.forget_position(word.axis);
+                for word in &self.scratch.moved {
+                    modal.havoc_position(word.axis);
                 }
             }
-            AxisWords::Reference => modal.set_references(&self.work.moved),
+            AxisWords::Reference => modal.set_references(&self.scratch.moved),
             AxisWords::Other => {}
         }
-        if let (Some(span), Some(before)) = (intent.radius, before) {
+        if let (Some(span), Some(before)) = (outcome.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
-        if start.is_some() || self.work.geometry.is_some() {
-            self.take_motion(start, intent.axis_words);
+        if start.is_some() || self.scratch.geometry.is_some() {
+            self.take_motion(start, outcome.axis_words);
         }
-        if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
-            self.work.moved.clear();
+        if matches!(outcome.axis_words, AxisWords::Reference | AxisWords::Other) {
+            self.scratch.moved.clear();
         }
     }
 
     /// Where the axes of the block's words stand, as far as that is known.
     fn ends(&self) -> Vec<Option<f64>> {
-        let words = self.work.moved[..self.coordinates()].iter();
+        let words = self.scratch.moved[..self.coordinates()].iter();
         words
             .map(|word| self.state.control.modal.position(word.axis).value)
             .collect()
     }
 
     /// FC316: R makes no full circle, the end point must differ from the start (R2.46).
-    fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &At<'_>) {
+    fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let ends = self.ends();
         let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
@@ -522,7 +540,7 @@ impl Interpreter {
                 "a circle by its radius ends where it starts; `R` cannot describe a full circle",
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.scratch.diagnostics.push(at.diagnostic(fault));
         }
     }
 }

@@ -17,6 +17,7 @@ const RADIUS_TOLERANCE: f64 = 1e-3;
 
 /// An arc in its plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ArcShape {
     /// The centre.
     pub centre: [f64; 2],

@@ -5,6 +5,7 @@ use crate::text::Span;
 
 /// An axis word of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisWord {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,

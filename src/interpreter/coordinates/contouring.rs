@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// How transitions between blocks are rounded. Lengths are in mm; `None` is no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Contouring {
     /// How far the path may leave the programmed one; 0 where that is not known.
     pub tolerance_mm: Option<f64>,

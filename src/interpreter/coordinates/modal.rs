@@ -28,6 +28,7 @@ pub enum Frame {
 
 /// The position of an axis after a block.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisPosition {
     /// The programmed coordinate in mm or degrees with the offset of G92; `None` where it is not
     /// known.
@@ -202,7 +203,7 @@ impl Modal {
             Group::Offset => {
                 // An offset's values are the machine's own; coordinates lose their meaning.
                 if self.functions.offset != number {
-                    self.forget_positions();
+                    self.havoc_positions();
                 }
                 self.functions.offset = number;
             }
@@ -290,7 +291,7 @@ impl Modal {
             self.transformed.remove(name)
         };
         if changed && name != "G41" {
-            self.forget_positions();
+            self.havoc_positions();
         }
     }
 
@@ -306,7 +307,7 @@ impl Modal {
             Step::Path => self.note_transformed(words),
             Step::Origin => {
                 self.note_transformed(words);
-                self.forget_positions();
+                self.havoc_positions();
             }
         }
     }
@@ -323,7 +324,7 @@ impl Modal {
             self.suspended = Some(std::mem::replace(&mut self.references, none));
         }
         self.note_transformed(words);
-        self.forget_positions();
+        self.havoc_positions();
     }
 
     /// Positions are the program's from here on.
@@ -334,7 +335,7 @@ impl Modal {
     }
 
     /// A `#` command that may or may not have been executed.
-    pub(in crate::interpreter) fn forget_hash(&mut self, name: &str) {
+    pub(in crate::interpreter) fn havoc_hash(&mut self, name: &str) {
         self.skewed &= !name.starts_with("#ROTATION");
         let mut after = self.clone();
         after.hash(name);
@@ -344,20 +345,20 @@ impl Modal {
                 self.suspended = None;
             }
             self.transformed.extend(after.transformed);
-            self.forget_positions();
+            self.havoc_positions();
         }
     }
 
     /// What the blocks of a contour description leave of the state before it: whether their G
     /// functions and feeds hold after it is not documented (R2.81).
     pub(in crate::interpreter) fn end_description(&mut self, before: &Self) {
-        self.doubt_functions(before);
+        self.join_functions(before);
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
             *feed = feed.filter(|_| *feed == before);
         }
-        self.pace.doubt(&before.pace);
+        self.pace.join(&before.pace);
         self.radius = self.radius.filter(|_| self.radius == before.radius);
-        self.forget_positions();
+        self.havoc_positions();
     }
 
     /// What says which function of a group is in force.
@@ -384,7 +385,7 @@ impl Modal {
     }
 
     /// The groups in which two states differ, or may, become unknown.
-    fn doubt_functions(&mut self, other: &Self) {
+    fn join_functions(&mut self, other: &Self) {
         for group in Group::ALL {
             let differs = self.value(group) != other.value(group);
             if differs || other.functions.unknown.contains(group) {
@@ -434,45 +435,45 @@ impl Modal {
     }
 
     /// Forgets where the axes stand.
-    pub fn forget_positions(&mut self) {
+    pub fn havoc_positions(&mut self) {
         self.origin_moved = true;
         self.positions.fill(None);
     }
 
     /// Forgets the position of one axis.
-    pub fn forget_position(&mut self, axis: AxisIndex) {
+    pub fn havoc_position(&mut self, axis: AxisIndex) {
         self.positions[axis.get()] = None;
     }
 
     /// Forgets what G92 set for an axis.
-    pub(in crate::interpreter) fn forget_reference(&mut self, axis: AxisIndex) {
+    pub(in crate::interpreter) fn havoc_reference(&mut self, axis: AxisIndex) {
         self.references[axis.get()] = None;
     }
 
     /// Any word may have been executed.
-    pub(in crate::interpreter) fn forget_words(&mut self) {
-        self.forget_g(None);
+    pub(in crate::interpreter) fn havoc_words(&mut self) {
+        self.havoc_g(None);
         self.functions.feeds = [None; 4];
-        self.pace.forget();
+        self.pace.havoc();
         self.radius = None;
     }
 
     /// A G function that may or may not have been executed; `None` for one that is not known.
-    pub(in crate::interpreter) fn forget_g(&mut self, number: Option<i64>) {
+    pub(in crate::interpreter) fn havoc_g(&mut self, number: Option<i64>) {
         let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
             self.functions.unknown = Group::ALL.into_iter().collect();
-            self.forget_positions();
+            self.havoc_positions();
             self.references.fill(None);
             return;
         };
         match Group::of(number) {
-            Some(Group::Offset) => self.forget_positions(),
+            Some(Group::Offset) => self.havoc_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
             None if (21..=23).contains(&number) => self.transform("G21", true),
             None if number == 151 => self.note_transformed("#SPLINE"),
-            None if matches!(number, 68 | 69) => self.forget_hash("#ROTATION ON"),
-            None if matches!(number, 96 | 97) => self.pace.forget_spindle(),
-            None if number == 129 => self.pace.forget_overrides(),
+            None if matches!(number, 68 | 69) => self.havoc_hash("#ROTATION ON"),
+            None if matches!(number, 96 | 97) => self.pace.havoc_spindle(),
+            None if number == 129 => self.pace.havoc_overrides(),
             _ => {}
         }
         if let Some((what, Holds::On)) = simplified::of_g(number) {
@@ -484,12 +485,12 @@ impl Modal {
     }
 
     /// What may also have been another state becomes unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
-        self.doubt_functions(other);
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+        self.join_functions(other);
         for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
             *mine = mine.filter(|_| *mine == theirs);
         }
-        self.pace.doubt(&other.pace);
+        self.pace.join(&other.pace);
         if (self.simplified, self.contour, self.high_speed)
             != (other.simplified, other.contour, other.high_speed)
         {

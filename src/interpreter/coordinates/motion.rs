@@ -31,6 +31,7 @@ pub enum Motion {
 
 /// A motion from one place to another.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Travel {
     /// Along what.
     pub form: Form,

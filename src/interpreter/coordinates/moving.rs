@@ -56,6 +56,7 @@ pub enum Certainty {
 
 /// The motion of one axis in a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MovedAxis {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,

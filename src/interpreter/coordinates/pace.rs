@@ -9,6 +9,7 @@ use crate::comp::AxisIndex;
 
 /// A programmed F.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ProgrammedFeed {
     /// The number after F.
     pub value: f64,
@@ -124,7 +125,7 @@ impl Pace {
     }
 
     /// Another spindle became the main one, or the speed may be any.
-    pub(in crate::interpreter) fn forget_spindle(&mut self) {
+    pub(in crate::interpreter) fn havoc_spindle(&mut self) {
         self.spindle = Spindle::default();
     }
 
@@ -189,7 +190,7 @@ impl Pace {
     }
 
     /// Overrides may have been changed in any way.
-    pub(in crate::interpreter) fn forget_overrides(&mut self) {
+    pub(in crate::interpreter) fn havoc_overrides(&mut self) {
         self.overrides.get_or_insert_default().path = Factors {
             feed: None,
             rapid: None,
@@ -197,18 +198,18 @@ impl Pace {
     }
 
     /// Everything may have been changed in any way.
-    pub(in crate::interpreter) fn forget(&mut self) {
-        self.forget_spindle();
-        self.forget_overrides();
+    pub(in crate::interpreter) fn havoc(&mut self) {
+        self.havoc_spindle();
+        self.havoc_overrides();
     }
 
     /// What may also have been another state becomes unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         if self.spindle != other.spindle {
-            self.forget_spindle();
+            self.havoc_spindle();
         }
         if self.overrides != other.overrides {
-            self.forget_overrides();
+            self.havoc_overrides();
         }
     }
 }

@@ -17,7 +17,7 @@ pub(in crate::interpreter) struct Saved {
 
 impl Saved {
     /// What may also have been saved instead becomes unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         if self == other {
             return;
         }
@@ -45,7 +45,7 @@ impl Modal {
     /// The end of a cycle.
     pub(in crate::interpreter) fn restore(&mut self, saved: &Saved) {
         if self.functions.offset != saved.functions.offset {
-            self.forget_positions();
+            self.havoc_positions();
         }
         self.functions = saved.functions.clone();
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {

@@ -6,7 +6,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::Scan;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
@@ -52,10 +52,15 @@ impl Interpreter {
     }
 
     /// A word whose number is not known: it may call any program.
-    pub(in crate::interpreter) fn unknown_word(&mut self, letter: &str, span: Span, at: &At<'_>) {
-        self.forget_all(&letter.into());
+    pub(in crate::interpreter) fn unknown_word(
+        &mut self,
+        letter: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        self.havoc_all(&letter.into());
         self.state.control.modal.note_transformed(letter);
-        if self.work.unread.get() {
+        if self.scratch.unread.get() {
             return;
         }
         let fault = Fault::new(
@@ -69,8 +74,13 @@ impl Interpreter {
         self.tell_once(&letter.into(), "function", fault, at);
     }
 
-    pub(in crate::interpreter) fn unknown_program(&mut self, cause: &str, span: Span, at: &At<'_>) {
-        self.forget_all(&cause.into());
+    pub(in crate::interpreter) fn unknown_program(
+        &mut self,
+        cause: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        self.havoc_all(&cause.into());
         let fault = Fault::new(
             Code::Fc902,
             at.in_block(span),
@@ -82,7 +92,7 @@ impl Interpreter {
 
     /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
     pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
-        self.state.control.modal.forget_positions();
+        self.state.control.modal.havoc_positions();
         self.perhaps_move_all();
         self.state
             .control
@@ -91,7 +101,7 @@ impl Interpreter {
     }
 
     /// A word in a region that may or may not be executed.
-    pub(in crate::interpreter) fn forget_function(
+    pub(in crate::interpreter) fn havoc_function(
         &mut self,
         word: FunctionWord,
         unit: usize,
@@ -104,7 +114,7 @@ impl Interpreter {
         for configured in configured {
             match configured {
                 Configured::None => {}
-                Configured::Unknown(_) => self.forget_all(cause),
+                Configured::Unknown(_) => self.havoc_all(cause),
                 Configured::Program(name) => self.pending.push(Scan {
                     call: Wanted::program(CallScope::Global, name, Span::default()),
                     cause: cause.clone(),
@@ -138,8 +148,8 @@ impl Interpreter {
                     self.state.control.modal.note_transformed(&word);
                 }
             }
-            ('M', None) => self.forget_all(cause),
-            ('G', None) if self.calls_by_words() => self.forget_all(cause),
+            ('M', None) => self.havoc_all(cause),
+            ('G', None) if self.calls_by_words() => self.havoc_all(cause),
             (_, None) => {}
         }
     }

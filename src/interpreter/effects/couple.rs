@@ -3,7 +3,7 @@
 use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::moving::{self, Moves, is_between};
 use crate::interpreter::coordinates::simplified::{Holds, Simplification};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
 
@@ -12,15 +12,20 @@ impl Interpreter {
         &mut self,
         rest: &str,
         axes: Vec<AxisIndex>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) {
         let group = self.group_of(rest, at);
-        self.work.wrote = true;
+        self.scratch.wrote = true;
         let changed = self.state.control.couplings.define(&group, axes);
         self.mark_coupled(changed);
     }
 
-    pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn enable_coupling(
+        &mut self,
+        rest: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
         let group = self.group_of(rest, at);
         self.simplify(Simplification::Coupling, Holds::On);
         if let Some(changed) = self.state.control.couplings.enable(&group) {
@@ -38,12 +43,12 @@ impl Interpreter {
         let axes = groups.filter(|(name, _)| *name == group);
         let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
         for axis in followers.collect::<Vec<_>>() {
-            self.state.control.modal.forget_position(axis);
+            self.state.control.modal.havoc_position(axis);
         }
     }
 
     /// Without a group the last one that was enabled is released.
-    pub(in crate::interpreter) fn disable_coupling(&mut self, rest: &str, at: &At<'_>) {
+    pub(in crate::interpreter) fn disable_coupling(&mut self, rest: &str, at: &BlockContext<'_>) {
         let group = self.group_of(rest, at);
         let changed = if group.is_empty() {
             self.state.control.couplings.release_last()
@@ -64,21 +69,21 @@ impl Interpreter {
     }
 
     /// Any coupling may be in force, or none.
-    pub(in crate::interpreter) fn doubt_couplings(&mut self) {
-        let changed = self.state.control.couplings.doubt();
-        self.state.control.couplings.doubt_followers(&[]);
+    pub(in crate::interpreter) fn havoc_couplings(&mut self) {
+        let changed = self.state.control.couplings.havoc();
+        self.state.control.couplings.havoc_followers(&[]);
         if !changed.is_empty() {
             self.simplify(Simplification::Coupling, Holds::On);
         }
         for axis in &changed {
-            self.state.control.modal.forget_position(*axis);
+            self.state.control.modal.havoc_position(*axis);
         }
         self.mark_coupled(changed);
     }
 
     /// These axes may be coupled by groups whose members are unknown.
-    pub(in crate::interpreter) fn doubt_definitions(&mut self, axes: &[AxisIndex]) {
-        let changed = self.state.control.couplings.doubt_definitions(axes);
+    pub(in crate::interpreter) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
+        let changed = self.state.control.couplings.havoc_definitions(axes);
         self.mark_coupled(changed);
     }
 
@@ -95,7 +100,7 @@ impl Interpreter {
                 axes.dedup();
                 if axes.len() < 2 {
                     axes = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
-                    return self.state.control.couplings.doubt_followers(&axes);
+                    return self.state.control.couplings.havoc_followers(&axes);
                 }
                 let pairs = axes
                     .iter()
@@ -131,16 +136,16 @@ impl Interpreter {
             None if off => self.state.control.couplings.end_following(),
             Some(_) if off => self.state.control.couplings.unfollow(&key),
             Some(target) if !sources.is_empty() => {
-                self.state.control.modal.forget_position(target);
+                self.state.control.modal.havoc_position(target);
                 let pairs = sources.into_iter().map(|source| (target, source)).collect();
                 self.state.control.couplings.follow(key, pairs);
             }
             Some(_) if self.state.control.couplings.is_following(&key) => {}
-            Some(target) => self.state.control.couplings.doubt_followers(&[target]),
+            Some(target) => self.state.control.couplings.havoc_followers(&[target]),
             None => {
                 let turned = sources.first().copied().or_else(|| self.axis_named("C"));
                 let turned: Vec<AxisIndex> = turned.into_iter().collect();
-                self.state.control.couplings.doubt_followers(&turned);
+                self.state.control.couplings.havoc_followers(&turned);
             }
         }
     }
@@ -157,7 +162,7 @@ impl Interpreter {
                 let pairs = vec![(axis, master)];
                 self.state.control.couplings.follow(gear_of(axis), pairs);
             }
-            None => self.state.control.couplings.doubt_followers(&[axis]),
+            None => self.state.control.couplings.havoc_followers(&[axis]),
         }
     }
 
@@ -192,7 +197,7 @@ impl Interpreter {
     }
 
     /// The coupling group that `[1, …]` or `[P1+1]` names; empty without one.
-    fn group_of(&mut self, rest: &str, at: &At<'_>) -> String {
+    fn group_of(&mut self, rest: &str, at: &BlockContext<'_>) -> String {
         let inside = rest.trim_start().strip_prefix('[').unwrap_or_default();
         let text = inside.split([',', ']']).next().unwrap_or_default().trim();
         match self.number_in(text, at) {

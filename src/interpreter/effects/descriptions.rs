@@ -1,7 +1,7 @@
 //! Descriptions of geometry, whose blocks do not move (R2.81).
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::description::Description;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::syntax::ast::Hash;
@@ -16,7 +16,7 @@ pub(in crate::interpreter) const DESCRIPTIONS: [(&str, &str); 3] = [
 
 impl Interpreter {
     /// The blocks up to the end describe geometry.
-    pub(in crate::interpreter) fn describe(&mut self, hash: &Hash, at: &At<'_>) {
+    pub(in crate::interpreter) fn describe(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         if self.state.control.described.is_none() {
             self.state.control.described = Some(Box::new(Description {
                 opener: hash.name.clone(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::Frame as PositionFrame;
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::{Evaluator, Given, Macros, Scope};
@@ -47,15 +47,15 @@ impl Interpreter {
     pub(in crate::interpreter) fn value(
         &mut self,
         operand: Operand,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Value, Box<Fault>> {
         if let Operand::Number(number) = operand {
             return Ok(Value::Number(number));
         }
-        let mut stack = std::mem::take(&mut self.work.stack);
+        let mut stack = std::mem::take(&mut self.scratch.stack);
         let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
-        self.work.stack = stack;
-        if let Some(name) = self.work.flushing.take() {
+        self.scratch.stack = stack;
+        if let Some(name) = self.scratch.flushing.take() {
             self.note_flush(&name, at);
         }
         value
@@ -63,7 +63,7 @@ impl Interpreter {
 
     /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
     /// (R1.42).
-    fn note_flush(&mut self, name: &str, at: &At<'_>) {
+    fn note_flush(&mut self, name: &str, at: &BlockContext<'_>) {
         let found = at
             .text
             .find(name)
@@ -74,12 +74,12 @@ impl Interpreter {
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, into a parameter for instance");
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     pub(in crate::interpreter) fn with_evaluator<T>(
         &self,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         work: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
         static NONE: BTreeMap<u32, Value> = BTreeMap::new();
@@ -96,7 +96,7 @@ impl Interpreter {
             macros: Macros {
                 depth: at.macro_depth,
                 limit: self.options.limits.macros,
-                expansions: &self.work.expansions,
+                expansions: &self.scratch.expansions,
                 until: self.work_bound(),
             },
             effort: &self.state.effort,
@@ -105,12 +105,12 @@ impl Interpreter {
                 reads: self.state.watching.then_some(&self.state.reads),
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
-                unread: &self.work.unread,
-                waits: &self.work.rests,
+                unread: &self.scratch.unread,
+                waits: &self.scratch.rests,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
-                        self.work.notes.borrow_mut().push(Note {
+                        self.scratch.notes.borrow_mut().push(Note {
                             kind: NoteKind::Unknown,
                             name: name.to_owned(),
                             place: at.place(span),
@@ -128,7 +128,12 @@ impl Interpreter {
     }
 
     /// Counts something that was accepted and passed over.
-    pub(in crate::interpreter) fn pass_over(&mut self, word: &str, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn pass_over(
+        &mut self,
+        word: &str,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
         let counts = &mut self.state.opaque;
         let full = counts.len() >= MAX_OPAQUE && !counts.contains_key(word);
         let word_or_rest = if full { OTHER_WORDS } else { word };
@@ -139,7 +144,7 @@ impl Interpreter {
             }
         }
         if self.options.notes == Notes::Taken {
-            self.work.notes.borrow_mut().push(Note {
+            self.scratch.notes.borrow_mut().push(Note {
                 kind: NoteKind::Opaque,
                 name: word.to_owned(),
                 place: at.place(span),
@@ -155,11 +160,11 @@ impl Interpreter {
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
         if is_state && self.state.control.modal.transformed.contains("G41") {
-            self.work.flushing.replace(Some(name.to_owned()));
+            self.scratch.flushing.replace(Some(name.to_owned()));
         }
         match own {
             OwnVariable::Active(axis, kind) => {
-                self.work.asked.borrow_mut().push((axis, kind));
+                self.scratch.asked.borrow_mut().push((axis, kind));
                 match self.state.control.compensation.state(axis, kind) {
                     State::Unknown => None,
                     state => Some((state == State::Active).into()),
@@ -222,7 +227,12 @@ impl Interpreter {
     }
 
     /// FC322: what an assignment to such a variable does is not known.
-    pub(in crate::interpreter) fn warn_own(&mut self, place: &Place, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn warn_own(
+        &mut self,
+        place: &Place,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
         let Place::Variable(name) = place else {
             return;
         };
@@ -251,17 +261,17 @@ impl Interpreter {
             }
             _ => fault,
         };
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// Something may have written such a variable: what it shows is not known any more.
-    fn doubt_own(&mut self, own: OwnVariable) {
+    fn havoc_own(&mut self, own: OwnVariable) {
         match own {
             OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
-                self.doubt(axis, KindSet::of(kind));
+                self.havoc(axis, KindSet::of(kind));
             }
             OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
-                self.state.control.modal.forget_position(axis);
+                self.state.control.modal.havoc_position(axis);
             }
         }
     }
@@ -278,7 +288,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn assign(
         &mut self,
         assignment: Assignment,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
         let watching = self.state.watching;
         if watching {
@@ -298,11 +308,11 @@ impl Interpreter {
     pub(in crate::interpreter) fn target_place(
         &mut self,
         place: Expression,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Result<Place, Box<Fault>> {
-        let mut stack = std::mem::take(&mut self.work.stack);
+        let mut stack = std::mem::take(&mut self.scratch.stack);
         let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
-        self.work.stack = stack;
+        self.scratch.stack = stack;
         found
     }
 
@@ -310,9 +320,9 @@ impl Interpreter {
         if let Place::Variable(name) = &place
             && let Some(own) = self.own_variable(name)
         {
-            return self.doubt_own(own);
+            return self.havoc_own(own);
         }
-        self.work.wrote = true;
+        self.scratch.wrote = true;
         self.journal.write(&place, &value);
         self.state
             .track
@@ -331,15 +341,19 @@ impl Interpreter {
             }
             Place::Variable(name) => self.state.control.memory.set_variable(&name, value),
             Place::Elements(name, cause) => {
-                self.state.control.memory.forget_elements(&name, &cause);
+                self.state.control.memory.havoc_elements(&name, &cause);
             }
-            Place::Parameters(cause) => self.state.control.memory.forget_parameters(&cause),
+            Place::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
             Place::Nowhere => {}
         }
     }
 
     /// The number that a text is, `2` or `P1+1`, if it is known.
-    pub(in crate::interpreter) fn number_in(&mut self, text: &str, at: &At<'_>) -> Option<f64> {
+    pub(in crate::interpreter) fn number_in(
+        &mut self,
+        text: &str,
+        at: &BlockContext<'_>,
+    ) -> Option<f64> {
         let mut block = Block::default();
         let operand = crate::syntax::parse_expression(text, &mut block)?;
         let shown = Shown::default();
@@ -381,7 +395,7 @@ fn compensation_kind(name: &str) -> Option<Kind> {
 pub(in crate::interpreter) fn only_counts(
     assignment: Assignment,
     place: &Place,
-    at: &At<'_>,
+    at: &BlockContext<'_>,
 ) -> bool {
     let Operand::Expression(value) = assignment.value else {
         return false;

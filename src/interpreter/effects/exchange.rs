@@ -9,11 +9,11 @@ use std::collections::BTreeSet;
 
 use crate::comp::{AxisIndex, CompensationError, Kind, KindSet};
 use crate::diagnostic::Code;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::value::rounded;
+use crate::interpreter::values::work_budget::ITEM;
 use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
@@ -64,7 +64,7 @@ impl Interpreter {
     }
 
     /// Executes an exchange command.
-    pub(in crate::interpreter) fn exchange_axes(&mut self, hash: &Hash, at: &At<'_>) {
+    pub(in crate::interpreter) fn exchange_axes(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let Some(exchange) = exchange(&hash.name) else {
             return;
         };
@@ -76,9 +76,9 @@ impl Interpreter {
         }
         match exchange {
             Exchange::Restore if self.state.control.channel_axes == ChannelAxes::default() => {}
-            Exchange::Restore => self.doubt_exchange(),
+            Exchange::Restore => self.havoc_exchange(),
             Exchange::Undescribed => {
-                self.doubt_exchange();
+                self.havoc_exchange();
                 let fault = Fault::new(
                     Code::Fc902,
                     hash.span,
@@ -87,7 +87,7 @@ impl Interpreter {
                         hash.name
                     ),
                 );
-                self.work.diagnostics.push(at.diagnostic(fault));
+                self.scratch.diagnostics.push(at.diagnostic(fault));
             }
             Exchange::Request => self.request_axes(rest, at),
             Exchange::Release if every("ALL") => self.release_others(&[]),
@@ -107,7 +107,7 @@ impl Interpreter {
         }
     }
 
-    fn request_axes(&mut self, rest: &str, at: &At<'_>) {
+    fn request_axes(&mut self, rest: &str, at: &BlockContext<'_>) {
         for group in groups(rest) {
             let (Some(name), number) = axis_of(&group) else {
                 continue;
@@ -146,7 +146,7 @@ impl Interpreter {
         let control = &mut self.state.control;
         control.possible.replace(axis, kinds);
         control.untouched.switch(axis, kinds);
-        let changes = &mut self.work.changes;
+        let changes = &mut self.scratch.changes;
         control
             .compensation
             .return_to(&start, (axis, kinds), changes);
@@ -197,7 +197,7 @@ impl Interpreter {
     }
 
     /// An exchange that may or may not have been executed.
-    pub(in crate::interpreter) fn doubt_exchange(&mut self) {
+    pub(in crate::interpreter) fn havoc_exchange(&mut self) {
         self.state.control.channel_axes.doubtful = true;
     }
 }

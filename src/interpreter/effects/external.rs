@@ -15,20 +15,20 @@ impl Interpreter {
     pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
         let keeps = self.machine.programs.keeps(name);
         if !keeps.compensation {
-            if let Some(undecided) = &mut self.work.undecided {
+            if let Some(undecided) = &mut self.scratch.undecided {
                 undecided
                     .differing
                     .name(format!("all that `{name}` could change"));
             }
-            self.doubt_couplings();
-            self.forget_compensation();
+            self.havoc_couplings();
+            self.havoc_compensation();
         }
         if !keeps.parameters {
             // It writes the P parameters and variables of its caller (R2.33, R2.52).
-            self.forget_memory(&program(name));
+            self.havoc_memory(&program(name));
         }
         if !keeps.positions {
-            self.state.control.modal.forget_positions();
+            self.state.control.modal.havoc_positions();
             self.perhaps_move_all();
             self.state.control.modal.note_transformed(name);
         }

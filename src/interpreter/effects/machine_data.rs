@@ -2,7 +2,7 @@
 //! Programming manual, 207492747).
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::machine::Machine;
@@ -56,7 +56,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn transferred(
         &mut self,
         hash: &Hash,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Vec<(AxisIndex, KindSet)> {
         let text = hash.rest.of(at.text);
         let axes = match named(text) {

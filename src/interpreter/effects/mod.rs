@@ -6,6 +6,6 @@ pub(super) mod descriptions;
 pub(super) mod evaluate;
 pub(super) mod exchange;
 pub(super) mod external;
-pub(super) mod forget;
+pub(super) mod havoc;
 pub(super) mod machine_data;
 pub(super) mod roots;

@@ -3,14 +3,19 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Interpreter {
     /// Remembers where an unknown value came in first.
-    pub(in crate::interpreter) fn enter_root(&mut self, cause: &Arc<str>, span: Span, at: &At<'_>) {
+    pub(in crate::interpreter) fn enter_root(
+        &mut self,
+        cause: &Arc<str>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
         self.state.told.enter(cause, || at.place(at.in_block(span)));
     }
 
@@ -19,7 +24,7 @@ impl Interpreter {
         &self,
         said: Diagnostic,
         cause: &str,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Diagnostic {
         let is_shown = at.text.contains(cause) || at.block.skip.is_some();
         let origin = self.state.told.origin(cause).filter(|_| !is_shown);
@@ -37,7 +42,7 @@ impl Interpreter {
         cause: &Arc<str>,
         what: &str,
         fault: Fault,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) {
         let span = fault.span;
         let said = at.diagnostic(fault);
@@ -48,9 +53,9 @@ impl Interpreter {
             .told
             .is_new(cause, [what.to_owned()], &said.place)
         {
-            self.work.diagnostics.push(said);
+            self.scratch.diagnostics.push(said);
         } else {
-            self.work.aside.withheld.push(said);
+            self.scratch.aside.withheld.push(said);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::values::value::Value;
@@ -45,7 +45,7 @@ impl Interpreter {
             plain: false,
             remark: None,
         };
-        let at = At::of_raw(&file, &raw, &block, &shown);
+        let at = BlockContext::of_raw(&file, &raw, &block, &shown);
         copy.value(operand, &at).map_err(|fault| fault.message)
     }
 }

@@ -10,7 +10,7 @@ impl Interpreter {
     pub fn reset(&mut self) {
         let _ = self.state.control.compensation.reset();
         self.reset_friction();
-        self.work.changes.clear();
+        self.scratch.changes.clear();
         self.version += 1;
     }
 
@@ -25,10 +25,10 @@ impl Interpreter {
 
     /// Without knowing what was switched before the start of the control, friction compensation is
     /// unknown where the machine is read as keeping it (R1.29).
-    pub(crate) fn doubt_start(&mut self) {
+    pub(crate) fn havoc_start(&mut self) {
         if self.machine.readings.takes_second(Question::Restart) {
-            self.doubt_any_axis(KindSet::of(Kind::Frict));
-            self.work.clear();
+            self.havoc_any_axis(KindSet::of(Kind::Frict));
+            self.scratch.clear();
             self.version += 1;
         }
     }

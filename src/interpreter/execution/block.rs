@@ -7,16 +7,16 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::items::MAX_SAID;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
-use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
-use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::Fault;
 use crate::syntax::ast::Item;
 use crate::text::Span;
@@ -24,17 +24,17 @@ use crate::text::Span;
 impl Interpreter {
     /// What moves with the axis words of a block, and whether each axis may.
     #[inline]
-    fn look_at_motion(&mut self, words: AxisWords, at: &At<'_>) {
-        if self.work.again != 0 {
+    fn look_at_motion(&mut self, words: AxisWords, at: &BlockContext<'_>) {
+        if self.scratch.again != 0 {
             self.refuse_repeated_axes(words, at);
         }
-        if !self.work.lacking.is_empty() {
+        if !self.scratch.lacking.is_empty() {
             self.say_lacking(words, at);
         }
         self.move_around(words);
         self.carry_along(words);
         if self.any_required && self.state.control.described.is_none() {
-            let goes_on = !self.work.diagnostics.iter().any(stops);
+            let goes_on = !self.scratch.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
             }
@@ -44,10 +44,10 @@ impl Interpreter {
     /// What ways that meet here leave is said, and the block counted.
     #[inline]
     fn begin_block(&mut self, finder: &mut dyn Finder) {
-        self.work.clear();
+        self.scratch.clear();
         if !(self.met.is_empty() && self.met_withheld.is_empty()) {
-            self.work.diagnostics.append(&mut self.met);
-            self.work.aside.withheld.append(&mut self.met_withheld);
+            self.scratch.diagnostics.append(&mut self.met);
+            self.scratch.aside.withheld.append(&mut self.met_withheld);
         }
         self.state.seq += 1;
         self.state.blocks += 1;
@@ -59,28 +59,28 @@ impl Interpreter {
     /// Executes a block and tells the observer. `Continue` where the next block follows.
     pub(in crate::interpreter) fn execute(
         &mut self,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> ControlFlow<Departure> {
         self.begin_block(finder);
-        let mut intent = Intent::default();
+        let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
         let undecided = self.undecided_level(at.block);
         if let Some(level) = undecided {
-            self.perhaps_execute(level, at, &mut intent);
+            self.perhaps_execute(level, at, &mut outcome);
         } else if !self.is_halted() {
-            self.items(at, &mut intent, limit);
+            self.items(at, &mut outcome, limit);
         }
-        self.look_at_motion(intent.axis_words, at);
-        self.doubt_ways(at, finder);
-        let calls = if intent.calls.is_empty() {
+        self.look_at_motion(outcome.axis_words, at);
+        self.havoc_ways(at, finder);
+        let calls = if outcome.calls.is_empty() {
             Vec::new()
         } else {
-            self.resolve_all(std::mem::take(&mut intent.calls), at, finder)
+            self.resolve_all(std::mem::take(&mut outcome.calls), at, finder)
         };
-        let refused = self.work.diagnostics.iter().any(stops);
+        let refused = self.scratch.diagnostics.iter().any(stops);
         let stopped = undecided.is_none()
             && self.options.stop == StopPolicy::FirstError
             && (limit.is_some() || refused);
@@ -88,29 +88,29 @@ impl Interpreter {
             self.take_faults(at, stopped);
         }
         if !stopped {
-            self.move_axes(&intent, at);
+            self.move_axes(&outcome, at);
         }
         self.state.effort.grant(at.text);
-        let is_plain = !self.work.wrote
-            && self.work.unsaid.is_none()
+        let is_plain = !self.scratch.wrote
+            && self.scratch.unsaid.is_none()
             && self.state.effort.level() <= self.options.limits.work;
         let is_over = !is_plain && self.settle(at);
-        if !self.work.changes.is_empty() || self.work.new_axes {
+        if !self.scratch.changes.is_empty() || self.scratch.new_axes {
             self.version += 1;
             self.replace_possible();
         }
         self.remember_last(at);
-        self.work.gather_asked();
-        let step = if is_over || self.work.too_deep {
+        self.scratch.gather_asked();
+        let step = if is_over || self.scratch.too_deep {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
-            Some(Step::End(ended_by(&self.work.diagnostics)))
+            Some(Step::End(ended_by(&self.scratch.diagnostics)))
         } else if undecided.is_some() {
-            intent.step
-        } else if calls.is_empty() && intent.goes_on() && self.state.control.cycles.is_empty() {
+            outcome.step
+        } else if calls.is_empty() && outcome.goes_on() && self.state.control.cycles.is_empty() {
             None
         } else {
-            match self.step(intent, calls, at, finder) {
+            match self.step(outcome, calls, at, finder) {
                 Some(Step::Jump(target)) if self.state.control.frames.is_passed(target) => {
                     Some(self.come_round(target, at, finder))
                 }
@@ -128,18 +128,22 @@ impl Interpreter {
             number,
             level: (at.level > 0).then_some(at.level),
             block: at.block,
-            outcomes: &self.work.outcomes,
-            changes: &self.work.changes,
-            doubted: &self.work.doubted,
-            moved: if stopped { &[] } else { &self.work.moved },
-            named: self.work.seen,
-            aside: &self.work.aside,
-            rests: self.work.rests.get() || self.work.dwells,
-            also_moved: if stopped { &[] } else { &self.work.also_moved },
-            word_motion: self.work.word_row.map(|row| row.kind),
-            motion: self.work.motion.as_ref(),
-            notes: &self.work.notes.borrow(),
-            diagnostics: &self.work.diagnostics,
+            outcomes: &self.scratch.outcomes,
+            changes: &self.scratch.changes,
+            doubted: &self.scratch.doubted,
+            moved: if stopped { &[] } else { &self.scratch.moved },
+            named: self.scratch.seen,
+            aside: &self.scratch.aside,
+            rests: self.scratch.rests.get() || self.scratch.dwells,
+            also_moved: if stopped {
+                &[]
+            } else {
+                &self.scratch.also_moved
+            },
+            word_motion: self.scratch.word_row.map(|row| row.kind),
+            motion: self.scratch.motion.as_ref(),
+            notes: &self.scratch.notes.borrow(),
+            diagnostics: &self.scratch.diagnostics,
             stopped,
             compensation: &self.state.control.compensation,
             possible: &self.shown.possible,
@@ -153,7 +157,7 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
-        self.work.forget_said();
+        self.scratch.clear_said();
         match step {
             step if flow.is_break() => {
                 self.state.parked = step;
@@ -166,12 +170,12 @@ impl Interpreter {
 
     /// What the block makes unknown, because it may call, or leave for, something else.
     #[inline]
-    fn doubt_ways(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
+    fn havoc_ways(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) {
         if !self.pending.is_empty() {
-            self.forget_called(finder);
+            self.havoc_called(finder);
             self.move_followers(AxisWords::Other);
         }
-        if let Some(undecided) = self.work.undecided.take() {
+        if let Some(undecided) = self.scratch.undecided.take() {
             self.tell_undecided(*undecided);
         }
         if !self.departing.is_empty() {
@@ -182,21 +186,21 @@ impl Interpreter {
     /// What a block that did more than move says at its end: how much it left unsaid, and which
     /// budget it used up. Whether it used up one.
     #[inline(never)]
-    fn settle(&mut self, at: &At<'_>) -> bool {
-        if let Some((span, more)) = self.work.unsaid.take() {
+    fn settle(&mut self, at: &BlockContext<'_>) -> bool {
+        if let Some((span, more)) = self.scratch.unsaid.take() {
             let message = format!(
                 "the first {MAX_SAID} messages about this block are shown; there are {more} more"
             );
             let fault = Fault::new(Code::Fc905, at.in_block(span), message);
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.scratch.diagnostics.push(at.diagnostic(fault));
         }
         let Some(over) = self.used_up(at) else {
             return false;
         };
         // The faults of the parts that were given up say no more than it does.
         let is_part = |said: &Diagnostic| said.code == Code::Fc919;
-        self.work.diagnostics.retain(|said| !is_part(said));
-        self.work.diagnostics.push(over);
+        self.scratch.diagnostics.retain(|said| !is_part(said));
+        self.scratch.diagnostics.push(over);
         true
     }
 
@@ -204,16 +208,16 @@ impl Interpreter {
     #[inline(never)]
     fn step(
         &mut self,
-        mut intent: Intent,
+        mut outcome: BlockOutcome,
         calls: Vec<Request>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let moved = !self.work.moved.is_empty();
+        let moved = !self.scratch.moved.is_empty();
         if !calls.is_empty() {
-            intent.step = Some(Step::Call(calls));
+            outcome.step = Some(Step::Call(calls));
         }
-        if let Some(by) = intent.end {
+        if let Some(by) = outcome.end {
             if self.state.control.ending.is_none() && at.level > 0 {
                 let fault = Fault::new(
                     Code::Fc315,
@@ -221,20 +225,20 @@ impl Interpreter {
                     "a program end inside a subprogram ends the whole run",
                 )
                 .with_help("end a subprogram with `M17` or `M29`");
-                self.work.diagnostics.push(at.diagnostic(fault));
+                self.scratch.diagnostics.push(at.diagnostic(fault));
             }
             if at.used.is_none() && self.state.control.ending.is_none() {
-                self.work.end = Some(OwnEnd {
+                self.scratch.end = Some(OwnEnd {
                     place: at.place(Span::new(0, at.text.len())),
                     is_passed_into: !self.may_be_jumped_to(at),
                 });
             }
             return Some(self.program_end(by, at, finder));
         }
-        if intent.returns {
+        if outcome.returns {
             return Some(Step::Return);
         }
-        let step = intent.step.take();
+        let step = outcome.step.take();
         if step.is_none() || matches!(step, Some(Step::Call(_))) {
             return self.repetition(step, moved, at, finder);
         }
@@ -242,7 +246,7 @@ impl Interpreter {
     }
 
     /// Whether a jump of the running program may go to the block.
-    fn may_be_jumped_to(&self, at: &At<'_>) -> bool {
+    fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return true;
         };
@@ -255,13 +259,13 @@ impl Interpreter {
     /// What the block changed is known by itself.
     fn replace_possible(&mut self) {
         let possible = &mut self.state.control.possible;
-        for change in &self.work.changes {
+        for change in &self.scratch.changes {
             possible.replace(change.axis, KindSet::of(change.kind));
         }
     }
 
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
-    fn remember_last(&mut self, at: &At<'_>) {
+    fn remember_last(&mut self, at: &BlockContext<'_>) {
         if at.level > 0 {
             return;
         }

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -10,7 +10,7 @@ use crate::text::Span;
 impl Interpreter {
     /// FC910 when the next block may not be executed any more.
     #[inline]
-    pub(in crate::interpreter) fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
+    pub(in crate::interpreter) fn over_budget(&self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let limits = &self.options.limits;
         if self.state.blocks >= limits.blocks {
             return Some(too_many_blocks(limits.blocks, at));
@@ -21,10 +21,10 @@ impl Interpreter {
 
     /// FC919 or FC918 when the block used up what it must not. What it could have changed besides is
     /// unknown then: the run did not get to the end of it.
-    pub(in crate::interpreter) fn used_up(&mut self, at: &At<'_>) -> Option<Diagnostic> {
-        let wrote = std::mem::take(&mut self.work.wrote);
-        if self.state.effort.level() > self.options.limits.work && self.is_worn_out() {
-            self.forget_all(&"the budget of work".into());
+    pub(in crate::interpreter) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
+        let wrote = std::mem::take(&mut self.scratch.wrote);
+        if self.state.effort.level() > self.options.limits.work && self.is_exhausted() {
+            self.havoc_all(&"the budget of work".into());
             return Some(self.too_much_work(at));
         }
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
@@ -42,7 +42,7 @@ impl Interpreter {
     }
 
     #[cold]
-    fn too_much_work(&self, at: &At<'_>) -> Diagnostic {
+    fn too_much_work(&self, at: &BlockContext<'_>) -> Diagnostic {
         let budget = self.options.limits.work;
         let fault = Fault::new(
             Code::Fc919,
@@ -81,7 +81,7 @@ impl Interpreter {
 
 /// FC910 at the budget of blocks.
 #[cold]
-fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
+fn too_many_blocks(budget: u64, at: &BlockContext<'_>) -> Diagnostic {
     cut_off(
         format!("more than {budget} blocks were executed; the dry run ends here"),
         at,
@@ -90,7 +90,7 @@ fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
 
 /// FC910 at the budget of repeated work.
 #[cold]
-fn too_many_repeats(blocks: u64, at: &At<'_>) -> Diagnostic {
+fn too_many_repeats(blocks: u64, at: &BlockContext<'_>) -> Diagnostic {
     cut_off(
         format!("loops and calls go on after {blocks} executed blocks; the dry run ends here"),
         at,
@@ -98,7 +98,7 @@ fn too_many_repeats(blocks: u64, at: &At<'_>) -> Diagnostic {
 }
 
 /// FC910 of a program that may end: what follows is not known, so it is an error (R9.91).
-fn cut_off(message: String, at: &At<'_>) -> Diagnostic {
+fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
     let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
         .with_help(Advice::RaiseBudget(Budget::Blocks));
     at.diagnostic(fault).raised(Severity::Error)
@@ -106,7 +106,7 @@ fn cut_off(message: String, at: &At<'_>) -> Diagnostic {
 
 /// FC918.
 #[cold]
-fn too_many_values(limit: usize, at: &At<'_>) -> Diagnostic {
+fn too_many_values(limit: usize, at: &BlockContext<'_>) -> Diagnostic {
     at.diagnostic(
         Fault::new(
             Code::Fc918,

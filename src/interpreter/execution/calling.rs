@@ -59,7 +59,7 @@ impl Interpreter {
                     (frame.retains == Retains::Perhaps).then(|| self.state.control.modal.clone());
                 self.state.control.modal.restore(saved);
                 if let Some(kept) = kept {
-                    self.state.control.modal.doubt(&kept);
+                    self.state.control.modal.join(&kept);
                 }
             }
             if self.state.track.ways.has_targets() {
@@ -156,8 +156,8 @@ impl Interpreter {
             Step::Begin => {}
             Step::Jump(entry) => {
                 if let Some(endless) = self.endless_loop() {
-                    self.work.over.push(endless);
-                    self.work.endless = true;
+                    self.scratch.over.push(endless);
+                    self.scratch.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
                 }
                 if let Some(frame) = self.state.control.frames.running_mut() {
@@ -185,7 +185,7 @@ impl Interpreter {
             Step::ReturnTo(destination) => self.go_back(&destination),
             Step::End(by) => return ControlFlow::Break(by),
             Step::Covered => {
-                self.work.covered = true;
+                self.scratch.covered = true;
                 return ControlFlow::Break(EndedBy::EndOfFile);
             }
         }

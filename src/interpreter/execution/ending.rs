@@ -7,7 +7,8 @@ use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::unit::Unit;
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
@@ -15,7 +16,6 @@ use crate::interpreter::run::path::Last;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::AxisKinds;
-use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::RawBlock;
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
@@ -48,7 +48,7 @@ impl Interpreter {
             return outcome;
         };
         let mut notes = self.refused();
-        notes.extend(self.work.over.drain(..));
+        notes.extend(self.scratch.over.drain(..));
         if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
             notes.extend(self.missing_end());
         }
@@ -85,16 +85,16 @@ impl Interpreter {
             (by, met) = self.meet_ended(by);
         }
         notes.to_mut().extend(self.met.drain(..));
-        let at = self.work.end.take();
+        let at = self.scratch.end.take();
         let mut ends = self.all_ends(at.as_ref());
         if !met.is_empty() {
             ends.splice(..1.min(ends.len()), met);
         }
         // R2.84: only a reset ends a loop without an end.
-        if self.work.endless {
+        if self.scratch.endless {
             self.reset_friction();
         }
-        let mut changes = std::mem::take(&mut self.work.changes);
+        let mut changes = std::mem::take(&mut self.scratch.changes);
         changes.extend(self.state.control.compensation.program_end());
         if !changes.is_empty() {
             self.version += 1;
@@ -114,7 +114,7 @@ impl Interpreter {
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
             by,
-            endless: std::mem::take(&mut self.work.endless),
+            endless: std::mem::take(&mut self.scratch.endless),
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
             changes: &changes,
@@ -225,7 +225,7 @@ impl Interpreter {
         notes: &mut Collected,
     ) {
         let shown = Shown::default();
-        let at = At::of_raw(file, raw, block, &shown);
+        let at = BlockContext::of_raw(file, raw, block, &shown);
         notes.extend(
             block
                 .faults

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{LeftLoop, Loop, Mark};
@@ -22,9 +22,9 @@ use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::target::Target;
+use crate::interpreter::values::work_budget::ITEM;
 
 /// How many passes the state may take to come back to what it was.
 const LONGEST_PERIOD: u64 = 8;
@@ -70,7 +70,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn come_round(
         &mut self,
         target: EntryIndex,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Step {
         let why = self.note_pass(target);
@@ -79,7 +79,7 @@ impl Interpreter {
         }
         let left = why.and_then(|why| {
             if let Enough::TooMany(cause) = &why {
-                self.forget_loop(cause, finder);
+                self.havoc_loop(cause, finder);
             }
             let out = self.way_out()?;
             self.leave_loop(&why, &out, at, finder)
@@ -134,7 +134,7 @@ impl Interpreter {
         if known.passes > most + MOST_JOINED_PASSES {
             let after = known.from.saturating_add(1);
             self.state.track.loops.push(known);
-            self.forget_loop(&"a loop that goes on too long".into(), finder);
+            self.havoc_loop(&"a loop that goes on too long".into(), finder);
             return Step::Jump(after);
         }
         let now = self.at_head(target);
@@ -287,16 +287,16 @@ impl Interpreter {
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
     #[cold]
-    fn forget_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
+    fn havoc_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
         let Some(last) = self.state.track.loops.last() else {
             return;
         };
         let (unit, head, from) = (last.unit, last.head, last.from);
-        let region = self.forget_region(unit, head..from.saturating_add(1), cause);
+        let region = self.havoc_region(unit, head..from.saturating_add(1), cause);
         self.note_exits(&region, head..=from, cause, None);
-        self.forget_called(finder);
+        self.havoc_called(finder);
         self.take_departing();
-        if !self.work.changes.is_empty() {
+        if !self.scratch.changes.is_empty() {
             self.version += 1;
         }
     }
@@ -307,7 +307,7 @@ impl Interpreter {
         &mut self,
         why: &Enough,
         out: &WayOut,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
         let known = self.state.track.loops.pop()?;
@@ -342,7 +342,7 @@ impl Interpreter {
             message,
         );
         let said = said.with_help(how_to_set(&out.cause));
-        self.work.diagnostics.push(said);
+        self.scratch.diagnostics.push(said);
         Some(match out.to {
             Leaving::To(block) => Step::Jump(block),
             Leaving::Return => Step::Return,

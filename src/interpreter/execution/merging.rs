@@ -1,17 +1,17 @@
 //! Where the ways through the program end.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{EndedBy, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::path::{EndedPath, Passed};
-use crate::interpreter::run::work::OwnEnd;
 
 impl Interpreter {
     /// A way ends; whether the run does, as no other way goes on.
     #[cold]
     pub(in crate::interpreter) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
-        let is_covered = std::mem::take(&mut self.work.covered);
+        let is_covered = std::mem::take(&mut self.scratch.covered);
         let is_alone = self.state.pending.is_empty() && self.state.ended.is_empty();
         let waits_for_lines = by == EndedBy::EndOfFile
             && self.state.control.frames.depth() == 1
@@ -19,27 +19,27 @@ impl Interpreter {
         if is_alone || (waits_for_lines && !is_covered) {
             return Some(by);
         }
-        if by == EndedBy::Budget && !self.work.endless && !is_covered {
+        if by == EndedBy::Budget && !self.scratch.endless && !is_covered {
             // What the other ways would have done is not known.
             self.state.pending.clear();
             self.state.ended.clear();
-            self.forget_all(&"a way that was not followed".into());
+            self.havoc_all(&"a way that was not followed".into());
             return Some(by);
         }
-        let never_ends = std::mem::take(&mut self.work.endless);
+        let never_ends = std::mem::take(&mut self.scratch.endless);
         if !is_covered && !never_ends {
             if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-                self.work.over.extend(self.missing_end());
+                self.scratch.over.extend(self.missing_end());
             }
             let ended = self.ended_path(by);
             self.state.ended.push(ended);
         }
         if self.enter_first() {
-            self.forget_last_motion();
+            self.havoc_last_motion();
             return None;
         }
         let last = self.state.ended.pop()?;
-        self.work.end = last.at.map(|(place, passed)| OwnEnd {
+        self.scratch.end = last.at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });
@@ -52,7 +52,7 @@ impl Interpreter {
         let mut path = self.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
         path.control.frames.clear();
-        let at = self.work.end.take().map(|end| {
+        let at = self.scratch.end.take().map(|end| {
             let passed = if end.is_passed_into {
                 Passed::Into
             } else {
@@ -106,7 +106,7 @@ impl Interpreter {
         else {
             return (by, ends);
         };
-        self.work.end = at.map(|(place, passed)| OwnEnd {
+        self.scratch.end = at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
         });

@@ -18,7 +18,7 @@ use crate::interpreter::run::path::Path;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
-use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::work_budget::ITEM;
 
 impl Interpreter {
     /// The way that is executed, which is so no more.
@@ -77,7 +77,7 @@ impl Interpreter {
                     let other = self.state.pending.swap_remove(place);
                     let mine = self.leave_path();
                     self.enter_path(other);
-                    self.forget_last_motion();
+                    self.havoc_last_motion();
                     self.state.pending.push(mine);
                     place = 0;
                 }
@@ -93,9 +93,9 @@ impl Interpreter {
     }
 
     /// The block before was executed on another way.
-    pub(in crate::interpreter) fn forget_last_motion(&mut self) {
-        self.work.moved.clear();
-        self.work.aside.last_moved.clear();
+    pub(in crate::interpreter) fn havoc_last_motion(&mut self) {
+        self.scratch.moved.clear();
+        self.scratch.aside.last_moved.clear();
     }
 
     /// Another way comes to the block that is executed next.
@@ -110,7 +110,7 @@ impl Interpreter {
         let cost = ITEM * (8 + differing) + self.machine.axes.len() * 4;
         self.state.effort.charge(cost);
         self.enter_path(mine);
-        self.forget_last_motion();
+        self.havoc_last_motion();
         self.tell_join(&before, parted);
     }
 

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::ProgramId;
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
@@ -70,10 +70,11 @@ impl Interpreter {
                 .and_then(|frame| frame.called_from.take());
             let level = self.state.control.frames.level();
             let shown = Shown::default();
-            let at = At::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
+            let at =
+                BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);
-                self.work.over.push(over);
+                self.scratch.over.push(over);
                 match self.end_path(EndedBy::Budget) {
                     Some(by) => return RunOutcome::Ended(by),
                     None => continue,
@@ -85,7 +86,7 @@ impl Interpreter {
             if is_repeated {
                 self.state
                     .effort
-                    .repeat(parsed.weight, self.work.said, spent);
+                    .repeat(parsed.weight, self.scratch.said, spent);
             }
             if let Some(frame) = self.state.control.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;
@@ -103,7 +104,7 @@ impl Interpreter {
                 continue;
             };
             if let ControlFlow::Break(by) = self.follow(step) {
-                if by != EndedBy::Error && !self.work.covered {
+                if by != EndedBy::Error && !self.scratch.covered {
                     self.meet_at_end(finder);
                 }
                 if let Some(by) = self.end_path(by) {

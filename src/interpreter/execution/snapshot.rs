@@ -8,7 +8,7 @@ use super::fingerprint::Fingerprint;
 use crate::interpreter::programs::index::{EntryIndex, Index};
 use crate::interpreter::programs::unit::Unit;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::{Handed, Options, StopPolicy};
+use crate::interpreter::run::options::{Options, SourceMode, StopPolicy};
 use crate::interpreter::run::state::State;
 use crate::machine::Machine;
 use crate::text::SourceFile;
@@ -106,7 +106,7 @@ impl Interpreter {
     /// The state of the run between two blocks. `None` where the program is read line by line: its
     /// lines are gone, so nothing could be resumed.
     pub fn snapshot(&self) -> Option<Snapshot> {
-        if self.handed == Handed::LineByLine {
+        if self.handed == SourceMode::LineByLine {
             return None;
         }
         let file = |unit: &Unit| RunFile {

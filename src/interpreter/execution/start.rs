@@ -13,7 +13,7 @@ use crate::interpreter::run::channel_axes::ChannelAxes;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
 use crate::interpreter::run::path::Track;
 use crate::interpreter::run::step::{Request, Step};
 use crate::interpreter::run::stopping::one;
@@ -30,7 +30,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         self.start();
-        self.handed = Handed::Whole;
+        self.handed = SourceMode::Whole;
         self.whole(source, finder, observer)
     }
 
@@ -79,7 +79,7 @@ impl Interpreter {
     /// Goes on with a run that an observer stopped. One whose program is read line by line stays
     /// [`RunOutcome::Stopped`].
     pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> RunOutcome {
-        if self.handed == Handed::LineByLine {
+        if self.handed == SourceMode::LineByLine {
             return RunOutcome::Stopped;
         }
         let outcome = match self.state.parked.take() {
@@ -125,7 +125,7 @@ impl Interpreter {
         self.programs.clear();
         self.pending.clear();
         self.departing.clear();
-        self.work.changes.clear();
+        self.scratch.changes.clear();
         self.regions.clear();
         self.lost = Collected::default();
         self.journal.begin_anew();

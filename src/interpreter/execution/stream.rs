@@ -11,10 +11,10 @@ use std::sync::Arc;
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
-use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::event::{EndedBy, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
 use crate::interpreter::run::step::Departure;
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
@@ -66,7 +66,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         self.start();
-        self.handed = Handed::LineByLine;
+        self.handed = SourceMode::LineByLine;
         match self.run_lines(file, lines, finder, observer) {
             RunOutcome::Paused => RunOutcome::Stopped,
             outcome => outcome,
@@ -84,7 +84,7 @@ impl Interpreter {
         self.programs.hold(none);
         let file: Arc<str> = file.into();
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
-        let mut block = std::mem::take(&mut self.work.block);
+        let mut block = std::mem::take(&mut self.scratch.block);
         let mut stage = Stage::Before;
         let mut notes = Collected::default();
         let mut never_begun = None;
@@ -147,7 +147,7 @@ impl Interpreter {
                 continue;
             }
             let shown = Shown::default();
-            let at = At::of_raw(&file, &raw, &block, &shown);
+            let at = BlockContext::of_raw(&file, &raw, &block, &shown);
             if let Some(over) = self.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &one(over), observer);
             }
@@ -173,7 +173,7 @@ impl Interpreter {
             }
         }
         self.note_lost(&file, reader.lost_remarks());
-        self.work.block = block;
+        self.scratch.block = block;
         let progress = Progress { stage, notes };
         self.after_lines(&file, &progress, finder, observer)
     }
@@ -250,7 +250,7 @@ impl Interpreter {
             RunOutcome::Ended(EndedBy::EndOfFile) => None,
             RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
-                notes.extend(self.work.over.drain(..));
+                notes.extend(self.scratch.over.drain(..));
                 Some(self.ended(by, &notes, observer))
             }
             stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),

@@ -12,6 +12,7 @@ use crate::text::{Span, TextLines};
 
 /// A call of another file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CallSite {
     /// The name of the program; `None` where only a run can tell it.
     pub name: Option<String>,

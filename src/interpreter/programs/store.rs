@@ -9,7 +9,7 @@ use super::unit::{Parsed, Unit};
 use super::wanted::Wanted;
 use super::weight::weight;
 use crate::diagnostic::{Advice, Code, nearest};
-use crate::interpreter::values::effort::{Effort, ITEM};
+use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::syntax::ast::{Block, CallScope};
 use crate::syntax::{Comments, Fault, Stretch};
 
@@ -169,7 +169,7 @@ impl Programs {
         &mut self,
         program: ProgramId,
         name: &LabelName,
-        effort: &Effort,
+        effort: &WorkBudget,
     ) -> Option<EntryIndex> {
         let ProgramId { unit, section } = program;
         if let Some(entry) = self.units[unit].index.label(section, name.clone()) {
@@ -192,7 +192,7 @@ impl Programs {
         wanted: &Wanted,
         caller: Caller<'_>,
         finder: &mut dyn Finder,
-        effort: &Effort,
+        effort: &WorkBudget,
     ) -> Result<Option<ProgramId>, Box<Fault>> {
         let name = wanted.name.as_str();
         let unit = caller.unit;
@@ -247,7 +247,7 @@ impl Programs {
 
     /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
     /// that all fail has as many names as calls (R2.60).
-    fn no_local(&mut self, wanted: &Wanted, unit: usize, effort: &Effort) -> Box<Fault> {
+    fn no_local(&mut self, wanted: &Wanted, unit: usize, effort: &WorkBudget) -> Box<Fault> {
         let name = wanted.name.as_str();
         let fault = Fault::new(
             Code::Fc320,

@@ -24,7 +24,7 @@ impl ChannelAxes {
     }
 
     /// The names may or may not be those of another way through the program.
-    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         self.doubtful |= self != other;
     }
 }

@@ -14,7 +14,7 @@ use super::possible::{self, Possible};
 use super::stack::CallStack;
 use super::untouched::Untouched;
 use super::way_set::WaySet;
-use super::ways::doubt_names;
+use super::ways::join_names;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::simplified::{Holds, Simplification};
@@ -105,20 +105,20 @@ impl ControlState {
         (self.compensation, self.possible) = possible::join(&mine, &theirs);
         self.untouched.join(untouched, reach);
         let differing = self.memory.join(memory, cause);
-        self.modal.doubt(modal);
+        self.modal.join(modal);
         self.frames.join(frames, cause);
         let coupled = self.couplings.join(couplings);
         if !coupled.is_empty() {
             self.modal.simplify(Simplification::Coupling, Holds::On);
         }
         for axis in coupled {
-            self.modal.forget_position(axis);
+            self.modal.havoc_position(axis);
             self.compensation.set_coupled(axis, self.couplings.of(axis));
         }
-        self.channel_axes.doubt(channel_axes);
+        self.channel_axes.join(channel_axes);
         self.cycles.join(cycles);
         self.refused.extend(refused);
-        doubt_names(&mut self.named, named, cause);
+        join_names(&mut self.named, named, cause);
         self.join_description(described.as_deref());
         differing
     }
@@ -127,16 +127,16 @@ impl ControlState {
     fn join_description(&mut self, other: Option<&Description>) {
         match (self.described.take(), other) {
             (Some(mut mine), Some(theirs)) if mine.opener == theirs.opener => {
-                mine.before.doubt(&theirs.before);
+                mine.before.join(&theirs.before);
                 self.described = Some(mine);
             }
             (None, None) => {}
             (mine, theirs) => {
                 let openers = mine.as_deref().into_iter().chain(theirs);
                 for description in openers {
-                    self.modal.forget_words();
+                    self.modal.havoc_words();
                     self.modal.note_transformed(&description.opener);
-                    self.modal.doubt(&description.before);
+                    self.modal.join(&description.before);
                 }
             }
         }

@@ -120,7 +120,7 @@ impl Couplings {
     }
 
     /// Whoever follows another one by such a command may do so, or not; so may these axes.
-    pub(in crate::interpreter) fn doubt_followers(&mut self, axes: &[AxisIndex]) {
+    pub(in crate::interpreter) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
         let before = self.strays.len();
@@ -197,7 +197,7 @@ impl Couplings {
 
     /// Some coupling command may have been executed. Returns the axes whose coupling may have
     /// changed.
-    pub(in crate::interpreter) fn doubt(&mut self) -> Vec<AxisIndex> {
+    pub(in crate::interpreter) fn havoc(&mut self) -> Vec<AxisIndex> {
         self.release_all();
         self.version = self.version.wrapping_add(1);
         self.groups.clear();
@@ -215,19 +215,19 @@ impl Couplings {
         let mut followers: Vec<AxisIndex> = other.strays.iter().copied().collect();
         let pairs = other.followers.values().flatten();
         followers.extend(pairs.map(|(axis, _)| *axis));
-        self.doubt_followers(&followers);
-        self.doubt()
+        self.havoc_followers(&followers);
+        self.havoc()
     }
 
     /// Groups with these axes may have been defined, or redefined: that changes a coupling only
     /// where some group may be in force.
-    pub(in crate::interpreter) fn doubt_definitions(
+    pub(in crate::interpreter) fn havoc_definitions(
         &mut self,
         axes: &[AxisIndex],
     ) -> Vec<AxisIndex> {
         self.lose(axes.iter().copied());
         if self.doubted || !self.enabled.is_empty() {
-            return self.doubt();
+            return self.havoc();
         }
         self.version = self.version.wrapping_add(1);
         self.groups.clear();

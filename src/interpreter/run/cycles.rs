@@ -53,7 +53,7 @@ impl ModalCycles {
     }
 
     /// It may have been switched off.
-    pub(in crate::interpreter) fn doubt(&mut self) {
+    pub(in crate::interpreter) fn havoc(&mut self) {
         for cycle in &mut self.cycles {
             if let RepeatedCall::Program(found) = cycle.call {
                 cycle.call = RepeatedCall::Perhaps(found);
@@ -64,7 +64,7 @@ impl ModalCycles {
     /// Another cycle may be in force instead.
     pub(in crate::interpreter) fn add(&mut self, cycle: Repeated) {
         self.cycles.push(cycle);
-        self.doubt();
+        self.havoc();
         if let Some((last, before)) = self.cycles.split_last()
             && before.contains(last)
         {
@@ -77,7 +77,7 @@ impl ModalCycles {
         if self == other {
             return;
         }
-        self.doubt();
+        self.havoc();
         for cycle in &other.cycles {
             self.add(cycle.clone());
         }

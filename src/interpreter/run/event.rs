@@ -57,6 +57,7 @@ impl fmt::Display for EndedBy {
 
 /// What became of a COMP command.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Outcome {
     /// The command.
     pub command: CompCommand,
@@ -68,6 +69,7 @@ pub struct Outcome {
 
 /// What a run came across that a user may want to look at.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Note {
     /// Why.
     pub kind: NoteKind,
@@ -209,6 +211,7 @@ impl Executed<'_> {
 
 /// Ways that go on as one.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Joined<'a> {
     /// How many blocks of the program were executed before.
     pub seq: u64,
@@ -226,6 +229,7 @@ pub struct Joined<'a> {
 
 /// A place where a program ends, or may.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ProgramEnd {
     /// The block, `M30` or the last one of the file.
     pub place: Place,
@@ -240,6 +244,7 @@ pub struct ProgramEnd {
 
 /// The end of a program.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Ended<'a> {
     /// How many blocks were executed.
     pub seq: u64,

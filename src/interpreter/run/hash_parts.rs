@@ -1,12 +1,15 @@
 //! Parts of `#` commands that say what the command changes.
 
-use super::at::At;
+use super::block_context::BlockContext;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::values::variable::canonical;
 use crate::syntax::ast::{Block, Declaration, Hash};
 
 /// The name that a declaration declares, without its dimensions.
-pub(in crate::interpreter) fn declared_name(declaration: &Declaration, at: &At<'_>) -> String {
+pub(in crate::interpreter) fn declared_name(
+    declaration: &Declaration,
+    at: &BlockContext<'_>,
+) -> String {
     let text = declaration.target.span.of(at.text);
     let name = text.split('[').next().unwrap_or_default();
     canonical(name).into_owned()
@@ -14,7 +17,7 @@ pub(in crate::interpreter) fn declared_name(declaration: &Declaration, at: &At<'
 
 /// The words that may stand after a command that switches a path, `#SPLINE ON X10 Y20`, as a block
 /// whose spans are those of the whole.
-pub(in crate::interpreter) fn point_after(hash: &Hash, at: &At<'_>) -> Option<Block> {
+pub(in crate::interpreter) fn point_after(hash: &Hash, at: &BlockContext<'_>) -> Option<Block> {
     let (_, step, _) = chain::command(&hash.name)?;
     if !matches!(step, chain::Step::Path | chain::Step::Machine) {
         return None;

@@ -5,24 +5,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::block_scratch::BlockScratch;
 use super::control::ControlState;
 use super::journal::{Journal, Regions, Scan};
-use super::options::{Handed, Options};
+use super::options::{Options, SourceMode};
 use super::path::{BranchSide, Track};
 use super::possible_state::{PossibleStates, WayCondition, shown, ways_of};
 use super::state::State;
-use super::step::Sought;
+use super::step::PendingLabel;
 use super::undecided::Told;
-use super::ways::Departing;
-use super::work::Work;
+use super::ways::Branch;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
-use crate::interpreter::values::effort::Effort;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::variable::set_name;
+use crate::interpreter::values::work_budget::WorkBudget;
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::syntax::SkipLevels;
 use crate::syntax::ast::Block;
@@ -53,7 +53,7 @@ use crate::syntax::ast::Block;
 pub struct Interpreter {
     pub(in crate::interpreter) machine: Arc<Machine>,
     pub(in crate::interpreter) options: Options,
-    pub(in crate::interpreter) handed: Handed,
+    pub(in crate::interpreter) handed: SourceMode,
     /// The axes with one-letter names.
     pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
@@ -64,11 +64,11 @@ pub struct Interpreter {
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: Programs,
     /// Where a main program that is read line by line goes on.
-    pub(in crate::interpreter) sought: Option<Sought>,
+    pub(in crate::interpreter) sought: Option<PendingLabel>,
     /// Calls in regions that may or may not be executed.
     pub(in crate::interpreter) pending: Vec<Scan>,
     /// Ways that leave at the block that is executed.
-    pub(in crate::interpreter) departing: Vec<Departing>,
+    pub(in crate::interpreter) departing: Vec<Branch>,
     /// Where the answers to the condition of the block lead that is executed.
     pub(in crate::interpreter) sides: Vec<BranchSide>,
     /// The states that are possible, as users see them, and where they count.
@@ -83,7 +83,7 @@ pub struct Interpreter {
     pub(in crate::interpreter) journal: Journal,
     pub(in crate::interpreter) state: State,
     pub(in crate::interpreter) version: u64,
-    pub(in crate::interpreter) work: Work,
+    pub(in crate::interpreter) scratch: BlockScratch,
 }
 
 /// What is shown of the ways that lead to a block.
@@ -152,7 +152,7 @@ impl Interpreter {
             conditions: Vec::new(),
             seq: 0,
             blocks: 0,
-            effort: Effort::default(),
+            effort: WorkBudget::default(),
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
             occurred,
@@ -191,7 +191,7 @@ impl Interpreter {
             machine,
             options,
             programs: Programs::new(options.limits.nesting),
-            handed: Handed::Whole,
+            handed: SourceMode::Whole,
             letters,
             names,
             sought: None,
@@ -206,7 +206,7 @@ impl Interpreter {
             journal: Journal::default(),
             state,
             version: 0,
-            work: Work::default(),
+            scratch: BlockScratch::default(),
         }
     }
 
@@ -319,7 +319,7 @@ impl Interpreter {
     /// An axis occurs.
     #[inline]
     pub(in crate::interpreter) fn see(&mut self, axis: AxisIndex) {
-        self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
+        self.scratch.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
     /// The skip levels that are on, where they are known (R2.90).
@@ -374,7 +374,7 @@ impl Interpreter {
     }
 
     /// Whether the budget of work is used up.
-    pub(in crate::interpreter) fn is_worn_out(&self) -> bool {
+    pub(in crate::interpreter) fn is_exhausted(&self) -> bool {
         self.state.effort.level() > self.work_bound()
     }
 
@@ -395,13 +395,13 @@ impl Interpreter {
     }
 
     /// Kinds of an axis become unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
+    pub(in crate::interpreter) fn havoc(&mut self, axis: AxisIndex, kinds: KindSet) {
         self.state.control.possible.replace(axis, kinds);
         let compensation = &mut self.state.control.compensation;
-        compensation.forget(axis, kinds, &mut self.work.changes);
+        compensation.havoc(axis, kinds, &mut self.scratch.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);
         if !doubted.is_empty() {
-            self.work.doubted.push((axis, doubted));
+            self.scratch.doubted.push((axis, doubted));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a run consists of, as data, and what it tells.
 
-pub(super) mod at;
+pub(super) mod block_context;
+pub(super) mod block_scratch;
 pub(super) mod carried_ways;
 pub(super) mod channel_axes;
 pub(super) mod condition;
@@ -10,11 +11,11 @@ pub(super) mod cycles;
 pub(super) mod description;
 pub(super) mod event;
 pub(super) mod hash_parts;
-pub(super) mod intent;
 pub(super) mod interpreter;
 pub(super) mod journal;
 pub(super) mod limits;
 pub(super) mod options;
+pub(super) mod outcome;
 pub(super) mod path;
 pub(super) mod possible;
 pub(super) mod possible_state;
@@ -27,4 +28,3 @@ pub(super) mod undecided;
 pub(super) mod untouched;
 pub(super) mod way_set;
 pub(super) mod ways;
-pub(super) mod work;

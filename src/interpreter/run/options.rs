@@ -109,7 +109,7 @@ pub enum RunOutcome {
 
 /// How the running program was handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(in crate::interpreter) enum Handed {
+pub(in crate::interpreter) enum SourceMode {
     /// As a text in memory.
     #[default]
     Whole,

@@ -140,12 +140,12 @@ impl Track {
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
         if !self.asked.is_empty() || !self.assumed.is_empty() {
-            self.forget_written(place, memory);
+            self.havoc_written(place, memory);
         }
     }
 
     #[cold]
-    fn forget_written(&mut self, place: &Written, memory: &mut Memory) {
+    fn havoc_written(&mut self, place: &Written, memory: &mut Memory) {
         let target = match place {
             Written::Parameter(owner, index) => Target::Parameter(*owner, *index),
             Written::Variable(name) => Target::Variable(name.clone()),

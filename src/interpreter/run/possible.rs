@@ -40,9 +40,9 @@ impl Split {
         self.on.conditions().chain(self.off.conditions())
     }
 
-    fn forget(&mut self, condition: u32) {
-        self.on.forget(condition);
-        self.off.forget(condition);
+    fn havoc(&mut self, condition: u32) {
+        self.on.havoc(condition);
+        self.off.havoc(condition);
     }
 }
 
@@ -119,9 +119,9 @@ impl Possible {
     }
 
     /// A condition is asked anew.
-    pub(in crate::interpreter) fn forget(&mut self, condition: u32) {
+    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         for split in self.0.values_mut() {
-            split.forget(condition);
+            split.havoc(condition);
         }
     }
 
@@ -187,7 +187,7 @@ pub(in crate::interpreter) fn join(mine: &Side<'_>, theirs: &Side<'_>) -> (Compe
                 == theirs.compensation.is_parameterised(axis, kind);
             let splits = mine.split(axis, kind).zip(theirs.split(axis, kind));
             let Some((mut split, other)) = splits.filter(|_| is_same) else {
-                compensation.forget(axis, KindSet::of(kind), &mut Vec::new());
+                compensation.havoc(axis, KindSet::of(kind), &mut Vec::new());
                 continue;
             };
             split.on.or(&other.on);
@@ -196,7 +196,7 @@ pub(in crate::interpreter) fn join(mine: &Side<'_>, theirs: &Side<'_>) -> (Compe
                 (false, true) => compensation.decide(axis, kind, Membership::In),
                 (true, false) => compensation.decide(axis, kind, Membership::Out),
                 _ => {
-                    compensation.forget(axis, KindSet::of(kind), &mut Vec::new());
+                    compensation.havoc(axis, KindSet::of(kind), &mut Vec::new());
                     possible.0.insert((axis, kind), split);
                 }
             }

@@ -98,7 +98,7 @@ impl Frame {
             self.called_from.clone_from(called_from);
         }
         if let (Some(mine), Some(theirs)) = (&mut self.restores, restores) {
-            mine.doubt(theirs);
+            mine.join(theirs);
         }
         if *retains == Retains::Perhaps {
             self.retains = Retains::Perhaps;

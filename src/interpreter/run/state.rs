@@ -10,8 +10,8 @@ use super::control::ControlState;
 use super::path::{EndedPath, Last, Path, Track};
 use super::step::Step;
 use super::undecided::Told;
-use crate::interpreter::values::effort::Effort;
 use crate::interpreter::values::reads::Reads;
+use crate::interpreter::values::work_budget::WorkBudget;
 
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,7 +30,7 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) seq: u64,
     /// Executed blocks of the session.
     pub(in crate::interpreter) blocks: u64,
-    pub(in crate::interpreter) effort: Effort,
+    pub(in crate::interpreter) effort: WorkBudget,
     /// Words and commands that were passed over.
     pub(in crate::interpreter) opaque: BTreeMap<String, u64>,
     /// The words of the program of which something was said that is said once (R2.94).

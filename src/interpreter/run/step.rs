@@ -80,7 +80,7 @@ pub(in crate::interpreter) struct Destination {
 
 /// A block of a main program that is read line by line, and what is said where it never comes.
 #[derive(Clone, Debug)]
-pub(in crate::interpreter) struct Sought {
+pub(in crate::interpreter) struct PendingLabel {
     pub(in crate::interpreter) label: LabelName,
     pub(in crate::interpreter) missing: Diagnostic,
 }

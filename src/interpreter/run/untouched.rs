@@ -56,8 +56,8 @@ impl Untouched {
     }
 
     /// A condition is asked anew.
-    pub(in crate::interpreter) fn forget(&mut self, condition: u32) {
-        self.0.values_mut().for_each(|ways| ways.forget(condition));
+    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
+        self.0.values_mut().for_each(|ways| ways.havoc(condition));
     }
 
     /// The conditions that ways name.

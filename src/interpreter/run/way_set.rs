@@ -136,7 +136,7 @@ impl WaySet {
     }
 
     /// The same whatever the answer to a condition: it is asked anew.
-    pub(in crate::interpreter) fn forget(&mut self, condition: u32) {
+    pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         for way in &mut self.0 {
             way.retain(|answer| answer.condition != condition);
         }
@@ -288,7 +288,7 @@ mod tests {
     #[test]
     fn a_condition_that_is_asked_anew_is_left_out() {
         let mut ways = is(1, true).and(&is(2, true));
-        ways.forget(1);
+        ways.havoc(1);
         assert_eq!(ways, is(2, true));
     }
 }

@@ -29,9 +29,9 @@ const MAX_WRITTEN: usize = 4096;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Ways {
     /// Sorted by depth and target, one for each.
-    pub(in crate::interpreter) open: Vec<Way>,
+    pub(in crate::interpreter) open: Vec<OpenPath>,
     /// The ways that ended the program, as one.
-    pub(in crate::interpreter) end: Option<Box<Way>>,
+    pub(in crate::interpreter) end: Option<Box<OpenPath>>,
     /// Where they ended it.
     #[serde(default)]
     pub(in crate::interpreter) ends: Vec<WayEnd>,
@@ -77,7 +77,7 @@ impl From<Written> for Vec<(Target, u64)> {
 
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Way {
+pub(in crate::interpreter) struct OpenPath {
     /// How many programs call each other where it goes on.
     pub(in crate::interpreter) depth: usize,
     /// The block where it goes on.
@@ -87,14 +87,14 @@ pub(in crate::interpreter) struct Way {
     /// The executed block at which it left last, where it left several times.
     pub(in crate::interpreter) latest: u64,
     pub(in crate::interpreter) cause: Arc<str>,
-    pub(in crate::interpreter) standing: Standing,
+    pub(in crate::interpreter) standing: PathState,
     /// What it executes on its way to the target.
-    pub(in crate::interpreter) tails: Vec<Tail>,
+    pub(in crate::interpreter) tails: Vec<Remainder>,
 }
 
 /// The part of a state that is kept for a way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Standing {
+pub(in crate::interpreter) struct PathState {
     /// What is selected and what is unknown, by axis.
     pub(in crate::interpreter) kinds: Vec<AxisKinds>,
     pub(in crate::interpreter) modal: Modal,
@@ -125,7 +125,7 @@ impl AxisKinds {
 
 /// A section from a block on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Tail {
+pub(in crate::interpreter) struct Remainder {
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) section: usize,
     pub(in crate::interpreter) from: EntryIndex,
@@ -133,8 +133,8 @@ pub(in crate::interpreter) struct Tail {
 
 /// A way that leaves at the block that is executed.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Departing {
-    pub(in crate::interpreter) to: Aim,
+pub(in crate::interpreter) struct Branch {
+    pub(in crate::interpreter) to: JumpTarget,
     pub(in crate::interpreter) cause: Arc<str>,
     /// The block after what is passed over.
     pub(in crate::interpreter) here: EntryIndex,
@@ -144,7 +144,7 @@ pub(in crate::interpreter) struct Departing {
 
 /// Where a way goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Aim {
+pub(in crate::interpreter) enum JumpTarget {
     Block(EntryIndex),
     Return,
     /// A return over programs.
@@ -201,7 +201,7 @@ impl Ways {
         if let Some(way) = end
             && self.end != *end
         {
-            self.add_end(Way::clone(way));
+            self.add_end(OpenPath::clone(way));
         }
         for end in ends {
             self.note_end(end.clone());
@@ -239,11 +239,11 @@ impl Ways {
         depth: usize,
         target: EntryIndex,
     ) -> Result<usize, usize> {
-        let key = |way: &Way| (way.depth, way.target);
+        let key = |way: &OpenPath| (way.depth, way.target);
         self.open.binary_search_by_key(&(depth, target), key)
     }
 
-    pub(in crate::interpreter) fn add(&mut self, way: Way) {
+    pub(in crate::interpreter) fn add(&mut self, way: OpenPath) {
         match self.place(way.depth, way.target) {
             Ok(place) => self.open[place].take_in(way),
             Err(place) => self.open.insert(place, way),
@@ -261,7 +261,7 @@ impl Ways {
         }
     }
 
-    pub(in crate::interpreter) fn add_end(&mut self, way: Way) {
+    pub(in crate::interpreter) fn add_end(&mut self, way: OpenPath) {
         match &mut self.end {
             Some(end) => end.take_in(way),
             None => self.end = Some(Box::new(way)),
@@ -300,19 +300,19 @@ impl Ways {
         &mut self,
         depth: usize,
         here: EntryIndex,
-    ) -> Option<Way> {
+    ) -> Option<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         let first = self.open.get(place)?;
         (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
     }
 
     /// The ways of a program that is left.
-    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> Vec<Way> {
+    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> Vec<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
     }
 
-    pub(in crate::interpreter) fn all(&self) -> impl Iterator<Item = &Way> {
+    pub(in crate::interpreter) fn all(&self) -> impl Iterator<Item = &OpenPath> {
         self.open.iter().chain(self.end.as_deref())
     }
 
@@ -327,7 +327,7 @@ impl Ways {
     /// The sections that ways execute, each from a block on.
     pub(in crate::interpreter) fn tails(&self) -> impl Iterator<Item = (ProgramId, EntryIndex)> {
         self.all().flat_map(|way| &way.tails).map(|tail| {
-            let Tail {
+            let Remainder {
                 unit,
                 section,
                 from,
@@ -350,7 +350,7 @@ impl Ways {
     }
 }
 
-impl Way {
+impl OpenPath {
     /// Two ways to one place are one.
     pub(in crate::interpreter) fn take_in(&mut self, other: Self) {
         self.since = self.since.min(other.since);
@@ -360,16 +360,16 @@ impl Way {
         for (mine, theirs) in self.standing.kinds.iter_mut().zip(&other.standing.kinds) {
             mine.unknown = mine.differing(*theirs);
         }
-        self.standing.modal.doubt(&other.standing.modal);
+        self.standing.modal.join(&other.standing.modal);
         self.standing.cycles.join(&other.standing.cycles);
-        doubt_names(
+        join_names(
             &mut self.standing.named,
             &other.standing.named,
             &other.cause,
         );
         self.standing
             .channel_axes
-            .doubt(&other.standing.channel_axes);
+            .join(&other.standing.channel_axes);
         for tail in other.tails {
             if !self.tails.contains(&tail) {
                 self.tails.push(tail);
@@ -379,7 +379,7 @@ impl Way {
 }
 
 /// Words that may call another program on one way become unknown.
-pub(in crate::interpreter) fn doubt_names(
+pub(in crate::interpreter) fn join_names(
     names: &mut BTreeMap<String, Value>,
     other: &BTreeMap<String, Value>,
     cause: &Arc<str>,

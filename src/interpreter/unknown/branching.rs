@@ -5,17 +5,17 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{Asked, BranchSide};
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::way_set::{Answer, WaySet};
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::plain::Asking;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 /// Ways that are open at a time; past them a condition is treated as R2.51 says.
@@ -64,7 +64,7 @@ impl Goal {
 
 impl Interpreter {
     /// Whether the ways that part at the block can be followed, so many of them.
-    pub(in crate::interpreter) fn may_part(&self, answers: usize, at: &At<'_>) -> bool {
+    pub(in crate::interpreter) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
         let Some(program) = self.state.control.frames.program() else {
             return false;
         };
@@ -84,7 +84,7 @@ impl Interpreter {
             && self.state.conditions.len() + 1 < MAX_CONDITIONS
             && self.state.control.cycles.is_empty()
             && !self.programs.index(program.unit).entries.is_empty()
-            && !self.is_worn_out()
+            && !self.is_exhausted()
     }
 
     /// The run parts at a question: one way for each answer. Whether it can.
@@ -92,9 +92,9 @@ impl Interpreter {
         &mut self,
         question: Question,
         goals: Vec<Goal>,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
-        if self.work.unread.get() || !self.may_part(goals.len(), at) {
+        if self.scratch.unread.get() || !self.may_part(goals.len(), at) {
             return false;
         }
         if question.kind == ConditionKind::Loop {
@@ -130,7 +130,7 @@ impl Interpreter {
     }
 
     /// The number of the condition that a question asks for.
-    fn ask(&mut self, question: Question, at: &At<'_>) -> u32 {
+    fn ask(&mut self, question: Question, at: &BlockContext<'_>) -> u32 {
         let key = question
             .reads
             .as_ref()
@@ -142,9 +142,9 @@ impl Interpreter {
             }
         }
         let condition = self.condition_at(&question, at);
-        self.state.track.reach.forget(condition);
-        self.state.control.possible.forget(condition);
-        self.state.control.untouched.forget(condition);
+        self.state.track.reach.havoc(condition);
+        self.state.control.possible.havoc(condition);
+        self.state.control.untouched.havoc(condition);
         let track = &mut self.state.track;
         track.asked.retain(|asked| asked.condition != condition);
         if let Some((Asking { reads, .. }, key)) = question.reads.zip(key) {
@@ -161,7 +161,7 @@ impl Interpreter {
     }
 
     /// The condition of a question: a new one, or one of this place that no way names any more.
-    fn condition_at(&mut self, question: &Question, at: &At<'_>) -> u32 {
+    fn condition_at(&mut self, question: &Question, at: &BlockContext<'_>) -> u32 {
         let mut wanted = Condition {
             kind: question.kind,
             place: at.place(question.span),
@@ -197,7 +197,7 @@ impl Interpreter {
         &mut self,
         (axis, kind): (AxisIndex, Kind),
         goals: [Goal; 2],
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> bool {
         let Some(split) = self.state.control.possible.of(axis, kind) else {
             return false;

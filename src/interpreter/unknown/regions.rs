@@ -10,16 +10,16 @@ use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::Scan;
 use crate::interpreter::run::region::{Effect, Region};
 use crate::interpreter::run::step::Step;
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 impl Interpreter {
@@ -29,36 +29,36 @@ impl Interpreter {
         passed: Range<EntryIndex>,
         cause: &Arc<str>,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) -> Option<Step> {
         self.open_undecided(cause, span, at);
         let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
-        let region = self.forget_region(unit, passed, cause);
+        let region = self.havoc_region(unit, passed, cause);
         self.note_exits(&region, from..=after, cause, Some(span));
         Some(Step::Jump(after))
     }
 
     /// Makes unknown what the blocks of a region could change. Calls are kept for later, when
     /// their programs can be looked for.
-    pub(in crate::interpreter) fn forget_region(
+    pub(in crate::interpreter) fn havoc_region(
         &mut self,
         unit: usize,
         range: Range<EntryIndex>,
         cause: &Arc<str>,
     ) -> Arc<Region> {
         let version = self.state.control.memory.macro_version();
-        let region = self.forget_blocks(unit, range.clone(), cause);
+        let region = self.havoc_blocks(unit, range.clone(), cause);
         // What it defines it may use as well, before or after: the second look finds such macros
         // unknown, and no third one is needed.
         if self.state.control.memory.macro_version() != version {
-            return self.forget_blocks(unit, range, cause);
+            return self.havoc_blocks(unit, range, cause);
         }
         region
     }
 
-    fn forget_blocks(
+    fn havoc_blocks(
         &mut self,
         unit: usize,
         range: Range<EntryIndex>,
@@ -105,7 +105,11 @@ impl Interpreter {
     }
 
     /// Makes unknown what one block could change, which may be of lines that are not kept.
-    pub(in crate::interpreter) fn forget_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
+    pub(in crate::interpreter) fn havoc_block(
+        &mut self,
+        at: &BlockContext<'_>,
+        cause: &Arc<str>,
+    ) -> Region {
         let version = self.state.control.memory.macro_version();
         let region = self.suffer_block(at, cause);
         if self.state.control.memory.macro_version() != version {
@@ -114,7 +118,7 @@ impl Interpreter {
         region
     }
 
-    fn suffer_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
+    fn suffer_block(&mut self, at: &BlockContext<'_>, cause: &Arc<str>) -> Region {
         let unit = self
             .state
             .control
@@ -149,61 +153,61 @@ impl Interpreter {
             Effect::Compensation(axis, kinds) => match self.addressed(axis) {
                 Ok(Addressed::Axis(axis)) => {
                     self.see(axis);
-                    self.doubt(axis, *kinds);
+                    self.havoc(axis, *kinds);
                 }
-                Ok(Addressed::Absent(Some(axis))) => self.doubt(axis, *kinds),
-                Ok(Addressed::Any | Addressed::Absent(None)) => self.doubt_any_axis(*kinds),
+                Ok(Addressed::Absent(Some(axis))) => self.havoc(axis, *kinds),
+                Ok(Addressed::Any | Addressed::Absent(None)) => self.havoc_any_axis(*kinds),
                 Err(_) => {}
             },
-            Effect::G(number) => modal.forget_g(*number),
+            Effect::G(number) => modal.havoc_g(*number),
             Effect::Feeds => modal.functions.feeds = [None; 4],
-            Effect::Spindle => modal.pace.forget_spindle(),
-            Effect::Overrides => modal.pace.forget_overrides(),
+            Effect::Spindle => modal.pace.havoc_spindle(),
+            Effect::Overrides => modal.pace.havoc_overrides(),
             Effect::Simplified(what) => modal.perhaps_simplify(*what),
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
-                modal.forget_position(*axis);
+                modal.havoc_position(*axis);
                 self.perhaps_move(*axis);
                 self.see(*axis);
             }
             Effect::Positions => {
-                modal.forget_positions();
+                modal.havoc_positions();
                 self.perhaps_move_all();
             }
             Effect::Reference(axis) => {
-                modal.forget_reference(*axis);
+                modal.havoc_reference(*axis);
                 self.see(*axis);
             }
             Effect::Macro(name) => {
-                self.state.control.memory.forget_macro(name, cause);
-                self.work.wrote = true;
+                self.state.control.memory.havoc_macro(name, cause);
+                self.scratch.wrote = true;
             }
             Effect::Hash(name) => {
-                self.forget_hash(name, cause);
+                self.havoc_hash(name, cause);
                 if is_exchange(name) {
-                    self.doubt_exchange();
+                    self.havoc_exchange();
                 }
             }
-            Effect::Coupling(axes) => self.doubt_definitions(axes),
-            Effect::Followers(axes) => self.state.control.couplings.doubt_followers(axes),
-            Effect::Function(word) => self.forget_function(*word, unit, cause),
+            Effect::Coupling(axes) => self.havoc_definitions(axes),
+            Effect::Followers(axes) => self.state.control.couplings.havoc_followers(axes),
+            Effect::Function(word) => self.havoc_function(*word, unit, cause),
             Effect::FileName(word) => {
                 let unknown = Value::Unknown(cause.clone());
                 self.state.control.named.insert(word.clone(), unknown);
-                self.work.wrote = true;
+                self.scratch.wrote = true;
             }
             Effect::Declaration(name) => {
                 let unknown = Value::Unknown(cause.clone());
                 self.state.control.memory.declare(name, unknown);
-                self.state.control.memory.forget_elements(name, cause);
-                self.work.wrote = true;
+                self.state.control.memory.havoc_elements(name, cause);
+                self.scratch.wrote = true;
             }
-            Effect::All => self.forget_all(cause),
+            Effect::All => self.havoc_all(cause),
         }
     }
 
     /// What called programs of a region could change becomes unknown too (R2.51).
-    pub(in crate::interpreter) fn forget_called(&mut self, finder: &mut dyn Finder) {
+    pub(in crate::interpreter) fn havoc_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = HashSet::new();
         let version = self.state.control.memory.macro_version();
@@ -215,7 +219,7 @@ impl Interpreter {
             region,
         }) = pending.pop()
         {
-            if self.is_worn_out() {
+            if self.is_exhausted() {
                 return;
             }
             callers.extend(region.map(|region| (region, cause.clone())));
@@ -244,9 +248,9 @@ impl Interpreter {
                 Ok(None) => continue,
                 Err(_) => {
                     // What it would have done is not known.
-                    let undecided = self.work.undecided.take();
-                    self.forget_all(&cause);
-                    self.work.undecided = undecided.map(|mut undecided| {
+                    let undecided = self.scratch.undecided.take();
+                    self.havoc_all(&cause);
+                    self.scratch.undecided = undecided.map(|mut undecided| {
                         let name = &call.name;
                         let all = format!("all that `{name}` could change, which is not found");
                         undecided.differing.name(all);
@@ -261,14 +265,14 @@ impl Interpreter {
             }
             let section = self.programs.section(found);
             let region = section.start..section.end;
-            let region = self.forget_region(found.unit, region, &cause);
+            let region = self.havoc_region(found.unit, region, &cause);
             self.note_far_exits(&region, &cause);
             pending.append(&mut self.pending);
         }
         // Macros that a called program may define are used where it was called from.
         if self.state.control.memory.macro_version() != version {
             for ((unit, from, to), cause) in callers {
-                self.forget_blocks(unit, from..to, &cause);
+                self.havoc_blocks(unit, from..to, &cause);
             }
             self.pending.clear();
         }

@@ -11,12 +11,12 @@ use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Effect, Region};
 use crate::interpreter::run::undecided::{Differing, Undecided};
-use crate::interpreter::run::ways::Aim;
+use crate::interpreter::run::ways::JumpTarget;
 use crate::interpreter::values::cause::{decided_level, how_to_set, unknown_value};
 use crate::interpreter::values::target::Target;
 use crate::machine::Parameters;
@@ -33,9 +33,9 @@ impl Interpreter {
         &mut self,
         cause: &Arc<str>,
         span: Span,
-        at: &At<'_>,
+        at: &BlockContext<'_>,
     ) {
-        if self.work.unread.get() || self.work.undecided.is_some() {
+        if self.scratch.unread.get() || self.scratch.undecided.is_some() {
             return;
         }
         let message = match decided_level(cause) {
@@ -51,13 +51,13 @@ impl Interpreter {
         let fault = Fault::new(Code::Fc901, span, message).with_help(how_to_set(cause));
         let said = at.diagnostic(fault);
         let said = self.with_origin(said, cause, at);
-        self.work.undecided = Some(Box::new(Undecided {
+        self.scratch.undecided = Some(Box::new(Undecided {
             cause: cause.clone(),
-            said: self.work.diagnostics.len(),
-            doubted: self.work.doubted.len(),
+            said: self.scratch.diagnostics.len(),
+            doubted: self.scratch.doubted.len(),
             differing: Differing::default(),
         }));
-        self.work.diagnostics.push(said);
+        self.scratch.diagnostics.push(said);
         self.enter_root(cause, span, at);
     }
 
@@ -71,11 +71,11 @@ impl Interpreter {
             doubted,
             mut differing,
         } = undecided;
-        if said >= self.work.diagnostics.len() {
+        if said >= self.scratch.diagnostics.len() {
             return;
         }
         let mut doubted = self
-            .work
+            .scratch
             .doubted
             .get(doubted..)
             .unwrap_or_default()
@@ -106,22 +106,22 @@ impl Interpreter {
             .map(|(kind, axes)| of_axes(*kind, axes))
             .collect();
         differing.decides |= !shown.is_empty();
-        let place = &self.work.diagnostics[said].place;
+        let place = &self.scratch.diagnostics[said].place;
         let is_new = self.state.told.is_new(&cause, keys, place);
         if !(differing.decides && is_new) {
-            let said = self.work.diagnostics.remove(said);
-            self.work.aside.withheld.push(said);
+            let said = self.scratch.diagnostics.remove(said);
+            self.scratch.aside.withheld.push(said);
             return;
         }
         let named: Vec<String> = shown.into_iter().chain(differing.named).collect();
         if !named.is_empty() {
-            let message = &mut self.work.diagnostics[said].message;
+            let message = &mut self.scratch.diagnostics[said].message;
             message.push_str(", including ");
             message.push_str(&named.join(", "));
         }
         // Of a control block, FC902 says so.
         if let Some(leaves) = differing.leaves.filter(|_| decided_level(&cause).is_some()) {
-            let message = &mut self.work.diagnostics[said].message;
+            let message = &mut self.scratch.diagnostics[said].message;
             message.push_str("; ");
             message.push_str(leaves);
         }
@@ -151,7 +151,7 @@ impl Interpreter {
 
     /// Notes what a region changes that may differ afterwards.
     pub(in crate::interpreter) fn note_differing(&mut self, region: &Region) {
-        let Some(mut undecided) = self.work.undecided.take() else {
+        let Some(mut undecided) = self.scratch.undecided.take() else {
             return;
         };
         let is_skip = decided_level(&undecided.cause).is_some();
@@ -170,7 +170,7 @@ impl Interpreter {
                 undecided.differing.decides = true;
             }
         }
-        self.work.undecided = Some(undecided);
+        self.scratch.undecided = Some(undecided);
     }
 
     fn weigh(&self, effect: &Effect, is_skip: bool, differing: &mut Differing) {
@@ -210,23 +210,23 @@ impl Interpreter {
     }
 
     /// Notes a way that leaves what may or may not be executed.
-    pub(in crate::interpreter) fn note_leaving(&mut self, to: Aim, here: EntryIndex) {
-        if self.work.undecided.is_none() || !self.differs(to, here) {
+    pub(in crate::interpreter) fn note_leaving(&mut self, to: JumpTarget, here: EntryIndex) {
+        if self.scratch.undecided.is_none() || !self.differs(to, here) {
             return;
         }
-        if let Some(undecided) = &mut self.work.undecided {
+        if let Some(undecided) = &mut self.scratch.undecided {
             undecided.differing.decides = true;
             undecided.differing.leaves = Some(match to {
-                Aim::End => "the program may end here",
-                Aim::Return | Aim::Far => "the program may be left here",
-                Aim::Block(_) => "other blocks may follow",
+                JumpTarget::End => "the program may end here",
+                JumpTarget::Return | JumpTarget::Far => "the program may be left here",
+                JumpTarget::Block(_) => "other blocks may follow",
             });
         }
     }
 
     /// Whether anything differs between a way and the one of the dry run, which goes on at a block.
-    pub(in crate::interpreter) fn differs(&mut self, to: Aim, here: EntryIndex) -> bool {
-        let Aim::Block(target) = to else {
+    pub(in crate::interpreter) fn differs(&mut self, to: JumpTarget, here: EntryIndex) -> bool {
+        let JumpTarget::Block(target) = to else {
             return true;
         };
         let Some(place) = self.state.control.frames.program() else {

@@ -12,6 +12,7 @@ use crate::interpreter::run::carried_ways::CarriedWays;
 /// A declared array without its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ArrayShape {
     /// How many elements each dimension has; `None` where that is not known.
     pub dimensions: Vec<Option<u32>>,
@@ -21,6 +22,7 @@ pub struct ArrayShape {
 
 /// What programs leave to the next one beside the states of the axes.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Carried {
     /// Variables and elements of arrays, by their full names.
     pub variables: BTreeMap<String, Value>,

@@ -7,13 +7,13 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::effort::{Effort, ITEM};
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
 use super::reads::Reads;
 use super::target::{Place, Target};
 use super::value::{Slot, Value, rounded};
 use super::variable::{as_written, canonical, set_name, with_subscripts};
+use super::work_budget::{ITEM, WorkBudget};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{Fault, MAX_LINE};
@@ -67,7 +67,7 @@ impl Macros<'_> {
     pub(in crate::interpreter) fn expand(
         self,
         code: &str,
-        effort: &Effort,
+        effort: &WorkBudget,
         span: Span,
     ) -> Result<Self, Box<Fault>> {
         effort.charge(ITEM + code.len());
@@ -104,7 +104,7 @@ pub(in crate::interpreter) struct Evaluator<'a> {
     pub(in crate::interpreter) macros: Macros<'a>,
     pub(in crate::interpreter) scope: Scope<'a>,
     /// Where work is counted.
-    pub(in crate::interpreter) effort: &'a Effort,
+    pub(in crate::interpreter) effort: &'a WorkBudget,
 }
 
 impl Evaluator<'_> {

@@ -176,31 +176,31 @@ impl Memory {
     }
 
     /// Some element of an array was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         let holding = levels.filter(|names| names.names.get(name).is_some());
-        let known = holding.map(|names| names.forget_elements(name, cause));
+        let known = holding.map(|names| names.havoc_elements(name, cause));
         if known.count() == 0 {
-            self.declared(name).forget_elements(name, cause);
+            self.declared(name).havoc_elements(name, cause);
         }
     }
 
     /// Some P parameter was written, but it is not known which: none is known any more.
-    pub(in crate::interpreter) fn forget_parameters(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_parameters(&mut self, cause: &Arc<str>) {
         self.parameters = ParameterValues::default();
         self.lost = Some(cause.clone());
     }
 
     /// Everything that a program can write may have been written: nothing is known any more.
     /// What only the machine holds is not the program's.
-    pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
-        self.forget_parameters(cause);
+    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
+        self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         for names in levels {
             let written = names.names.keys().filter(|name| is_written(name));
             for name in written.cloned().collect::<Vec<String>>() {
-                names.names.slot(name, Variable::default).forget(cause);
+                names.names.slot(name, Variable::default).havoc(cause);
             }
             names.weight = Weight(names.weigh());
         }
@@ -283,7 +283,7 @@ impl Memory {
         }
         let names = self.macros.differing(macros);
         for name in &names {
-            self.forget_macro(name, cause);
+            self.havoc_macro(name, cause);
         }
         if !names.is_empty() {
             self.macro_version = self.macro_version.max(*macro_version).wrapping_add(1);
@@ -307,8 +307,8 @@ impl Memory {
             match target {
                 Target::Parameter(_, index) => self.set_parameter(*index, unknown()),
                 Target::Variable(name) => self.set_variable(name, unknown()),
-                Target::Elements(name) => self.forget_elements(name, cause),
-                Target::Parameters => self.forget_parameters(cause),
+                Target::Elements(name) => self.havoc_elements(name, cause),
+                Target::Parameters => self.havoc_parameters(cause),
             }
         }
     }
@@ -342,7 +342,7 @@ impl Memory {
     }
 
     /// A macro may have been defined, or redefined (R2.51).
-    pub(in crate::interpreter) fn forget_macro(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_macro(&mut self, name: &str, cause: &Arc<str>) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
@@ -350,7 +350,7 @@ impl Memory {
 
     /// Any of the macros may have been taken away, or redefined, except for those that `stays`
     /// names with their code.
-    pub(in crate::interpreter) fn forget_macros(
+    pub(in crate::interpreter) fn havoc_macros(
         &mut self,
         cause: &Arc<str>,
         stays: impl Fn(&str, &str) -> bool,
@@ -365,7 +365,7 @@ impl Memory {
             .filter(goes)
             .map(|(name, _)| name.clone());
         for name in names.collect::<Vec<String>>() {
-            self.forget_macro(&name, cause);
+            self.havoc_macro(&name, cause);
         }
     }
 
@@ -425,7 +425,7 @@ impl Memory {
             self.declare_array(&name, shape.dimensions, shape.default);
         }
         for (name, cause) in &carried.lost {
-            self.variables.forget_elements(name, cause);
+            self.variables.havoc_elements(name, cause);
         }
         for (name, value) in carried.variables {
             self.set_variable(&name, value);

@@ -2,7 +2,6 @@
 
 pub(super) mod carried;
 pub(super) mod cause;
-pub(super) mod effort;
 pub(super) mod expression;
 pub(super) mod functions;
 pub(super) mod memory;
@@ -15,3 +14,4 @@ pub(super) mod shared;
 pub(super) mod target;
 pub(super) mod value;
 pub(super) mod variable;
+pub(super) mod work_budget;

@@ -108,7 +108,7 @@ impl Variable {
     }
 
     /// Its value is no longer known, nor that of any element.
-    pub(in crate::interpreter) fn forget(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc(&mut self, cause: &Arc<str>) {
         if let Some(scalar) = &mut self.scalar {
             *scalar = Value::Unknown(cause.clone());
         }
@@ -229,7 +229,7 @@ impl Names {
         self.names.get(name)?.array.as_ref()
     }
 
-    pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
         self.drop_elements(name);
         let variable = self.names.slot(name.to_owned(), Variable::default);
         variable.lost = Some(cause.clone());

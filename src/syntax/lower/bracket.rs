@@ -5,7 +5,9 @@ use pest::iterators::Pair;
 use super::lowering::{Lowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, Fix, did_you_mean, nearest};
 use crate::syntax::ast::{Address, Effect, Item, Word};
-use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
+use crate::syntax::keywords::{
+    axis_commands, is_axis_command, is_spindle_command, is_spindle_word,
+};
 use crate::syntax::{
     comp::{CompWords, end_of_command},
     expression,

@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
-use crate::syntax::known::FLOW_WORDS;
+use crate::syntax::keywords::FLOW_WORDS;
 use crate::syntax::{expression, fault::Fault, grammar::Rule};
 use crate::text::Span;
 

@@ -7,7 +7,7 @@ use super::lowering::{Lowering, span_of, trimmed};
 use crate::diagnostic::nearest;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::known::{Touches, hash_command, hash_commands};
+use crate::syntax::keywords::{Touches, hash_command, hash_commands};
 use crate::syntax::{expression, hash_words::hash_name, unread::not_known};
 use crate::text::Span;
 

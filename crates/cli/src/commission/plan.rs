@@ -12,7 +12,7 @@ use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
-use frictcomp_host::{Ledger, Replaces, read_text, sha256_of};
+use frictcomp_host::{FileRegistry, Replaces, read_text, sha256_of};
 use frictcomp_physics::motion::AxisLimits;
 use frictcomp_recordings::commission::{
     Dynamics, FreeTravel, Installed, MeasuredAxis, Plan, PlanError, PlanRequest, Stage,
@@ -84,8 +84,11 @@ pub(crate) struct PlanArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let loaded = args.machine.machines(&ledger).for_folder(Path::new("."))?;
+    let registry = FileRegistry::default();
+    let loaded = args
+        .machine
+        .machines(&registry)
+        .for_folder(Path::new("."))?;
     let axes = args
         .axis
         .iter()
@@ -95,7 +98,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         Some(origin) => shown(origin),
         None => "the command line".to_owned(),
     };
-    let lists = args.lists(&ledger)?;
+    let lists = args.lists(&registry)?;
     let stage = if lists.is_empty() {
         Stage::Off
     } else {
@@ -122,7 +125,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         assumed_jerk: assumed.map(|it| it.name.clone()).collect(),
     };
     if let Some(folder) = &args.output {
-        write((folder, round), &report, &ledger, console)?;
+        write((folder, round), &report, &registry, console)?;
     }
     console.print(&match args.format {
         Format::Text => console.fitted(&render_text(&report)),
@@ -135,7 +138,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
 fn write(
     (folder, round): (&Path, u16),
     report: &PlanReport,
-    ledger: &Ledger,
+    registry: &FileRegistry,
     console: Console,
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
@@ -147,7 +150,7 @@ fn write(
                     `--force` where there are none";
         return Err(Failure::new(message).with_help(help));
     }
-    let mut outputs = Outputs::new(ledger, console);
+    let mut outputs = Outputs::new(registry, console);
     outputs.print("the result")?;
     let pages = [
         ("README.txt".to_owned(), render_readme(report)),
@@ -263,7 +266,7 @@ impl PlanArgs {
     }
 
     /// The lists of stage 2, one for each axis, each read as the control reads it.
-    fn lists(&self, ledger: &Ledger) -> Result<Vec<ValueListUsed>, Failure> {
+    fn lists(&self, registry: &FileRegistry) -> Result<Vec<ValueListUsed>, Failure> {
         if self.value_list.is_empty() {
             return Ok(Vec::new());
         }
@@ -273,7 +276,7 @@ impl PlanArgs {
                 let message = format!("stage 2 needs the list of `{}`", visible_line(axis));
                 Failure::new(message).with_help(format!("add `--value-list {axis}=LIST`"))
             })?;
-            value_list(&path, ledger)?;
+            value_list(&path, registry)?;
             Ok(ValueListUsed {
                 axis: axis.clone(),
                 file: shown(&path),

@@ -15,7 +15,7 @@ use crate::recorded_files::recordings_in;
 use crate::result::Format;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
-use frictcomp_host::{Ledger, read_text, sha256_of, sha256_of_text};
+use frictcomp_host::{FileRegistry, read_text, sha256_of, sha256_of_text};
 use frictcomp_recordings::commission::{
     BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult,
     Stage, before_after,
@@ -64,11 +64,11 @@ pub(crate) struct RunArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    let plans = plans(&args.folder, &ledger)?;
+    let registry = FileRegistry::default();
+    let plans = plans(&args.folder, &registry)?;
     let paths = recordings_in(&args.folder.join("recordings"))?;
     for path in &paths {
-        ledger.reads("trace", path);
+        registry.reads("trace", path);
     }
     let known = known(&args.folder.join(RESULTS));
     let mut kept = 0;
@@ -97,10 +97,10 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             found,
         });
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
     let axes = lists(args, &plans, &results, &mut outputs)?;
-    let rounds = rounds(&plans, &results, &ledger)?;
+    let rounds = rounds(&plans, &results, &registry)?;
     let report = ResultsReport {
         plans,
         results,
@@ -109,7 +109,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         rounds,
     };
     if let Some(path) = &args.html {
-        let given = acceptance(args, &report, &ledger)?;
+        let given = acceptance(args, &report, &registry)?;
         let mut html = outputs.file("--html", path)?;
         render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
     }
@@ -138,13 +138,13 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
 fn acceptance(
     args: &RunArgs,
     report: &ResultsReport,
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<Acceptance, Failure> {
     let mut changes = Vec::new();
     for used in report.rounds.last().iter().flat_map(|it| &it.lists) {
         let before: Option<PathBuf> = named(&args.before, &used.axis, "--before X=old.lis")?;
         let Some(before) = before else { continue };
-        ledger.reads("value list", &before);
+        registry.reads("value list", &before);
         let (old, new) = (read_text(&before)?, read_text(Path::new(&used.file))?);
         let change = TextChange {
             before: (&shown(&before), &old),
@@ -181,7 +181,7 @@ fn acceptance(
 const RESULTS: &str = "results.json";
 
 /// The plans of stage 1, where it is there, and of each round of stage 2.
-fn plans(folder: &Path, ledger: &Ledger) -> Result<Vec<PlanFile>, Failure> {
+fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failure> {
     let mut plans = Vec::new();
     for round in 1.. {
         let path = folder.join(plan_name(round));
@@ -191,7 +191,7 @@ fn plans(folder: &Path, ledger: &Ledger) -> Result<Vec<PlanFile>, Failure> {
         if !path.exists() {
             continue;
         }
-        ledger.reads("plan", &path);
+        registry.reads("plan", &path);
         let plan: PlanFile = serde_json::from_str(&read_text(&path)?).map_err(|error| {
             let message = format!("`{}` is no plan: {error}", shown(&path));
             Failure::new(message).with_help("`frictcomp commission plan` writes it")
@@ -380,7 +380,7 @@ fn list_of(found: &FrictionFound) -> FrictionList {
 fn rounds(
     plans: &[PlanFile],
     results: &[RecordingResult],
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<Vec<Round>, Failure> {
     let mut rounds: Vec<Round> = Vec::new();
     let second = plans.iter().filter(|it| it.plan.stage == Stage::On);
@@ -391,7 +391,7 @@ fn rounds(
         let mut against = None;
         if !circles.is_empty() {
             let mut reasons = feeds_against(plan, &circles, &rounds);
-            reasons.extend(lists_against(plan, plans, results, ledger)?);
+            reasons.extend(lists_against(plan, plans, results, registry)?);
             against = Some(reasons);
         }
         rounds.push(Round {
@@ -439,7 +439,7 @@ fn lists_against(
     plan: &PlanFile,
     plans: &[PlanFile],
     results: &[RecordingResult],
-    ledger: &Ledger,
+    registry: &FileRegistry,
 ) -> Result<Vec<String>, Failure> {
     let mut against = Vec::new();
     for used in &plan.lists {
@@ -451,7 +451,7 @@ fn lists_against(
             ));
             continue;
         }
-        let list = value_list(&path, ledger)?;
+        let list = value_list(&path, registry)?;
         let (source, _) = plan
             .plan
             .axes

@@ -16,7 +16,7 @@ use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::drive_interface::TorqueScale;
 use frictcomp::machine::Parameterisation;
 use frictcomp::session::{Motions, StopPolicy};
-use frictcomp_host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
+use frictcomp_host::{Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun, run_alone};
 use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, Reading, axes_to_follow};
 use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
 use frictcomp_report::assumed_limits;
@@ -26,17 +26,17 @@ use frictcomp_report::pictures::AxisPlot;
 pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     let input = Input::new(program);
     input.probe()?;
-    let ledger = Ledger::default();
-    input.note(&ledger);
-    let mut outputs = Outputs::new(&ledger, console);
-    let mut machines = args.machine.machines(&ledger);
+    let registry = FileRegistry::default();
+    input.note(&registry);
+    let mut outputs = Outputs::new(&registry, console);
+    let mut machines = args.machine.machines(&registry);
     machines.look_ahead(std::slice::from_ref(&input));
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
     if let Some(remark) = remark(&loaded) {
         Console::talk(&remark);
     }
     let list = args.value_list.as_deref();
-    let list = list.map(|path| value_list(path, &ledger)).transpose()?;
+    let list = list.map(|path| value_list(path, &registry)).transpose()?;
     let followed = axes_to_follow(&args.axes, &mut loaded.machine, list.as_ref())?;
     let options = options(args, &loaded)?;
     let assumed = loaded.machine.axes.iter().filter_map(AssumedLimits::of);
@@ -65,7 +65,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
     session.run.motions = Motions::Taken;
     session.start = args.start.positions(&loaded.machine)?;
-    let alone = Alone {
+    let alone = SingleRun {
         options: session,
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,
@@ -110,7 +110,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     if let Some(list) = lists.next() {
         say_sign(list);
     }
-    args.machine.say_unread(&ledger, console);
+    args.machine.say_unread(&registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }

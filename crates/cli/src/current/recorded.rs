@@ -11,7 +11,7 @@ use super::super::outputs::Outputs;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use frictcomp::comp::State;
-use frictcomp_host::{Ledger, read_commanded};
+use frictcomp_host::{FileRegistry, read_commanded};
 use frictcomp_physics::current::{Added, AdditiveCurrent, CommandedTrace, Reading, Switched};
 use frictcomp_report::pictures::{AxisPlot, AxisSample};
 
@@ -22,10 +22,10 @@ pub(super) fn run(
     args: &CurrentArgs,
     console: Console,
 ) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    ledger.reads("trace", trace);
-    let mut outputs = Outputs::new(&ledger, console);
-    let list = value_list(list, &ledger)?;
+    let registry = FileRegistry::default();
+    registry.reads("trace", trace);
+    let mut outputs = Outputs::new(&registry, console);
+    let list = value_list(list, &registry)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];
     let mut plot = Plot::create(args.svg.as_deref(), &mut outputs, axes)?;

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
 use frictcomp::text::shown_path;
-use frictcomp_host::{Ledger, OutputFile, read_axis};
+use frictcomp_host::{FileRegistry, OutputFile, read_axis};
 use frictcomp_recordings::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Measured, Track, Wanted,
     identify_measured_circles,
@@ -32,11 +32,11 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     if !args.recording.is_empty() {
         return states::run(args, &options, console);
     }
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     args.traces
         .iter()
-        .for_each(|path| ledger.reads("trace", path));
-    let mut outputs = Outputs::new(&ledger, console);
+        .for_each(|path| registry.reads("trace", path));
+    let mut outputs = Outputs::new(&registry, console);
     let list = args.output.as_deref();
     let list = list
         .map(|path| outputs.list("--output", path))

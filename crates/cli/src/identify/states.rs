@@ -6,7 +6,7 @@ use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use crate::result::Format;
-use frictcomp_host::{Ledger, read_axis};
+use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::fitted;
 use frictcomp_report::pictures::friction_states;
@@ -24,11 +24,11 @@ pub(super) fn run(
     console: Console,
 ) -> Result<u8, Failure> {
     let working = working(args)?;
-    let ledger = Ledger::default();
+    let registry = FileRegistry::default();
     for (_, path) in &args.recording {
-        ledger.reads("trace", path);
+        registry.reads("trace", path);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let list = args.output.as_deref();
     let list = list
         .map(|path| outputs.list("--output", path))

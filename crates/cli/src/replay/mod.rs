@@ -17,7 +17,7 @@ use super::result::{Format, ResultArgs};
 use super::start::StartArgs;
 use frictcomp::session::StopPolicy;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
-use frictcomp_host::{Input, Ledger};
+use frictcomp_host::{FileRegistry, Input};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
 /// Lay what a machine did, from a recording, beside the dry run of its programs
@@ -69,16 +69,16 @@ pub(super) struct ReplayArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
-    let ledger = Ledger::default();
-    ledger.reads("trace", &args.recording);
+    let registry = FileRegistry::default();
+    registry.reads("trace", &args.recording);
     let inputs: Vec<Input> = args.programs.iter().map(|path| Input::new(path)).collect();
     for input in &inputs {
         input.probe()?;
-        input.note(&ledger);
+        input.note(&registry);
     }
-    let mut outputs = Outputs::new(&ledger, console);
+    let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
-    let mut machines = args.machine.machines(&ledger);
+    let mut machines = args.machine.machines(&registry);
     machines.look_ahead(&inputs);
     let first = inputs
         .first()
@@ -100,7 +100,7 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         Format::Json => format!("{:#}\n", shown::document(&replayed)),
     })?;
     outputs.finish()?;
-    args.machine.say_unread(&ledger, console);
+    args.machine.say_unread(&registry, console);
     Ok(if replayed.agrees() {
         exit::CLEAN
     } else {

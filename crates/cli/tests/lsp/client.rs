@@ -6,7 +6,7 @@ use std::path::Path;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use frictcomp_editor::lsp::{Farewell, serve};
+use frictcomp_editor::lsp::{Shutdown, serve};
 use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 pub(crate) struct Client {
     connection: Connection,
-    server: JoinHandle<Farewell>,
+    server: JoinHandle<Shutdown>,
     /// What came while something else was awaited.
     kept: VecDeque<Message>,
     next: i32,
@@ -201,7 +201,7 @@ impl Client {
     pub(crate) fn leave(mut self) {
         self.ask("shutdown", &Value::Null);
         self.tell("exit", &Value::Null);
-        assert_eq!(self.server.join().expect("no panic"), Farewell::Proper);
+        assert_eq!(self.server.join().expect("no panic"), Shutdown::Proper);
         self.kept.extend(self.connection.receiver.try_iter());
         assert!(self.kept.is_empty(), "nobody expected {:?}", self.kept);
     }
@@ -210,13 +210,13 @@ impl Client {
     pub(crate) fn drop_all(mut self) {
         self.ask("shutdown", &Value::Null);
         self.tell("exit", &Value::Null);
-        assert_eq!(self.server.join().expect("no panic"), Farewell::Proper);
+        assert_eq!(self.server.join().expect("no panic"), Shutdown::Proper);
     }
 
     /// Is gone without a word.
     pub(crate) fn vanish(self) {
         drop(self.connection);
-        assert_eq!(self.server.join().expect("no panic"), Farewell::Abrupt);
+        assert_eq!(self.server.join().expect("no panic"), Shutdown::Abrupt);
     }
 }
 

@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 pub(crate) const AXES: [char; 3] = ['X', 'Y', 'C'];
 
 /// A source of random numbers, the same in every run.
-pub(crate) struct Dice(u64);
+pub(crate) struct XorShift(u64);
 
-impl Dice {
+impl XorShift {
     pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
@@ -159,43 +159,43 @@ impl Writer<'_> {
     }
 }
 
-fn blocks(dice: &mut Dice, depth: usize, subs: usize) -> Vec<Block> {
-    let count = 1 + dice.roll(5);
+fn blocks(random: &mut XorShift, depth: usize, subs: usize) -> Vec<Block> {
+    let count = 1 + random.roll(5);
     let mut made = Vec::new();
     for _ in 0..count {
-        made.push(match dice.roll(if depth < 2 { 12 } else { 8 }) {
+        made.push(match random.roll(if depth < 2 { 12 } else { 8 }) {
             0..=2 => {
-                let on = dice.chance(50);
+                let on = random.chance(50);
                 Block::Switch {
-                    axis: dice.roll(AXES.len()),
+                    axis: random.roll(AXES.len()),
                     on,
-                    all: !on && dice.chance(30),
+                    all: !on && random.chance(30),
                     line: 0,
                 }
             }
             3..=6 => {
-                let mut axes: Vec<usize> = (0..AXES.len()).filter(|_| dice.chance(45)).collect();
+                let mut axes: Vec<usize> = (0..AXES.len()).filter(|_| random.chance(45)).collect();
                 if axes.is_empty() {
-                    axes.push(dice.roll(AXES.len()));
+                    axes.push(random.roll(AXES.len()));
                 }
                 Block::Move {
                     axes,
-                    rapid: dice.chance(40),
+                    rapid: random.chance(40),
                     line: 0,
                 }
             }
             7 => Block::Note,
             8 | 9 => Block::Branch {
-                taken: dice.chance(50),
-                body: blocks(dice, depth + 1, subs),
+                taken: random.chance(50),
+                body: blocks(random, depth + 1, subs),
             },
             10 if subs > 0 => Block::Call {
-                sub: dice.roll(subs),
+                sub: random.roll(subs),
             },
             // One loop inside another would count with the same parameter.
             _ if depth == 0 => Block::Loop {
-                times: 1 + dice.roll(3),
-                body: blocks(dice, 2, subs),
+                times: 1 + random.roll(3),
+                body: blocks(random, 2, subs),
             },
             _ => Block::Note,
         });
@@ -204,20 +204,20 @@ fn blocks(dice: &mut Dice, depth: usize, subs: usize) -> Vec<Block> {
 }
 
 impl Program {
-    pub(crate) fn random(dice: &mut Dice, number: usize) -> Self {
+    pub(crate) fn random(random: &mut XorShift, number: usize) -> Self {
         let style = Style {
-            numbers: dice
+            numbers: random
                 .chance(70)
-                .then(|| (1 + dice.roll(20), 1 + dice.roll(10))),
-            zeros: dice.chance(30),
-            end: if dice.chance(40) { "\r\n" } else { "\n" },
-            legacy: dice.chance(50),
+                .then(|| (1 + random.roll(20), 1 + random.roll(10))),
+            zeros: random.chance(30),
+            end: if random.chance(40) { "\r\n" } else { "\n" },
+            legacy: random.chance(50),
         };
         let mut subs: Vec<Vec<Block>> = Vec::new();
-        for _ in 0..dice.roll(3) {
-            subs.push(blocks(dice, 2, 0));
+        for _ in 0..random.roll(3) {
+            subs.push(blocks(random, 2, 0));
         }
-        let mut main = blocks(dice, 0, subs.len());
+        let mut main = blocks(random, 0, subs.len());
         let mut writer = Writer {
             style: &style,
             text: String::new(),
@@ -229,11 +229,11 @@ impl Program {
             writer.write(sub);
             writer.block("M17");
         }
-        if !subs.is_empty() || dice.chance(30) {
+        if !subs.is_empty() || random.chance(30) {
             writer.raw(&format!("%PROGRAM{number}"));
         }
         writer.write(&mut main);
-        match dice.roll(4) {
+        match random.roll(4) {
             0 => {}
             1 => {
                 writer.block("M02");
@@ -243,12 +243,12 @@ impl Program {
             }
         }
         let mut text = writer.text;
-        match dice.roll(4) {
+        match random.roll(4) {
             0 => text.truncate(text.len() - style.end.len()),
             1 => text.push_str(style.end),
             _ => {}
         }
-        let bytes = if style.legacy && dice.chance(70) {
+        let bytes = if style.legacy && random.chance(70) {
             text.chars()
                 .map(|it| u8::try_from(it).expect("Latin"))
                 .collect()

@@ -3,7 +3,7 @@
 use insta::assert_snapshot;
 
 use super::program::machine_text;
-use crate::support::{Bench, Handed};
+use crate::support::{Bench, SourceMode};
 
 /// What is said under each program of a session: code, place, message, advice.
 fn said(programs: &[&str]) -> String {
@@ -193,7 +193,7 @@ fn an_allow_comment_that_stands_above_no_block_is_said() {
             "1:1",
         ),
     ] {
-        for handed in [Handed::Whole, Handed::LineByLine] {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
             let rest = if program.contains("M30") { "" } else { off };
             let text = format!("{program}{rest}");
             let bench = Bench::new().check_all().handed(handed);

@@ -19,7 +19,7 @@ use frictcomp::machine::{Machine, Setting};
 use frictcomp::syntax::axis_uses;
 use frictcomp::text::SourceFile;
 use frictcomp_host::{
-    HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming, ProgramFinder,
+    FileRegistry, HostError, Input, LoadedMachine, MachineOptions, Machines, Naming, ProgramFinder,
     read_text,
 };
 
@@ -257,12 +257,12 @@ impl Stepper {
     /// # Errors
     /// The program or its configuration cannot be read.
     pub(super) fn new(program: &Path, settings: &[(String, Setting)]) -> Result<Self, HostError> {
-        let mut machines = Machines::new(MachineOptions::default(), &Ledger::default());
+        let mut machines = Machines::new(MachineOptions::default(), &FileRegistry::default());
         let input = Input::new(program);
         let loaded = machines.for_folder(input.folder())?;
         let LoadedMachine {
             machine,
-            reach,
+            search_path,
             disk,
             ..
         } = &*loaded;
@@ -277,7 +277,7 @@ impl Stepper {
         for (name, setting) in loaded.settings.iter().chain(settings) {
             here.set(name, setting);
         }
-        let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven, disk);
+        let mut finder = ProgramFinder::new(&input, search_path, Naming::AsGiven, disk);
         let mut said = Vec::new();
         let mut trail = Trail::default();
         let _ = here.program(source, &mut finder, &mut |event: Event<'_>| {

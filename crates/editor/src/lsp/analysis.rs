@@ -5,17 +5,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::documents::{Document, Kind};
-use super::lane::Cancel;
 use super::settings::MAX_BLOCKS;
 use super::states::StateBook;
 use super::wording::editor;
+use super::worker::Cancel;
 use frictcomp::comp::State;
 use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{EndedBy, Record, Sink};
 use frictcomp_host::{
-    Alone, Axes, Disk, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    Naming, check_list_file, run_alone,
+    AllowedRoots, Axes, Disk, FileRegistry, HostError, Input, LoadedMachine, MachineOptions,
+    Machines, Naming, SingleRun, check_list_file, run_alone,
 };
 
 /// A text to check, as it and all others were when it was asked for.
@@ -87,34 +87,34 @@ pub(super) struct AxisEnd {
 impl Job {
     /// Checks the text; `None` where it has changed meanwhile.
     pub(super) fn run(&self) -> Option<Analysis> {
-        let ledger = Ledger::default();
+        let registry = FileRegistry::default();
         let disk = &self.disk;
         let mut analysis = match self.document.kind {
-            Kind::Program => self.check_program(disk, &ledger),
-            Kind::List | Kind::Configuration => self.check_list(disk, &ledger),
+            Kind::Program => self.check_program(disk, &registry),
+            Kind::List | Kind::Configuration => self.check_list(disk, &registry),
             Kind::Other => Analysis::default(),
         };
         if self.cancel.is_set() {
             return None;
         }
         analysis.version = self.document.version;
-        analysis.missed = ledger.missed();
-        let files = ledger.files().into_iter();
+        analysis.missed = registry.missed();
+        let files = registry.files().into_iter();
         analysis.reads = files
             .map(|path| disk.absolute(&path).unwrap_or(path))
             .collect();
         Some(analysis)
     }
 
-    fn check_program(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
+    fn check_program(&self, disk: &Disk, registry: &FileRegistry) -> Analysis {
         let input = Input::Open(self.document.open_text());
-        input.note(ledger);
-        let mut machines = Machines::new(MachineOptions::default(), ledger).on_disk(disk);
+        input.note(registry);
+        let mut machines = Machines::new(MachineOptions::default(), registry).on_disk(disk);
         let loaded = match machines.for_folder(input.folder()) {
             Ok(loaded) => loaded,
             Err(error) => return failed(&error),
         };
-        let alone = Alone {
+        let alone = SingleRun {
             options: options(&loaded, self.max_blocks),
             naming: Naming::AsGiven,
             axes: Axes::Ahead,
@@ -149,9 +149,9 @@ impl Job {
         }
     }
 
-    fn check_list(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
+    fn check_list(&self, disk: &Disk, registry: &FileRegistry) -> Analysis {
         let path = &self.document.path;
-        ledger.reads("list", path);
+        registry.reads("list", path);
         let build = match self.document.kind {
             Kind::List => self.build(disk),
             Kind::Program | Kind::Configuration | Kind::Other => None,
@@ -161,10 +161,10 @@ impl Job {
             Err(error) => return failed(&error),
         };
         for file in &report.files {
-            ledger.reads("list", std::path::Path::new(&**file));
+            registry.reads("list", std::path::Path::new(&**file));
         }
         let folder = path.parent().unwrap_or(path);
-        Grounds::default()
+        AllowedRoots::default()
             .with(std::path::Path::new(""))
             .with(folder)
             .conceal(&mut report.diagnostics);
@@ -180,7 +180,7 @@ impl Job {
     /// The build of the machine that a list belongs to, where a configuration says so.
     fn build(&self, disk: &Disk) -> Option<frictcomp::comp::CncBuild> {
         let folder = self.document.path.parent()?;
-        let unheard = Ledger::default();
+        let unheard = FileRegistry::default();
         let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(disk);
         machines.for_folder(folder).ok()?.machine.build
     }

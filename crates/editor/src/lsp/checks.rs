@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
-use super::lane::Cancel;
+use super::worker::Cancel;
 
 /// How long nobody may type before a text is checked: shorter than between two keystrokes, longer
 /// than between the changes of one.

@@ -16,8 +16,8 @@ use frictcomp::session::{Options, SessionOptions};
 use frictcomp::text::{LineSource, shown_path};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Alone, ArchiveAuditor, AuditOptions, Axes, Disk, Input, Ledger, MachineOptions, Machines,
-    Naming, OpenText, find_programs, run_alone,
+    ArchiveAuditor, AuditOptions, Axes, Disk, FileRegistry, Input, MachineOptions, Machines,
+    Naming, OpenText, SingleRun, find_programs, run_alone,
 };
 use frictcomp_report::audit::{AuditReport, MachineAudit};
 use frictcomp_report::html::{
@@ -88,10 +88,10 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
-    let unheard = Ledger::default();
+    let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let loaded = machines.for_folder(input.folder())?;
-    let alone = Alone {
+    let alone = SingleRun {
         options: SessionOptions::default()
             .with_levels(loaded.levels.clone())
             .with_settings(loaded.settings.clone())
@@ -130,7 +130,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         _ => path,
     };
     let disk = view.documents.disk();
-    let unheard = Ledger::default();
+    let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let found = find_programs(&[folder], |folder| machines.extensions(folder));
     let inputs = found.inputs.into_iter().map(|input| match &input {

@@ -12,7 +12,7 @@ use super::hints::left;
 use super::view::View;
 use frictcomp::session::Options;
 use frictcomp::text::shown_path;
-use frictcomp_host::{ArchiveAuditor, AuditOptions, Input, Ledger, MachineOptions, Machines};
+use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, MachineOptions, Machines};
 
 /// The lenses over a text.
 pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
@@ -54,7 +54,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
 /// found out.
 fn inherited(view: &View, document: &Document) -> Option<String> {
     let disk = view.documents.disk();
-    let unheard = Ledger::default();
+    let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let limits = limits(view.client.settings.max_blocks);
     let options = AuditOptions::new(Options::default().with_limits(limits));

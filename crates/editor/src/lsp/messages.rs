@@ -197,7 +197,7 @@ fn reach(known: &mut Message, message: &Message) {
 /// What the client was told, text by text. Each check brings messages about its text and about others;
 /// a text shows its own ones first, then those of other checks, each once.
 #[derive(Debug, Default)]
-pub(super) struct Board {
+pub(super) struct PublishedDiagnostics {
     by_check: BTreeMap<String, ByText>,
     /// What checks of other texts say about a text, and how many of them do.
     by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
@@ -207,7 +207,7 @@ pub(super) struct Board {
 /// Where a message stands, its cause, and all else that tells it from others.
 type Key = (u32, u32, String, String);
 
-impl Board {
+impl PublishedDiagnostics {
     /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
     /// whose messages are others now.
     pub(super) fn put(&mut self, check: &str, messages: ByText) -> ByText {

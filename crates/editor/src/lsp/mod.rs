@@ -21,7 +21,6 @@ mod documents;
 mod encoding;
 mod hints;
 mod hover;
-mod lane;
 mod lens;
 mod log;
 mod markdown;
@@ -42,18 +41,19 @@ mod uri;
 mod users;
 mod view;
 mod wording;
+mod worker;
 
 use std::io;
 
-pub use server::{Farewell, serve};
+pub use server::{Shutdown, serve};
 
 /// Talks to a client at the other end of standard input and output.
 ///
 /// # Errors
 /// The system starts no threads.
-pub fn serve_stdio() -> io::Result<Farewell> {
+pub fn serve_stdio() -> io::Result<Shutdown> {
     let stdio = transport::Stdio::open()?;
-    let farewell = serve(&stdio.connection)?;
+    let shutdown = serve(&stdio.connection)?;
     stdio.close();
-    Ok(farewell)
+    Ok(shutdown)
 }

@@ -10,7 +10,9 @@ use frictcomp::comp::{Kind, State};
 use frictcomp::interpreter::{CircularArc, Form, Motion, Motions, SAME_PLACE, Travel};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Row, Sink};
-use frictcomp_host::{Alone, Axes, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
+use frictcomp_host::{
+    Axes, FileRegistry, Input, MachineOptions, Machines, Naming, SingleRun, run_alone,
+};
 
 /// Angles that differ by less are the same.
 const TOLERANCE: f64 = 1e-9;
@@ -34,14 +36,14 @@ pub(super) struct AxisMoves {
 pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMoves> {
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
-    let unheard = Ledger::default();
+    let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let Ok(loaded) = machines.for_folder(input.folder()) else {
         return Vec::new();
     };
     let mut options = options(&loaded, view.client.settings.max_blocks);
     options.run = options.run.with_motions(Motions::Taken);
-    let alone = Alone {
+    let alone = SingleRun {
         options,
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,

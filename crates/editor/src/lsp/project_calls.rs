@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use frictcomp_host::{
-    CallGraph, Disk, Ledger, MachineOptions, Machines, find_programs, processors,
+    CallGraph, Disk, FileRegistry, MachineOptions, Machines, find_programs, processors,
 };
 
 /// The calls of the programs of a project as they are saved, found when first asked for.
@@ -53,8 +53,8 @@ impl ProjectCalls {
         {
             return Some(Arc::clone(graph));
         }
-        let ledger = Ledger::default();
-        let mut machines = Machines::new(MachineOptions::default(), &ledger).on_disk(disk);
+        let registry = FileRegistry::default();
+        let mut machines = Machines::new(MachineOptions::default(), &registry).on_disk(disk);
         let paths = [folder.clone()];
         let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
         // What cannot be read calls nothing; its check says so.

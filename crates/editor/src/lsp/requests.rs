@@ -17,7 +17,7 @@ use super::view::View;
 use super::{actions, calls, commands, completion, custom, hints, hover, lens, navigation, pages};
 
 /// Answers a question with parameters that may be anything.
-pub(super) type Answerer = fn(&View, Value) -> Result<Value, Refusal>;
+pub(super) type Handler = fn(&View, Value) -> Result<Value, Refusal>;
 
 /// What a question needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,13 +34,13 @@ pub(super) enum Needs {
 struct Known {
     method: &'static str,
     needs: Needs,
-    answerer: Answerer,
+    handler: Handler,
 }
 
 /// The handler of a request; `None` for an unknown method.
-pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
+pub(super) fn handler(method: &str) -> Option<(Needs, Handler)> {
     let known = KNOWN.iter().find(|known| known.method == method)?;
-    Some((known.needs, known.answerer))
+    Some((known.needs, known.handler))
 }
 
 static KNOWN: [Known; 20] = [
@@ -110,11 +110,11 @@ static KNOWN: [Known; 20] = [
     }),
 ];
 
-const fn known<R: Request>(needs: Needs, answerer: Answerer) -> Known {
+const fn known<R: Request>(needs: Needs, handler: Handler) -> Known {
     Known {
         method: R::METHOD.as_str(),
         needs,
-        answerer,
+        handler,
     }
 }
 

@@ -27,15 +27,15 @@ use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
 use super::documents::{Document, Documents, Kind, is_of_a_user};
-use super::lane::{Cancel, Lane};
 use super::log::log;
-use super::messages::{Board, ByText, Translator};
+use super::messages::{ByText, PublishedDiagnostics, Translator};
 use super::project_calls::ProjectCalls;
 use super::refusal::Refusal;
-use super::requests::{Answerer, Needs, answerer};
+use super::requests::{Handler, Needs, handler};
 use super::uri::path_of;
 use super::users::Users;
 use super::view::View;
+use super::worker::{Cancel, Worker};
 use frictcomp_host::SharedMap;
 
 /// How long nothing has to happen before the server looks whether something is due.
@@ -46,7 +46,7 @@ const MOST_WAITING: usize = 1000;
 
 /// How the client took its leave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Farewell {
+pub enum Shutdown {
     /// It asked for the end, and then ended the server.
     Proper,
     /// It was gone, or ended the server without having asked.
@@ -56,7 +56,7 @@ pub enum Farewell {
 /// A question on its way to who answers it.
 struct Question {
     id: RequestId,
-    answerer: Answerer,
+    handler: Handler,
     params: Value,
     view: View,
 }
@@ -73,7 +73,7 @@ enum Done {
 struct Waiting {
     id: RequestId,
     uri: Uri,
-    answerer: Answerer,
+    handler: Handler,
     params: Value,
 }
 
@@ -81,10 +81,10 @@ struct Waiting {
 ///
 /// # Errors
 /// The system starts no threads.
-pub fn serve(connection: &Connection) -> io::Result<Farewell> {
+pub fn serve(connection: &Connection) -> io::Result<Shutdown> {
     let (id, params) = match initialize(connection) {
         Ok(first) => first,
-        Err(farewell) => return Ok(farewell),
+        Err(shutdown) => return Ok(shutdown),
     };
     let mut server = Server::new(connection, &params)?;
     server.send(Response::new_ok(id, offer(&server.client, &server.calls)));
@@ -93,10 +93,10 @@ pub fn serve(connection: &Connection) -> io::Result<Farewell> {
 
 /// Waits for the client to say what it can do. One that leaves before then ends the session without an
 /// error.
-fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), Farewell> {
+fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), Shutdown> {
     loop {
         let Ok(message) = connection.receiver.recv() else {
-            return Err(Farewell::Proper);
+            return Err(Shutdown::Proper);
         };
         let refused = match message {
             Message::Request(request) if request.method == "initialize" => {
@@ -109,7 +109,7 @@ fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), 
                 let first = "the first request must be `initialize`".to_owned();
                 Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, first)
             }
-            Message::Notification(it) if it.method == "exit" => return Err(Farewell::Abrupt),
+            Message::Notification(it) if it.method == "exit" => return Err(Shutdown::Abrupt),
             Message::Notification(_) | Message::Response(_) => continue,
         };
         // A client that is gone closes the other channel, too.
@@ -125,12 +125,12 @@ struct Server<'c> {
     calls: ProjectCalls,
     analyses: SharedMap<String, Arc<Analysis>>,
     users: Users,
-    board: Board,
+    published: PublishedDiagnostics,
     checks: Checks,
-    checking: Lane<Job>,
-    answering: Lane<Question>,
+    checking: Worker<Job>,
+    answering: Worker<Question>,
     /// Answers that take their time.
-    reporting: Lane<Question>,
+    reporting: Worker<Question>,
     done: Receiver<Done>,
     waiting: Vec<Waiting>,
     /// Questions of the client on their way, and what the server asked the client.
@@ -153,7 +153,7 @@ impl<'c> Server<'c> {
             calls,
             analyses: SharedMap::default(),
             users: Users::default(),
-            board: Board::default(),
+            published: PublishedDiagnostics::default(),
             checks: Checks::default(),
             checking: checking(sender.clone())?,
             answering: answering("answers", sender.clone())?,
@@ -169,7 +169,7 @@ impl<'c> Server<'c> {
         Ok(server)
     }
 
-    fn listen(&mut self) -> Farewell {
+    fn listen(&mut self) -> Shutdown {
         loop {
             let now = Instant::now();
             while let Some(uri) = self.checks.due(now) {
@@ -179,26 +179,26 @@ impl<'c> Server<'c> {
             select! {
                 recv(self.connection.receiver) -> message => match message {
                     Ok(Message::Request(request)) => self.request(request),
-                    Ok(Message::Notification(it)) if it.method == "exit" => return self.farewell(),
+                    Ok(Message::Notification(it)) if it.method == "exit" => return self.shutdown(),
                     Ok(Message::Notification(notification)) => self.notification(notification),
                     Ok(Message::Response(response)) => self.response(response),
-                    Err(_) => return Farewell::Abrupt,
+                    Err(_) => return Shutdown::Abrupt,
                 },
                 recv(self.done) -> done => match done {
                     Ok(Done::Checked(analysis)) => self.checked(analysis),
                     Ok(Done::Answered(response)) => self.answered(response),
-                    Err(_) => return Farewell::Abrupt,
+                    Err(_) => return Shutdown::Abrupt,
                 },
                 default(wait) => {}
             }
         }
     }
 
-    fn farewell(&self) -> Farewell {
+    fn shutdown(&self) -> Shutdown {
         if self.is_shut_down {
-            Farewell::Proper
+            Shutdown::Proper
         } else {
-            Farewell::Abrupt
+            Shutdown::Abrupt
         }
     }
 
@@ -229,7 +229,7 @@ impl<'c> Server<'c> {
             let why = "the server is initialized already".to_owned();
             return self.send(refuse(ErrorCode::InvalidRequest, why));
         }
-        let Some((needs, answerer)) = answerer(&method) else {
+        let Some((needs, handler)) = handler(&method) else {
             let why = format!("there is no method `{method}`");
             return self.send(refuse(ErrorCode::MethodNotFound, why));
         };
@@ -245,10 +245,10 @@ impl<'c> Server<'c> {
             Some(uri) => self.waiting.push(Waiting {
                 id,
                 uri,
-                answerer,
+                handler,
                 params,
             }),
-            None => self.ask(id, (needs, answerer), params),
+            None => self.ask(id, (needs, handler), params),
         }
     }
 
@@ -257,7 +257,7 @@ impl<'c> Server<'c> {
         self.documents.get(uri).is_none() || !self.checks.is_awaited(&uri.0)
     }
 
-    fn ask(&mut self, id: RequestId, (needs, answerer): (Needs, Answerer), params: Value) {
+    fn ask(&mut self, id: RequestId, (needs, handler): (Needs, Handler), params: Value) {
         let cancel = Cancel::default();
         self.queue.incoming.register(id.clone(), cancel.clone());
         let lane = match needs {
@@ -266,7 +266,7 @@ impl<'c> Server<'c> {
         };
         lane.send(Question {
             id,
-            answerer,
+            handler,
             params,
             view: View {
                 client: Arc::clone(&self.client),
@@ -374,7 +374,7 @@ impl<'c> Server<'c> {
         self.analyses.remove(&uri.0);
         self.users.forget(&uri.0);
         self.checks.forget(&uri.0);
-        let changed = self.board.remove(&uri.0);
+        let changed = self.published.remove(&uri.0);
         self.publish(changed);
         self.expect_users(&document);
         self.answer_waiting(&uri);
@@ -497,7 +497,7 @@ impl<'c> Server<'c> {
         let is_by_others = earlier == Some(analysis.version);
         self.users.note(document, &analysis);
         self.analyses.insert(uri.0.clone(), Arc::new(*analysis));
-        let changed = self.board.put(&uri.0, messages);
+        let changed = self.published.put(&uri.0, messages);
         self.publish(changed);
         self.answer_waiting(&uri);
         if is_by_others {
@@ -526,12 +526,12 @@ impl<'c> Server<'c> {
         let ready: Vec<Waiting> = self.waiting.extract_if(.., ready).collect();
         for Waiting {
             id,
-            answerer,
+            handler,
             params,
             ..
         } in ready
         {
-            self.ask(id, (Needs::Check, answerer), params);
+            self.ask(id, (Needs::Check, handler), params);
         }
     }
 
@@ -556,26 +556,26 @@ fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
 }
 
 /// The thread of the checks.
-fn checking(done: Sender<Done>) -> io::Result<Lane<Job>> {
-    Lane::new("checks", move |job: Job| {
+fn checking(done: Sender<Done>) -> io::Result<Worker<Job>> {
+    Worker::new("checks", move |job: Job| {
         // The receiver is gone with the server.
         let _ = done.send(Done::Checked(job.run().map(Box::new)));
     })
 }
 
 /// A thread of answers.
-fn answering(name: &str, done: Sender<Done>) -> io::Result<Lane<Question>> {
-    Lane::new(name, move |question: Question| {
+fn answering(name: &str, done: Sender<Done>) -> io::Result<Worker<Question>> {
+    Worker::new(name, move |question: Question| {
         let Question {
             id,
-            answerer,
+            handler,
             params,
             view,
         } = question;
         if view.cancel.is_set() {
             return;
         }
-        let response = match answerer(&view, params) {
+        let response = match handler(&view, params) {
             Ok(result) => Response::new_ok(id, result),
             Err(refusal) => refusal.of(id),
         };

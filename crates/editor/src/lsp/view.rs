@@ -7,9 +7,9 @@ use gen_lsp_types::{Position, Uri};
 use super::analysis::{Analysis, Run};
 use super::client::Client;
 use super::documents::{Document, Documents};
-use super::lane::Cancel;
 use super::messages::Translator;
 use super::project_calls::ProjectCalls;
+use super::worker::Cancel;
 use frictcomp::text::shown_path;
 use frictcomp_host::SharedMap;
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::conditions::Condition;
 use crate::discovery::LoadedMachine;
-use crate::dry_run::{Programs, Surroundings, expect_axes, run_programs};
+use crate::dry_run::{Programs, RunContext, expect_axes, run_programs};
 use crate::error::HostError;
 use crate::input::{Input, Naming};
 use crate::switched_axes::switched_axes;
@@ -84,9 +84,9 @@ impl Course {
             said: &said,
         };
         let mut course = Self::default();
-        let surroundings = Surroundings::new(loaded, Naming::AsGiven);
+        let context = RunContext::new(loaded, Naming::AsGiven);
         let mut sink = |record: &Record<'_>| course.take(record, loaded);
-        let played = run_programs(&mut session, programs, &surroundings, &mut sink)?;
+        let played = run_programs(&mut session, programs, &context, &mut sink)?;
         if played.flow.is_break() {
             course.stopped = Some(format!("it has more than {MAX_STEPS} blocks"));
         } else if played.unrun > 0 && course.stopped.is_none() {

@@ -8,7 +8,7 @@
 
 mod candidate;
 mod check;
-mod evolution;
+mod cma_es;
 mod heights;
 mod ranges;
 mod reversal;

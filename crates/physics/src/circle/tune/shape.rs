@@ -7,7 +7,7 @@
 //! `reversal_lookahead`.
 
 use super::candidate::Candidate;
-use super::evolution::{Evolution, POINTS};
+use super::cma_es::{CmaEs, POINTS};
 use super::heights::Heights;
 use super::ranges::Ranges;
 use crate::simulation::{DriveParameters, plant_list_at};
@@ -81,7 +81,7 @@ pub(super) struct ShapeSearch {
 /// One of the searches, and the least that it found.
 #[derive(Debug, Clone)]
 struct Run {
-    evolution: Evolution,
+    cma_es: CmaEs,
     least: f64,
 }
 
@@ -101,7 +101,7 @@ impl ShapeSearch {
             let mut mean = vec![0.0; FREE];
             mean.extend([LATER[run] / DELAY, 0.0, 0.0]);
             Run {
-                evolution: Evolution::new(mean, STEP, run as u64),
+                cma_es: CmaEs::new(mean, STEP, run as u64),
                 least: f64::INFINITY,
             }
         };
@@ -134,7 +134,7 @@ impl ShapeSearch {
                 .min_by(|&one, &other| self.runs[one].least.total_cmp(&self.runs[other].least));
             self.current = best.unwrap_or_default();
         }
-        self.asked = self.runs[self.current].evolution.ask();
+        self.asked = self.runs[self.current].cma_es.ask();
         let lists = self.asked.iter().map(|point| self.shaped(point));
         Some(lists.collect())
     }
@@ -165,7 +165,7 @@ impl ShapeSearch {
             self.goal = least;
             self.idle = 0;
         }
-        self.runs[self.current].evolution.tell(&values);
+        self.runs[self.current].cma_es.tell(&values);
     }
 
     /// The best list that was tried.

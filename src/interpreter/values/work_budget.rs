@@ -26,7 +26,7 @@ const PER_WORK: u64 = 2;
 
 /// The work of a session, in units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Effort {
+pub(in crate::interpreter) struct WorkBudget {
     spent: Cell<u64>,
     /// What the executed blocks did not bring with them.
     level: Cell<u64>,
@@ -34,7 +34,7 @@ pub(in crate::interpreter) struct Effort {
     repeated: u64,
 }
 
-impl Effort {
+impl WorkBudget {
     /// Counts work.
     pub(in crate::interpreter) fn charge(&self, units: usize) {
         let units = u64::try_from(units).unwrap_or(u64::MAX);

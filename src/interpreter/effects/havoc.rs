@@ -17,40 +17,40 @@ use crate::text::Span;
 
 impl Interpreter {
     /// What text could change that is not known here (R2.70).
-    pub(in crate::interpreter) fn forget_unread(&mut self, effect: Unread, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Arc<str>) {
         match effect {
-            Unread::Everything => self.forget_all(cause),
+            Unread::Everything => self.havoc_all(cause),
             Unread::Parameters => {
                 self.write(
                     Place::Parameters(cause.clone()),
                     Value::Unknown(cause.clone()),
                 );
             }
-            Unread::Spindle => self.state.control.modal.pace.forget_spindle(),
+            Unread::Spindle => self.state.control.modal.pace.havoc_spindle(),
         }
     }
 
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
-    pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
-        if let Some(undecided) = &mut self.work.undecided {
+    pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
+        if let Some(undecided) = &mut self.scratch.undecided {
             undecided
                 .differing
                 .name("everything that a program can change");
         }
-        self.forget_memory(cause);
-        self.state.control.memory.forget_macros(cause, |_, _| false);
-        self.state.control.modal.forget_words();
+        self.havoc_memory(cause);
+        self.state.control.memory.havoc_macros(cause, |_, _| false);
+        self.state.control.modal.havoc_words();
         self.perhaps_move_all();
-        self.doubt_couplings();
-        self.forget_compensation();
+        self.havoc_couplings();
+        self.havoc_compensation();
     }
 
     /// It is not known whether any axis moves.
     pub(in crate::interpreter) fn perhaps_move_all(&mut self) {
         let count = self.machine.axes.len();
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
-        if self.work.also_moved.iter().filter(possible).count() < count {
+        if self.scratch.also_moved.iter().filter(possible).count() < count {
             for axis in (0..count).map(AxisIndex::new) {
                 self.perhaps_move(axis);
             }
@@ -59,7 +59,7 @@ impl Interpreter {
 
     /// It is not known whether an axis moves.
     pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
-        self.work.also_moved.push(MovedAxis {
+        self.scratch.also_moved.push(MovedAxis {
             axis,
             span: Span::default(),
             kind: MotionKind::Unknown,
@@ -68,56 +68,56 @@ impl Interpreter {
     }
 
     /// Every parameter and variable becomes unknown.
-    pub(in crate::interpreter) fn forget_memory(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_memory(&mut self, cause: &Arc<str>) {
         self.journal.begin_anew();
-        self.work.wrote = true;
+        self.scratch.wrote = true;
         self.state
             .track
             .write_anything(&mut self.state.control.memory);
-        self.state.control.memory.forget_all(cause);
+        self.state.control.memory.havoc_all(cause);
     }
 
     /// Every kind of every axis becomes unknown.
-    pub(in crate::interpreter) fn forget_compensation(&mut self) {
+    pub(in crate::interpreter) fn havoc_compensation(&mut self) {
         self.state.control.possible.clear();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state
                 .control
                 .compensation
-                .forget(axis, KindSet::ALL, &mut self.work.changes);
+                .havoc(axis, KindSet::ALL, &mut self.scratch.changes);
         }
     }
 
     /// The macros of programs may be gone; those of the machine are what it says, now as before.
-    pub(in crate::interpreter) fn doubt_macros(&mut self, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_macros(&mut self, cause: &Arc<str>) {
         let machine = &self.machine.programs.macros;
         let stays = |name: &str, code: &str| {
             let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
             last.is_some_and(|(_, own)| unescaped(own) == code)
         };
-        self.state.control.memory.forget_macros(cause, stays);
+        self.state.control.memory.havoc_macros(cause, stays);
     }
 
     /// A COMP command switched kinds of an axis, but it is not known of which.
-    pub(in crate::interpreter) fn doubt_any_axis(&mut self, kinds: KindSet) {
+    pub(in crate::interpreter) fn havoc_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
-            self.doubt(axis, kinds);
+            self.havoc(axis, kinds);
         }
     }
 
     /// A command that may or may not have been executed (R2.51).
-    pub(in crate::interpreter) fn forget_hash(&mut self, name: &str, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn havoc_hash(&mut self, name: &str, cause: &Arc<str>) {
         match name {
-            "#DISABLE MODAL CYCLE" => self.state.control.cycles.doubt(),
-            "#INIT MACRO TAB" => self.doubt_macros(cause),
+            "#DISABLE MODAL CYCLE" => self.state.control.cycles.havoc(),
+            "#INIT MACRO TAB" => self.havoc_macros(cause),
             "#ENABLE AX LINK"
             | "#AX LINK ON"
             | "#DISABLE AX LINK"
             | "#AX LINK OFF"
             | "#DISABLE AX LINK ALL"
-            | "#AX LINK OFF ALL" => self.doubt_couplings(),
-            name if is_follower_command(name) => self.state.control.couplings.doubt_followers(&[]),
+            | "#AX LINK OFF ALL" => self.havoc_couplings(),
+            name if is_follower_command(name) => self.state.control.couplings.havoc_followers(&[]),
             "#RETAIN CYCLE CHANGES" => {
                 if let Some(frame) = self.state.control.frames.cycle_mut() {
                     frame.retains = Retains::Perhaps;
@@ -129,16 +129,16 @@ impl Interpreter {
             {
                 // What follows may be a description, or not.
                 let modal = &mut self.state.control.modal;
-                modal.forget_words();
+                modal.havoc_words();
                 modal.note_transformed(name);
             }
-            "#OVERRIDE" => self.state.control.modal.pace.forget_overrides(),
-            "#MAIN SPINDLE" => self.state.control.modal.pace.forget_spindle(),
+            "#OVERRIDE" => self.state.control.modal.pace.havoc_overrides(),
+            "#MAIN SPINDLE" => self.state.control.modal.pace.havoc_spindle(),
             name => {
                 if let Some((what, Holds::On)) = simplified::of_command(name) {
                     self.state.control.modal.perhaps_simplify(what);
                 }
-                self.state.control.modal.forget_hash(name);
+                self.state.control.modal.havoc_hash(name);
             }
         }
     }

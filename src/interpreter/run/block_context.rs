@@ -10,7 +10,7 @@ use crate::syntax::{Comments, Fault, RawBlock, Remark};
 use crate::text::{Place, Span};
 
 /// The place of a block, and what is known about it besides its tree.
-pub(in crate::interpreter) struct At<'a> {
+pub(in crate::interpreter) struct BlockContext<'a> {
     pub(in crate::interpreter) block: &'a Block,
     pub(in crate::interpreter) file: &'a Arc<str>,
     pub(in crate::interpreter) text: &'a str,
@@ -52,7 +52,7 @@ struct Lines {
 
 impl Shown {
     /// The place of a span: the lines that it touches, no more of the block.
-    fn place(&self, at: &At<'_>, span: Span) -> Place {
+    fn place(&self, at: &BlockContext<'_>, span: Span) -> Place {
         let text = at.text;
         let clamped = |offset: u32| {
             let offset = usize::try_from(offset).unwrap_or(usize::MAX);
@@ -91,7 +91,7 @@ impl Shown {
     }
 }
 
-impl<'a> At<'a> {
+impl<'a> BlockContext<'a> {
     /// A block of the main program, or one that is looked at and not executed.
     #[inline]
     pub(in crate::interpreter) fn of_raw(
@@ -193,7 +193,7 @@ impl<'a> At<'a> {
     }
 }
 
-impl At<'_> {
+impl BlockContext<'_> {
     /// The span in the block of what stands here, for what is said when the whole block is known.
     pub(in crate::interpreter) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
@@ -229,7 +229,7 @@ mod tests {
         let mut block = Block::default();
         let mut reader = BlockReader::new(TextLines::new(text), 7, FastPath::On);
         let raw = reader.next(&mut block).expect("a block");
-        let at = At::of_raw(&file, &raw, &block, &shown);
+        let at = BlockContext::of_raw(&file, &raw, &block, &shown);
         let place = |start, end| at.place(Span::new(start, end));
         let (first, second, third) = (place(19, 20), place(16, 17), place(26, 27));
         assert_eq!((&*first.text, first.first_line), ("2, x,\\", 8));

@@ -7,15 +7,15 @@ use crate::comp::AxisIndex;
 use crate::diagnostic::Code;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::run::at::At;
+use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::ways::{
-    Aim, AxisKinds, Departing, RETURN, Standing, Tail, Way, Ways, doubt_names,
+    AxisKinds, Branch, JumpTarget, OpenPath, PathState, RETURN, Remainder, Ways, join_names,
 };
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::target::Target;
+use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -23,17 +23,21 @@ impl Interpreter {
     /// Remembers the ways that leave at the block that was executed, and says that they are not
     /// gone (FC902).
     #[cold]
-    pub(in crate::interpreter) fn depart(&mut self, finder: &mut dyn Finder, at: &At<'_>) {
+    pub(in crate::interpreter) fn depart(
+        &mut self,
+        finder: &mut dyn Finder,
+        at: &BlockContext<'_>,
+    ) {
         let said = self.departing.iter().filter(|way| way.say.is_some());
         let said = said.max_by_key(|way| rank(way.to)).cloned();
         if let Some(way) = said
-            && !self.work.unread.get()
+            && !self.scratch.unread.get()
             && self.differs(way.to, way.here)
         {
             let what = match way.to {
-                Aim::End => "the program may end here, which",
-                Aim::Return | Aim::Far => "the program may be left here, which",
-                Aim::Block(_) => "a jump may leave this control block, which",
+                JumpTarget::End => "the program may end here, which",
+                JumpTarget::Return | JumpTarget::Far => "the program may be left here, which",
+                JumpTarget::Block(_) => "a jump may leave this control block, which",
             };
             let value = unknown_value(&way.cause);
             let message = format!(
@@ -55,7 +59,7 @@ impl Interpreter {
         let depth = self.state.control.frames.depth();
         let mut here = 0;
         let mut known = HashSet::new();
-        for Departing {
+        for Branch {
             to,
             cause,
             here: after,
@@ -64,9 +68,9 @@ impl Interpreter {
         {
             here = here.max(after);
             let targets: Vec<(usize, EntryIndex)> = match to {
-                Aim::Block(target) => vec![(depth, target)],
-                Aim::Return => vec![(depth, RETURN)],
-                Aim::Far => {
+                JumpTarget::Block(target) => vec![(depth, target)],
+                JumpTarget::Return => vec![(depth, RETURN)],
+                JumpTarget::Far => {
                     let main = self.state.control.frames.main();
                     let labels = main.map(|main| {
                         let index = self.programs.index(main.unit);
@@ -75,7 +79,7 @@ impl Interpreter {
                     let returns = (2..=depth).map(|depth| (depth, RETURN));
                     returns.chain(labels.into_iter().flatten()).collect()
                 }
-                Aim::End => vec![(0, 0)],
+                JumpTarget::End => vec![(0, 0)],
             };
             for (depth, target) in targets {
                 if !known.insert((depth, target)) {
@@ -102,16 +106,16 @@ impl Interpreter {
     }
 
     /// A way that leaves now.
-    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> Way {
+    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
         let count = self.state.control.compensation.len();
         self.state.effort.charge(ITEM + count);
-        Way {
+        OpenPath {
             depth,
             target,
             since: self.state.seq,
             latest: self.state.seq,
             cause,
-            standing: Standing {
+            standing: PathState {
                 kinds: self.all_kinds(),
                 modal: self.state.control.modal.clone(),
                 cycles: self.state.control.cycles.clone(),
@@ -152,12 +156,12 @@ impl Interpreter {
                 && self.programs.index(place.unit).entries.len() >= here as usize
             {
                 // It executes what the dry run jumped over, or what it has after it.
-                let region = self.forget_region(place.unit, target..here, &cause);
+                let region = self.havoc_region(place.unit, target..here, &cause);
                 self.note_exits(&region, target..=here, &cause, None);
             }
-            self.forget_called(finder);
+            self.havoc_called(finder);
             self.take_departing();
-            if self.is_worn_out() {
+            if self.is_exhausted() {
                 break;
             }
         }
@@ -168,7 +172,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn leave_ways(&mut self, frame: &Frame) {
         let depth = self.state.control.frames.depth();
         let caller = self.state.control.frames.running().map(|caller| {
-            let waiting = caller.waiting.iter().map(|request| Tail {
+            let waiting = caller.waiting.iter().map(|request| Remainder {
                 unit: request.found.unit,
                 section: request.found.section,
                 from: self.programs.section(request.found).start,
@@ -177,7 +181,7 @@ impl Interpreter {
         });
         for mut way in self.state.track.ways.left(depth + 1) {
             if way.target != RETURN {
-                way.tails.push(Tail {
+                way.tails.push(Remainder {
                     unit: frame.unit,
                     section: frame.section,
                     from: way.target,
@@ -212,21 +216,21 @@ impl Interpreter {
                 } else {
                     frame.next
                 };
-                Some(Tail {
+                Some(Remainder {
                     unit: frame.unit,
                     section: frame.section,
                     from,
                 })
             });
-            let rest: Vec<Tail> = rest.collect();
+            let rest: Vec<Remainder> = rest.collect();
             way.tails.extend(rest);
             self.join(way, &mut tails);
         }
-        self.forget_called(finder);
+        self.havoc_called(finder);
         self.departing.clear();
         if let Some(end) = self.state.track.ways.end.take() {
             self.join(*end, &mut tails);
-            self.forget_called(finder);
+            self.havoc_called(finder);
             self.departing.clear();
         }
         self.state.track.ways = Ways {
@@ -234,14 +238,14 @@ impl Interpreter {
             own: Some(own),
             ..Ways::default()
         };
-        if !self.work.changes.is_empty() {
+        if !self.scratch.changes.is_empty() {
             self.version += 1;
         }
     }
 
     /// What may differ between the way of the dry run and another that goes on here becomes unknown.
-    fn join(&mut self, way: Way, tails: &mut HashSet<Tail>) {
-        let Way {
+    fn join(&mut self, way: OpenPath, tails: &mut HashSet<Remainder>) {
+        let OpenPath {
             since,
             cause,
             standing,
@@ -251,41 +255,38 @@ impl Interpreter {
             let axis = AxisIndex::new(position);
             let known = self.kinds(axis);
             let differing = known.differing(*kinds);
-            self.doubt(axis, differing.without(known.unknown));
+            self.havoc(axis, differing.without(known.unknown));
         }
-        self.state.control.modal.doubt(&standing.modal);
+        self.state.control.modal.join(&standing.modal);
         if standing.macros != self.state.control.memory.macro_version() {
-            self.doubt_macros(&cause);
+            self.havoc_macros(&cause);
         }
         self.state.control.cycles.join(&standing.cycles);
         if standing.couplings != self.state.control.couplings.version() {
-            self.doubt_couplings();
+            self.havoc_couplings();
         }
-        doubt_names(&mut self.state.control.named, &standing.named, &cause);
-        self.state
-            .control
-            .channel_axes
-            .doubt(&standing.channel_axes);
+        join_names(&mut self.state.control.named, &standing.named, &cause);
+        self.state.control.channel_axes.join(&standing.channel_axes);
         let written = &self.state.track.ways.written.0;
         self.state.effort.charge(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
         let later: Vec<Target> = later.map(|(target, _)| target.clone()).collect();
         if self.state.track.ways.everything > since {
-            self.forget_memory(&cause);
+            self.havoc_memory(&cause);
         }
         for target in &later {
             self.lose(target, &cause);
         }
         for tail in way.tails {
             if tails.insert(tail) {
-                self.forget_tail(tail, &cause);
+                self.havoc_tail(tail, &cause);
             }
         }
     }
 
     /// What a section could change from a block on, and what it jumps back to.
-    fn forget_tail(&mut self, tail: Tail, cause: &Arc<str>) {
-        let Tail {
+    fn havoc_tail(&mut self, tail: Remainder, cause: &Arc<str>) {
+        let Remainder {
             unit,
             section,
             mut from,
@@ -296,21 +297,21 @@ impl Interpreter {
             has_text.then(|| unit.index.sections[section].end)
         }) else {
             // Lines that are read one after another.
-            self.forget_all(cause);
+            self.havoc_all(cause);
             return;
         };
-        while from < end && !self.is_worn_out() {
+        while from < end && !self.is_exhausted() {
             let region = self.region(unit, from..end);
             let aims = region.exits.iter();
             let aims = aims.flat_map(|exit| self.aims(exit, program));
             let lowest = aims.filter_map(|aim| match aim {
-                Aim::Block(target) => Some(target),
-                Aim::Return | Aim::Far | Aim::End => None,
+                JumpTarget::Block(target) => Some(target),
+                JumpTarget::Return | JumpTarget::Far | JumpTarget::End => None,
             });
             match lowest.min() {
                 Some(lowest) if lowest < from => from = lowest,
                 _ => {
-                    let region = self.forget_region(unit, from..end, cause);
+                    let region = self.havoc_region(unit, from..end, cause);
                     self.note_far_exits(&region, cause);
                     return;
                 }
@@ -320,10 +321,10 @@ impl Interpreter {
 }
 
 /// Which way is spoken of.
-fn rank(to: Aim) -> u8 {
+fn rank(to: JumpTarget) -> u8 {
     match to {
-        Aim::Block(_) => 0,
-        Aim::Return | Aim::Far => 1,
-        Aim::End => 2,
+        JumpTarget::Block(_) => 0,
+        JumpTarget::Return | JumpTarget::Far => 1,
+        JumpTarget::End => 2,
     }
 }

@@ -12,7 +12,7 @@ use tempfile::{NamedTempFile, TempPath};
 use super::error::HostError;
 use super::in_use::{check_replaceable, device, patiently, told_of_replacing};
 use super::interrupt::Unfinished;
-use super::ledger::folder;
+use super::registry::folder;
 
 /// How the name of a file that is not whole begins and ends. The letters between are random.
 const PREFIX: &str = ".frictcomp-";
@@ -51,7 +51,7 @@ impl Drop for Held {
 /// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
 /// leaves the old one as it was.
 #[derive(Debug)]
-pub(super) struct UnfinishedFile {
+pub(super) struct AtomicFile {
     stage: Stage,
     target: PathBuf,
 }
@@ -66,7 +66,7 @@ enum Stage {
     Done,
 }
 
-impl UnfinishedFile {
+impl AtomicFile {
     /// Begins a file beside the old one. It keeps the rights of the old one; a link stays a link.
     ///
     /// # Errors
@@ -161,7 +161,7 @@ impl Placed {
     /// It cannot be written; the error names the files that took theirs before (R9.95).
     pub(super) fn take_place(
         &mut self,
-        file: &mut UnfinishedFile,
+        file: &mut AtomicFile,
         path: &Path,
     ) -> Result<(), HostError> {
         if let Err(reason) = file.take_place() {
@@ -179,7 +179,7 @@ impl Placed {
     }
 
     /// Notes a file, under the name that the user gave it.
-    pub(super) fn add(&mut self, file: &UnfinishedFile, path: &Path) {
+    pub(super) fn add(&mut self, file: &AtomicFile, path: &Path) {
         let folder = folder(&file.target).to_owned();
         self.0.entry(folder).or_default().push(path.to_owned());
     }
@@ -217,7 +217,7 @@ fn settle(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-impl Write for UnfinishedFile {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.stage {
             Stage::Open(file) => file.write(bytes),
@@ -233,7 +233,7 @@ impl Write for UnfinishedFile {
     }
 }
 
-impl Drop for UnfinishedFile {
+impl Drop for AtomicFile {
     fn drop(&mut self) {
         let path = match &self.stage {
             Stage::Open(file) => file.path().to_owned(),
@@ -308,7 +308,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
 
 /// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a
 /// run that lives is locked.
-pub(super) fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
+pub(super) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) {
     let folder = folder(&beside.target);
     let Stage::Open(own) = &beside.stage else {
         return;
@@ -368,7 +368,7 @@ mod tests {
     use super::*;
 
     fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let mut file = UnfinishedFile::begin(path)?;
+        let mut file = AtomicFile::begin(path)?;
         file.write_all(bytes)?;
         file.sync()?;
         file.take_place()
@@ -380,7 +380,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("v.lis");
         replace(&path, b"old").unwrap();
-        let mut unfinished = UnfinishedFile::begin(&path).unwrap();
+        let mut unfinished = AtomicFile::begin(&path).unwrap();
         unfinished.write_all(b"hal").unwrap();
         drop(unfinished);
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
@@ -406,15 +406,15 @@ mod tests {
         for name in others.into_iter().chain([left]) {
             std::fs::write(path(name), "").unwrap();
         }
-        let alive = UnfinishedFile::begin(&path("st-2")).unwrap();
-        let mine = UnfinishedFile::begin(&path("st")).unwrap();
+        let alive = AtomicFile::begin(&path("st-2")).unwrap();
+        let mine = AtomicFile::begin(&path("st")).unwrap();
         take_away_left(&mine, &mut BTreeSet::new());
         assert!(!path(left).exists());
         assert!(others.iter().all(|name| path(name).exists()));
         for mut file in [alive, mine] {
             // What waits for others to be whole lives, too.
             file.sync().unwrap();
-            let other = UnfinishedFile::begin(&path("other")).unwrap();
+            let other = AtomicFile::begin(&path("other")).unwrap();
             take_away_left(&other, &mut BTreeSet::new());
             file.take_place().unwrap();
         }
@@ -429,14 +429,14 @@ mod tests {
         let mut rights = std::fs::metadata(&path).unwrap().permissions();
         rights.set_readonly(true);
         std::fs::set_permissions(&path, rights).unwrap();
-        let error = UnfinishedFile::begin(&path).unwrap_err();
+        let error = AtomicFile::begin(&path).unwrap_err();
         assert!(error.to_string().contains("read-only"));
-        assert!(UnfinishedFile::begin(folder.path()).is_err());
+        assert!(AtomicFile::begin(folder.path()).is_err());
         #[cfg(unix)]
         {
             let link = folder.path().join("link");
             std::os::unix::fs::symlink(folder.path().join("no"), &link).unwrap();
-            let error = UnfinishedFile::begin(&link).unwrap_err();
+            let error = AtomicFile::begin(&link).unwrap_err();
             assert!(error.to_string().contains("does not exist"));
         }
     }

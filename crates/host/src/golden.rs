@@ -5,16 +5,16 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::HostError;
-use super::figures::settled;
+use super::figures::diff_with_tolerance;
 use super::input::Input;
-use super::ledger::{Ledger, Replaces, folder};
 use super::open_text::OpenText;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
+use super::registry::{FileRegistry, Replaces, folder};
 
 /// A kind of result that is agreed on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AgreedKind {
+pub struct GoldenKind {
     /// What the name of the program is followed by, `timeline`.
     pub extension: &'static str,
     /// Who writes the files, as it is called in errors.
@@ -25,14 +25,14 @@ pub struct AgreedKind {
 
 /// The results of one kind, in the folders that the user handed over.
 #[derive(Debug, Clone)]
-pub struct AgreedResults {
-    kind: AgreedKind,
+pub struct GoldenResults {
+    kind: GoldenKind,
     trees: Vec<PathBuf>,
 }
 
 /// A program with the file that holds what was agreed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct AgreedFile {
+pub struct GoldenFile {
     /// The program whose result was agreed on.
     pub program: Input,
     /// The file beside it.
@@ -41,7 +41,7 @@ pub struct AgreedFile {
 
 /// A result against the one that was agreed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum AgreedDrift {
+pub enum GoldenDrift {
     /// They are the same.
     AsAgreed,
     /// Nothing has been agreed on yet.
@@ -71,9 +71,9 @@ pub struct UpdatedFolder<'a, E> {
     pub failures: Vec<E>,
 }
 
-impl AgreedResults {
+impl GoldenResults {
     /// The results beside programs, and in folders of programs.
-    pub fn of(kind: AgreedKind, paths: &[PathBuf]) -> Self {
+    pub fn of(kind: GoldenKind, paths: &[PathBuf]) -> Self {
         let tree = |path: &PathBuf| {
             let tree = if path.is_dir() { path } else { folder(path) };
             tree.canonicalize().ok()
@@ -89,14 +89,14 @@ impl AgreedResults {
     ///
     /// # Errors
     /// The program is standard input, which has no file beside it.
-    pub fn beside(&self, program: &Input) -> Result<AgreedFile, HostError> {
+    pub fn beside(&self, program: &Input) -> Result<GoldenFile, HostError> {
         let (Input::File(path) | Input::Open(OpenText { path, .. })) = program else {
             return Err(HostError::NothingBeside(self.kind.extension));
         };
         let mut name = path.as_os_str().to_owned();
         name.push(".");
         name.push(self.kind.extension);
-        Ok(AgreedFile {
+        Ok(GoldenFile {
             program: program.clone(),
             path: name.into(),
         })
@@ -106,16 +106,16 @@ impl AgreedResults {
     ///
     /// # Errors
     /// The file cannot be read, or is a link that leads out of the folders (R9.77).
-    pub fn compare(&self, agreed: &AgreedFile, now: String) -> Result<AgreedDrift, HostError> {
+    pub fn compare(&self, agreed: &GoldenFile, now: String) -> Result<GoldenDrift, HostError> {
         self.stay_inside(&agreed.path)?;
         Ok(match read_agreed(&agreed.path)? {
-            None => AgreedDrift::Missing { now },
+            None => GoldenDrift::Missing { now },
             Some(before) => {
-                let now = settled(&before, now, self.kind.tolerance_um);
+                let now = diff_with_tolerance(&before, now, self.kind.tolerance_um);
                 if before == now {
-                    AgreedDrift::AsAgreed
+                    GoldenDrift::AsAgreed
                 } else {
-                    AgreedDrift::Drifted { before, now }
+                    GoldenDrift::Drifted { before, now }
                 }
             }
         })
@@ -128,16 +128,16 @@ impl AgreedResults {
     /// A file is one that the work reads.
     pub fn update<'a, E: From<HostError>>(
         &'a self,
-        files: &'a [AgreedFile],
-        ledger: &'a Ledger,
+        files: &'a [GoldenFile],
+        registry: &'a FileRegistry,
         mut now: impl FnMut(&Input) -> Result<String, E> + 'a,
     ) -> Result<impl Iterator<Item = UpdatedFolder<'a, E>>, HostError> {
-        let mut all = OutputFiles::new(ledger);
+        let mut all = OutputFiles::new(registry);
         for file in files {
             all.claim(self.kind.writer, &file.path, Replaces::Results);
         }
         all.check()?;
-        let mut folders: BTreeMap<&Path, Vec<&AgreedFile>> = BTreeMap::new();
+        let mut folders: BTreeMap<&Path, Vec<&GoldenFile>> = BTreeMap::new();
         for file in files {
             folders.entry(folder(&file.path)).or_default().push(file);
         }
@@ -167,11 +167,11 @@ impl AgreedResults {
     /// Writes one file where it drifted.
     fn write(
         &self,
-        file: &AgreedFile,
+        file: &GoldenFile,
         now: String,
         outputs: &mut OutputFiles,
     ) -> Result<(), HostError> {
-        let (AgreedDrift::Missing { now } | AgreedDrift::Drifted { now, .. }) =
+        let (GoldenDrift::Missing { now } | GoldenDrift::Drifted { now, .. }) =
             self.compare(file, now)?
         else {
             return Ok(());

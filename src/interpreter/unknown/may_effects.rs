@@ -18,17 +18,17 @@ use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
-use crate::interpreter::run::at::{At, MacroCode, Shown};
+use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::event::Notes;
 use crate::interpreter::run::hash_parts::{declared_name, point_after};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Effect, Exit, Region};
-use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
+use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
@@ -37,7 +37,7 @@ use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number
 use crate::text::Span;
 
 /// A region on its way to be known.
-struct Gathering<'a> {
+struct MayEffects<'a> {
     run: &'a Interpreter,
     region: Region,
     effects: HashSet<Effect>,
@@ -52,7 +52,7 @@ struct Gathering<'a> {
     whole: bool,
 }
 
-impl Gathering<'_> {
+impl MayEffects<'_> {
     fn blocks(&mut self, unit: usize, range: Range<EntryIndex>) {
         let index = self.run.programs.index(unit);
         let file = index.source.name();
@@ -62,7 +62,7 @@ impl Gathering<'_> {
         let mut block = Block::default();
         let mut left = range.len();
         self.place = (unit, range.start);
-        while left > 0 && !self.run.is_worn_out() {
+        while left > 0 && !self.run.is_exhausted() {
             let Some(raw) = reader.next(&mut block) else {
                 return;
             };
@@ -72,7 +72,7 @@ impl Gathering<'_> {
             left -= 1;
             self.run.state.effort.charge(ITEM + raw.text.len());
             let shown = Shown::default();
-            let at = At::of_raw(file, &raw, &block, &shown);
+            let at = BlockContext::of_raw(file, &raw, &block, &shown);
             // Blocks that are skipped change nothing (R2.3).
             if !self.run.is_skipped(&block) {
                 self.block(&at);
@@ -82,7 +82,7 @@ impl Gathering<'_> {
         }
     }
 
-    fn block(&mut self, at: &At<'_>) {
+    fn block(&mut self, at: &BlockContext<'_>) {
         self.run.note_reads(at);
         for word in &at.block.words {
             self.word(word, at);
@@ -94,7 +94,7 @@ impl Gathering<'_> {
 
     /// Looks through the code of macros, each once however often it is used: macros that use each
     /// other would be looked through without end.
-    fn expand(&mut self, at: &At<'_>) {
+    fn expand(&mut self, at: &BlockContext<'_>) {
         while let Some((name, used)) = self.macros.pop() {
             let code = match self.run.state.control.memory.macro_code(&name) {
                 Some(Value::Text(code)) => &**code,
@@ -138,7 +138,7 @@ impl Gathering<'_> {
         }
     }
 
-    fn item(&mut self, item: &Item, at: &At<'_>) {
+    fn item(&mut self, item: &Item, at: &BlockContext<'_>) {
         match item {
             Item::Comp(command) => {
                 let kinds = command.selection.kinds();
@@ -225,7 +225,7 @@ impl Gathering<'_> {
         }
     }
 
-    fn flow(&mut self, flow: &Flow, at: &At<'_>) {
+    fn flow(&mut self, flow: &Flow, at: &BlockContext<'_>) {
         let (unit, entry) = self.place;
         let index = self.run.programs.index(unit);
         match flow {
@@ -251,7 +251,7 @@ impl Gathering<'_> {
         }
     }
 
-    fn call(&mut self, call: &Call, at: &At<'_>) {
+    fn call(&mut self, call: &Call, at: &BlockContext<'_>) {
         let name = match call.name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
@@ -271,7 +271,7 @@ impl Gathering<'_> {
         });
     }
 
-    fn hash(&mut self, hash: &HashCommand, at: &At<'_>) {
+    fn hash(&mut self, hash: &HashCommand, at: &BlockContext<'_>) {
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
             self.effect(Effect::Declaration(name));
@@ -327,14 +327,14 @@ impl Gathering<'_> {
         }
     }
 
-    fn assigns(&mut self, place: Expression, at: &At<'_>) {
+    fn assigns(&mut self, place: Expression, at: &BlockContext<'_>) {
         if let Some(target) = Self::target(place, at) {
             self.writes(target);
         }
     }
 
     /// A deleted variable is unknown, and so are the elements that it may have.
-    fn deletes(&mut self, place: Expression, at: &At<'_>) {
+    fn deletes(&mut self, place: Expression, at: &BlockContext<'_>) {
         let target = Self::target(place, at);
         match &target {
             Some(Target::Variable(name)) => self.writes(Target::Elements(name.clone())),
@@ -349,7 +349,7 @@ impl Gathering<'_> {
     }
 
     /// What an assignment could write. A place that has to be computed may be another one each time.
-    fn target(place: Expression, at: &At<'_>) -> Option<Target> {
+    fn target(place: Expression, at: &BlockContext<'_>) -> Option<Target> {
         let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;
         let operands = at.block.nodes.get(inner).unwrap_or_default();
@@ -393,7 +393,7 @@ impl Gathering<'_> {
         })
     }
 
-    fn word(&mut self, word: &Word, at: &At<'_>) {
+    fn word(&mut self, word: &Word, at: &BlockContext<'_>) {
         let number = match word.value {
             Some(Operand::Number(number)) => rounded(number),
             _ => None,
@@ -469,7 +469,7 @@ impl Gathering<'_> {
         }
     }
 
-    fn axis(&mut self, axis: AxisIndex, at: &At<'_>) {
+    fn axis(&mut self, axis: AxisIndex, at: &BlockContext<'_>) {
         let is_reference = |word: &Word| {
             word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0))
         };
@@ -499,20 +499,20 @@ impl Interpreter {
         if let Some(known) = known.filter(|known| known.macro_version == version) {
             return Arc::clone(known);
         }
-        let mut gathering = self.gathering((unit, range.start));
-        gathering.blocks(unit, range.clone());
-        if gathering.whole
+        let mut may_effects = self.may_effects((unit, range.start));
+        may_effects.blocks(unit, range.clone());
+        if may_effects.whole
             && let Some(section) = self.section_of((unit, range.start))
         {
-            gathering.blocks(unit, section);
+            may_effects.blocks(unit, section);
         }
-        let region = Arc::new(gathering.region);
+        let region = Arc::new(may_effects.region);
         self.regions.insert(key, Arc::clone(&region));
         region
     }
 
-    fn gathering(&self, place: (usize, EntryIndex)) -> Gathering<'_> {
-        Gathering {
+    fn may_effects(&self, place: (usize, EntryIndex)) -> MayEffects<'_> {
+        MayEffects {
             run: self,
             region: Region {
                 macro_version: self.state.control.memory.macro_version(),
@@ -529,27 +529,31 @@ impl Interpreter {
     }
 
     /// What one block could change, which may be of lines that are not kept.
-    pub(in crate::interpreter) fn region_of_block(&self, unit: usize, at: &At<'_>) -> Region {
-        let mut gathering =
-            self.gathering((unit, self.state.control.frames.entry().unwrap_or_default()));
-        gathering.block(at);
-        gathering.expand(at);
-        if gathering.whole
-            && let Some(section) = self.section_of(gathering.place)
+    pub(in crate::interpreter) fn region_of_block(
+        &self,
+        unit: usize,
+        at: &BlockContext<'_>,
+    ) -> Region {
+        let mut may_effects =
+            self.may_effects((unit, self.state.control.frames.entry().unwrap_or_default()));
+        may_effects.block(at);
+        may_effects.expand(at);
+        if may_effects.whole
+            && let Some(section) = self.section_of(may_effects.place)
         {
-            gathering.blocks(unit, section);
+            may_effects.blocks(unit, section);
         }
-        gathering.region
+        may_effects.region
     }
 
     /// What the blocks of a skip level could change in a file.
     pub(in crate::interpreter) fn region_of_level(&self, unit: usize, level: u8) -> Region {
         let skips = &self.programs.index(unit).skips;
-        let mut gathering = self.gathering((unit, 0));
+        let mut may_effects = self.may_effects((unit, 0));
         for (entry, _) in skips.iter().filter(|(_, of)| **of == level) {
-            gathering.blocks(unit, *entry..entry + 1);
+            may_effects.blocks(unit, *entry..entry + 1);
         }
-        gathering.region
+        may_effects.region
     }
 
     /// The blocks of the section that holds one.
@@ -561,7 +565,7 @@ impl Interpreter {
     }
 
     /// Notes the values of the machine that a block would read.
-    fn note_reads(&self, at: &At<'_>) {
+    fn note_reads(&self, at: &BlockContext<'_>) {
         if self.options.notes == Notes::None {
             return;
         }

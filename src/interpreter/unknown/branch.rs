@@ -7,8 +7,8 @@ use crate::comp::AxisIndex;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region};
-use crate::interpreter::run::ways::{Aim, AxisKinds, Departing, WayEnd};
-use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::run::ways::{AxisKinds, Branch, JumpTarget, WayEnd};
+use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 impl Interpreter {
@@ -27,9 +27,9 @@ impl Interpreter {
         for exit in &region.exits {
             let labels = self.aims(exit, place);
             for to in labels {
-                if !matches!(to, Aim::Block(target) if passed.contains(&target)) {
+                if !matches!(to, JumpTarget::Block(target) if passed.contains(&target)) {
                     self.note_leaving(to, *passed.end());
-                    self.departing.push(Departing {
+                    self.departing.push(Branch {
                         to,
                         cause: cause.clone(),
                         here: *passed.end(),
@@ -45,12 +45,12 @@ impl Interpreter {
         self.note_ends(region, cause);
         for exit in &region.exits {
             let to = match exit {
-                Exit::End => Aim::End,
-                Exit::Far => Aim::Far,
+                Exit::End => JumpTarget::End,
+                Exit::Far => JumpTarget::Far,
                 Exit::Label(_) | Exit::AnyLabel | Exit::Block(_) | Exit::Return => continue,
             };
             self.note_leaving(to, 0);
-            self.departing.push(Departing {
+            self.departing.push(Branch {
                 to,
                 cause: cause.clone(),
                 here: 0,
@@ -94,9 +94,9 @@ impl Interpreter {
         // A label that there is not stops the control.
         let mut differs = matches!(exit, Exit::AnyLabel);
         for to in self.aims(exit, frame.program()) {
-            if to != Aim::Block(here) {
+            if to != JumpTarget::Block(here) {
                 differs = differs || self.differs(to, here);
-                self.departing.push(Departing {
+                self.departing.push(Branch {
                     to,
                     cause: cause.clone(),
                     here,
@@ -107,24 +107,25 @@ impl Interpreter {
         differs
     }
 
-    pub(in crate::interpreter) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<Aim> {
+    pub(in crate::interpreter) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<JumpTarget> {
         let ProgramId { unit, section } = program;
         let index = self.programs.index(unit);
         match exit {
             Exit::Label(name) => index
                 .label(section, name.clone())
-                .map(Aim::Block)
+                .map(JumpTarget::Block)
                 .into_iter()
                 .collect(),
             Exit::AnyLabel => {
-                let labels: Vec<Aim> = index.labels(section).map(Aim::Block).collect();
+                let labels: Vec<JumpTarget> =
+                    index.labels(section).map(JumpTarget::Block).collect();
                 self.state.effort.charge(ITEM * labels.len());
                 labels
             }
-            Exit::Block(target) => vec![Aim::Block(*target)],
-            Exit::Return => vec![Aim::Return],
-            Exit::Far => vec![Aim::Far],
-            Exit::End => vec![Aim::End],
+            Exit::Block(target) => vec![JumpTarget::Block(*target)],
+            Exit::Return => vec![JumpTarget::Return],
+            Exit::Far => vec![JumpTarget::Far],
+            Exit::End => vec![JumpTarget::End],
         }
     }
 }

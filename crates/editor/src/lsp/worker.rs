@@ -8,11 +8,11 @@ use std::thread;
 use crossbeam_channel::{Sender, unbounded};
 
 /// A thread that does one piece of work after the other.
-pub(super) struct Lane<J> {
+pub(super) struct Worker<J> {
     jobs: Sender<J>,
 }
 
-impl<J: Send + 'static> Lane<J> {
+impl<J: Send + 'static> Worker<J> {
     /// A lane that ends with its owner.
     ///
     /// # Errors

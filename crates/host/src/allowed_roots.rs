@@ -8,7 +8,7 @@ use frictcomp::text::Place;
 
 /// What becomes of files outside the folders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Elsewhere {
+pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
@@ -18,26 +18,26 @@ pub enum Elsewhere {
 
 /// Folders, each with everything below it.
 #[derive(Debug, Clone, Default)]
-pub struct Grounds {
+pub struct AllowedRoots {
     /// As they are named, from the root on.
     named: Vec<PathBuf>,
     /// With all links resolved.
     real: Vec<PathBuf>,
-    elsewhere: Elsewhere,
+    outside_policy: OutsidePolicy,
     /// Where they lie.
     disk: Disk,
 }
 
-impl Grounds {
+impl AllowedRoots {
     /// No folder yet.
-    pub fn new(elsewhere: Elsewhere) -> Self {
-        Self::on(&Disk::default(), elsewhere)
+    pub fn new(outside_policy: OutsidePolicy) -> Self {
+        Self::on(&Disk::default(), outside_policy)
     }
 
     /// The same on another disk than that of the system.
-    pub fn on(disk: &Disk, elsewhere: Elsewhere) -> Self {
+    pub fn on(disk: &Disk, outside_policy: OutsidePolicy) -> Self {
         Self {
-            elsewhere,
+            outside_policy,
             disk: disk.clone(),
             ..Self::default()
         }
@@ -54,7 +54,7 @@ impl Grounds {
     /// Whether a file may lie here by its name alone. Nothing is looked up for it: a look at a
     /// network share signs in there, and whether a file exists elsewhere is no one's business.
     pub fn may_hold(&self, path: &Path) -> bool {
-        if self.elsewhere == Elsewhere::Allowed {
+        if self.outside_policy == OutsidePolicy::Allowed {
             return true;
         }
         self.disk.absolute(path).is_some_and(|path| {
@@ -67,7 +67,7 @@ impl Grounds {
 
     /// Whether a file lies here once all links are resolved.
     pub fn holds(&self, path: &Path) -> bool {
-        self.elsewhere == Elsewhere::Allowed
+        self.outside_policy == OutsidePolicy::Allowed
             || self
                 .disk
                 .real(path)
@@ -139,7 +139,7 @@ mod tests {
         for name in ["in/a", "in/deep/b", "out"] {
             std::fs::write(path(name), "").unwrap();
         }
-        let grounds = Grounds::new(Elsewhere::Kept).with(&path("in"));
+        let allowed_roots = AllowedRoots::new(OutsidePolicy::Kept).with(&path("in"));
         for (name, inside) in [
             ("in/a", true),
             ("in/deep/b", true),
@@ -148,10 +148,10 @@ mod tests {
             ("in/../out", false),
             ("inside", false),
         ] {
-            assert_eq!(grounds.may_hold(&path(name)), inside, "{name}");
-            assert_eq!(grounds.holds(&path(name)), inside, "{name}");
+            assert_eq!(allowed_roots.may_hold(&path(name)), inside, "{name}");
+            assert_eq!(allowed_roots.holds(&path(name)), inside, "{name}");
         }
-        let any = Grounds::new(Elsewhere::Allowed);
+        let any = AllowedRoots::new(OutsidePolicy::Allowed);
         assert!(any.may_hold(&path("out")) && any.holds(&path("out")));
     }
 
@@ -169,9 +169,9 @@ mod tests {
         .with_help("did you mean `secrets`?")
         .with_label(file.place(Span::new(0, 3)), "one")];
         let before = said[0].place.start();
-        Grounds::new(Elsewhere::Allowed).conceal(&mut said);
+        AllowedRoots::new(OutsidePolicy::Allowed).conceal(&mut said);
         assert!(said[0].message.contains("secret"));
-        Grounds::new(Elsewhere::Kept).conceal(&mut said);
+        AllowedRoots::new(OutsidePolicy::Kept).conceal(&mut said);
         assert_eq!(said[0].place.start().line, before.line);
         assert!(!format!("{said:?}").contains("secret"), "{said:?}");
         assert!(said[0].message.starts_with("unknown key"), "{said:?}");

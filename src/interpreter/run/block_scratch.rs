@@ -30,7 +30,7 @@ pub(in crate::interpreter) struct OwnEnd {
     reason = "facts of one block, of which each is asked by itself"
 )]
 #[derive(Clone)]
-pub(in crate::interpreter) struct Work {
+pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) block: Block,
     pub(in crate::interpreter) outcomes: Vec<Outcome>,
     pub(in crate::interpreter) changes: Vec<Change>,
@@ -90,9 +90,9 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) wrote: bool,
 }
 
-impl Work {
+impl BlockScratch {
     /// What there was to say about the block is said; what is left at program end belongs to no block.
-    pub(in crate::interpreter) fn forget_said(&mut self) {
+    pub(in crate::interpreter) fn clear_said(&mut self) {
         self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
         self.diagnostics.clear();
         self.changes.clear();

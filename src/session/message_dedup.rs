@@ -44,7 +44,7 @@ struct PerFile {
 }
 
 /// What a program said.
-pub(super) struct Said {
+pub(super) struct MessageDedup {
     /// How many messages a file may say.
     most: usize,
     places: HashMap<Key, Vec<Saying>>,
@@ -52,7 +52,7 @@ pub(super) struct Said {
     starts: StartsInOrder,
 }
 
-impl Said {
+impl MessageDedup {
     /// Nothing is said yet, and a file may say so many messages.
     pub(super) fn at_most(most: usize) -> Self {
         Self {

@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 /// Reads a file up to the end that it had, and fails where that is not its end. A program of which
 /// a part is missing, or to which one was added, would leave a state that its whole would not leave.
 #[derive(Debug)]
-pub(super) struct Steady {
+pub(super) struct FixedLengthReader {
     file: File,
     /// The length that it had, where it has one.
     length: Option<u64>,
@@ -14,7 +14,7 @@ pub(super) struct Steady {
     at: u64,
 }
 
-impl Steady {
+impl FixedLengthReader {
     /// An open file with what is known of it. Pipes have no length, and files that the system
     /// makes up while they are read say 0.
     pub(super) fn new(mut file: File, metadata: &Metadata) -> Self {
@@ -28,7 +28,7 @@ impl Steady {
     }
 }
 
-impl Read for Steady {
+impl Read for FixedLengthReader {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let Some(length) = self.length else {
             return self.file.read(buffer);
@@ -46,7 +46,7 @@ impl Read for Steady {
     }
 }
 
-impl Seek for Steady {
+impl Seek for FixedLengthReader {
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
         self.at = self.file.seek(position)?;
         Ok(self.at)
@@ -65,7 +65,7 @@ mod tests {
         let named = tempfile::NamedTempFile::new().unwrap();
         named.as_file().write_all(b"N10 X1.5\n").unwrap();
         let file = named.reopen().unwrap();
-        let mut steady = Steady::new(file, &named.as_file().metadata().unwrap());
+        let mut steady = FixedLengthReader::new(file, &named.as_file().metadata().unwrap());
         named.as_file().write_all(b"M30\n").unwrap();
         let mut read = Vec::new();
         assert!(steady.read_to_end(&mut read).is_err());
@@ -78,7 +78,7 @@ mod tests {
             let named = tempfile::NamedTempFile::new().unwrap();
             named.as_file().write_all(b"N10 X1.5\n").unwrap();
             let file = named.reopen().unwrap();
-            let mut steady = Steady::new(file, &named.as_file().metadata().unwrap());
+            let mut steady = FixedLengthReader::new(file, &named.as_file().metadata().unwrap());
             named.as_file().set_len(length).unwrap();
             for _ in 0..2 {
                 steady.rewind().unwrap();

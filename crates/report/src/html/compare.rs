@@ -6,8 +6,8 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, with_code};
+use crate::compare::{ContoursReport, VersionsReport, sign};
 use crate::contour::places::Block;
-use crate::versions::{ContoursReport, VersionsReport, sign};
 use frictcomp_physics::compare::{Agreement, BlockChange, Paired, Which};
 
 const RESULT: Part = Part::new("result", "Result");

@@ -16,7 +16,7 @@ const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The search: [`ask`](Self::ask) for points, [`tell`](Self::tell) their values.
 #[derive(Debug, Clone)]
-pub(super) struct Evolution {
+pub(super) struct CmaEs {
     mean: Vec<f64>,
     step: f64,
     /// The spread along each variable, squared, in steps.
@@ -27,7 +27,7 @@ pub(super) struct Evolution {
     path_of_spread: Vec<f64>,
     generation: i32,
     asked: Vec<Vec<f64>>,
-    dice: Dice,
+    random: XorShift,
 }
 
 /// What the points of a generation weigh, and how fast everything follows them.
@@ -73,7 +73,7 @@ impl Rates {
     }
 }
 
-impl Evolution {
+impl CmaEs {
     /// A search that begins around a point with a step; `seed` gives other random numbers.
     pub(super) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
         let variables = mean.len();
@@ -85,7 +85,7 @@ impl Evolution {
             path_of_spread: vec![0.0; variables],
             generation: 0,
             asked: Vec::new(),
-            dice: Dice(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03)),
+            random: XorShift(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03)),
         }
     }
 
@@ -95,7 +95,7 @@ impl Evolution {
             .map(|_| {
                 let along = self.mean.iter().zip(&self.spread);
                 along
-                    .map(|(mean, spread)| mean + self.step * spread.sqrt() * self.dice.normal())
+                    .map(|(mean, spread)| mean + self.step * spread.sqrt() * self.random.normal())
                     .collect()
             })
             .collect();
@@ -151,9 +151,9 @@ impl Evolution {
 
 /// Random numbers that are the same each time.
 #[derive(Debug, Clone)]
-struct Dice(u64);
+struct XorShift(u64);
 
-impl Dice {
+impl XorShift {
     /// Evenly from 0 to 1.
     fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
@@ -186,7 +186,7 @@ mod tests {
             let far = terms.map(|(at, it)| real(at + 1) * (it - 0.3).abs());
             far.fold(0.0, f64::max)
         };
-        let mut search = Evolution::new(vec![0.0; 10], 0.2, 0);
+        let mut search = CmaEs::new(vec![0.0; 10], 0.2, 0);
         let mut best = f64::INFINITY;
         for _ in 0..200 {
             let values: Vec<f64> = search.ask().iter().map(value).collect();

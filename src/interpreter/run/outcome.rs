@@ -19,7 +19,7 @@ pub(in crate::interpreter) enum Feed {
 
 /// What a block does after its words.
 #[derive(Default)]
-pub(in crate::interpreter) struct Intent {
+pub(in crate::interpreter) struct BlockOutcome {
     /// M02, M30.
     pub(in crate::interpreter) end: Option<EndedBy>,
     /// M17, M29.
@@ -42,7 +42,7 @@ pub(in crate::interpreter) struct Intent {
     pub(in crate::interpreter) probes: bool,
 }
 
-impl Intent {
+impl BlockOutcome {
     /// Whether nothing in the block itself leads elsewhere than to the next one.
     pub(in crate::interpreter) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()

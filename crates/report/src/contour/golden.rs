@@ -10,7 +10,7 @@ use frictcomp_physics::contour::{
 
 /// What was driven, and from where.
 #[derive(Debug, Clone)]
-pub struct AgreedContour {
+pub struct GoldenContour {
     /// Path of the program.
     pub program: String,
     /// The plant.
@@ -23,7 +23,7 @@ pub struct AgreedContour {
 /// largest deviation, with the glitches of its reversals below. Each figure is followed by `µm`.
 pub fn render_agreed(
     contour: &mut ProgramContour<BlockDeviations>,
-    subject: &AgreedContour,
+    subject: &GoldenContour,
 ) -> String {
     let mut out = String::new();
     let axes = &contour.options().axes;

@@ -14,7 +14,7 @@ use frictcomp::text::shown_path;
 /// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
 /// while others run already.
 #[derive(Debug, Clone, Default)]
-pub struct Ledger(Arc<Mutex<Inputs>>);
+pub struct FileRegistry(Arc<Mutex<Inputs>>);
 
 #[derive(Debug, Default)]
 struct Inputs {
@@ -91,7 +91,7 @@ impl Claim {
     }
 }
 
-impl Ledger {
+impl FileRegistry {
     /// Notes a file that is read, and as what.
     pub fn reads(&self, what: &'static str, path: &Path) {
         let mut inputs = self.inputs();
@@ -264,9 +264,9 @@ mod tests {
     use super::*;
 
     fn refused(inputs: &[&Path], outputs: &[&Path]) -> Option<String> {
-        let ledger = Ledger::default();
+        let registry = FileRegistry::default();
         for path in inputs {
-            ledger.reads(PROGRAM, path);
+            registry.reads(PROGRAM, path);
         }
         let claim = |path: &&Path| Claim {
             name: "-o",
@@ -274,7 +274,7 @@ mod tests {
             replaces: Replaces::default(),
         };
         let outputs: Vec<Claim> = outputs.iter().map(claim).collect();
-        let refused = ledger.check(&outputs, 0).err();
+        let refused = registry.check(&outputs, 0).err();
         refused.map(|error| error.to_string())
     }
 

@@ -12,7 +12,7 @@ pub struct Archive {
     programs: Vec<ProgramAudit>,
 }
 
-/// Which end of the hazards is mended.
+/// The end of a hazard at which it is mended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MendedEnd {
@@ -24,7 +24,7 @@ pub enum MendedEnd {
     Smaller,
 }
 
-/// What the programs do to one kind of compensation of one axis. Programs are named by their
+/// Effect of all programs on one kind of compensation of one axis. Programs are named by their
 /// position in [`Archive::programs`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -99,7 +99,7 @@ impl Archive {
         &self.programs
     }
 
-    /// What they do together, for each axis and kind in the machine's order.
+    /// Returns the effect of all programs together, for each axis and kind in the machine's order.
     pub fn findings(&self) -> Vec<AxisFinding> {
         let first = self.programs.first().map_or(&[][..], |first| &first.axes);
         first

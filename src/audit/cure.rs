@@ -1,10 +1,10 @@
-//! Which end of a hazard is mended.
+//! The end of a hazard at which it is mended.
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-/// Which programs to mend: the end of each hazard that fewer programs have (R10.3).
+/// The programs to mend: the end of each hazard that fewer programs have (R10.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cure {
@@ -39,12 +39,12 @@ impl Serialize for Cure {
     }
 }
 
-/// What is to be mended of a program.
+/// A subject to mend in a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mending {
     /// The position of the axis and kind in [`ProgramAudit::axes`](super::ProgramAudit::axes).
     pub at: usize,
-    /// Which end of the hazards: [`Cure::Leavers`] or [`Cure::Inheritors`].
+    /// End of the hazards to mend: [`Cure::Leavers`] or [`Cure::Inheritors`].
     pub cure: Cure,
 }

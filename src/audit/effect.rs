@@ -1,4 +1,4 @@
-//! What a program does to the state of an axis.
+//! The effect of a program on the state of an axis.
 
 use std::fmt;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub struct Site {
     pub line: u32,
 }
 
-/// What a program makes of a selection (R1.23), whatever the parameterisation (R10.1).
+/// Effect of a program on a selection (R1.23), whatever the parameterisation (R10.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum ProgramEffect {
@@ -31,7 +31,7 @@ pub enum ProgramEffect {
     /// It depends on what only the machine knows, or on what it finds: the ways to each selection are
     /// known (R14.6, R10.10).
     Depends,
-    /// What it leaves is not known offline, nor on what it depends.
+    /// Neither the state at the end nor its conditions are known offline.
     Unknown,
 }
 
@@ -64,10 +64,10 @@ impl Serialize for ProgramEffect {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct FirstMotion {
-    /// Where the words stand that move it.
+    /// Place of the words that move the axis.
     #[serde(flatten)]
     pub site: Site,
-    /// How it moves.
+    /// Kind of motion.
     pub motion: MotionKind,
     /// Whether it may not come to the motion, or may come to it in a state of its own: that is not
     /// known offline. Records name it only then.
@@ -138,7 +138,7 @@ pub struct WhyUnknown {
     pub code: Option<Code>,
     /// The reason in words.
     pub message: String,
-    /// Where it arose.
+    /// Place of its origin.
     #[serde(flatten)]
     pub site: Option<Site>,
 }

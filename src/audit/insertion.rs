@@ -49,7 +49,7 @@ pub(super) fn with_blocks(text: &str, blocks: &[Insertion]) -> String {
     result
 }
 
-/// Where each line begins, and the line with its end.
+/// Returns the offset of each line, and the line with its end.
 fn lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut from = 0;

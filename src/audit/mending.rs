@@ -14,7 +14,7 @@ use super::runs::Runs;
 
 use crate::interpreter::{Interpreter, Observer};
 
-/// How a file is mended.
+/// A mended file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mended {
@@ -22,15 +22,15 @@ pub struct Mended {
     pub insertions: Vec<Insertion>,
     /// The programs that they take out of hazards, by their positions among the [`Affected`] ones.
     pub cured: Vec<usize>,
-    /// What is left to the user of the file as a program of its own.
+    /// Mendings left to the user, seen from the file as a program of its own.
     pub missed: Vec<Missed>,
 }
 
-/// What no block mends.
+/// A mending that no block achieves.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Missed {
-    /// What was to be mended.
+    /// The mending wanted.
     pub mending: Mending,
     /// Why it is left to the user.
     pub why: WhyMissed,
@@ -56,7 +56,7 @@ pub struct Affected<'a> {
     pub name: Arc<str>,
     /// The name under which it calls the file; `None` for the file itself.
     pub calls: Option<Arc<str>>,
-    /// What a block in the file should mend of it.
+    /// Mendings that a block in the file should achieve.
     pub wanted: Vec<Mending>,
 }
 
@@ -226,7 +226,7 @@ impl<R> Trial<'_, R> {
         }))
     }
 
-    /// What speaks against blocks, seen from one program.
+    /// Returns the objection to blocks, seen from one program.
     fn harm(&self, at: usize, after: &Runs) -> Option<WhyMissed> {
         if !self.keeps_motions(at, after) {
             let name = Arc::clone(&self.programs[at].name);

@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 /// Numbers of more digits are not made.
 const MOST: u64 = 999_999_999;
 
-/// Where no two numbers say how far they lie apart.
+/// Distance of block numbers where no two numbers of the program give one.
 const USUAL_STEP: u64 = 10;
 
-/// How a line of a program is numbered.
+/// The block number of a line.
 #[derive(Debug, Clone, Copy)]
 struct Number<'a> {
-    /// What stands before the digits: blanks and `N`.
+    /// Text before the digits: blanks and `N`.
     before: &'a str,
     /// With leading zeros.
     digits: &'a str,

@@ -1,4 +1,4 @@
-//! What one run of a program did to each axis.
+//! The effect of one run of a program on each axis.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::interpreter::{
 };
 use crate::text::Place;
 
-/// What made a selection what it is.
+/// Origin of the present state of a selection.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Deed {
     /// A command that was executed.
@@ -32,7 +32,7 @@ pub(super) struct Moved {
     pub(super) within: Option<u32>,
 }
 
-/// What a run did to one subject.
+/// Effect of a run on one subject.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observed {
     /// The last that changed it or set it anew.
@@ -50,7 +50,7 @@ pub(super) struct Observed {
     standing: Option<Selected>,
 }
 
-/// What one run of a program did.
+/// Effects of one run of a program.
 #[derive(Debug, Clone)]
 pub(super) struct Observation {
     pub(super) observed: Vec<Observed>,
@@ -58,7 +58,7 @@ pub(super) struct Observation {
     pub(super) by: Option<EndedBy>,
     /// The block of the main file that ended it.
     pub(super) end: Option<u32>,
-    /// What stopped it.
+    /// Reason for a stop before the end.
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
     pub(super) left: Vec<Selected>,
@@ -220,7 +220,7 @@ impl Observation {
         }
     }
 
-    /// What the block leaves unknown of an axis.
+    /// Returns the kinds of an axis that a block leaves unknown.
     fn doubts(
         &mut self,
         scope: &Scope,

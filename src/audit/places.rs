@@ -1,4 +1,4 @@
-//! Where a block could stand that ends a hazard.
+//! The places in a program for a block that ends a hazard.
 
 use std::collections::BTreeSet;
 

@@ -18,7 +18,7 @@ use crate::interpreter::{
 };
 use crate::machine::{Machine, Setting};
 
-/// Where a program ends, for a block that has to stand before the end.
+/// The end of a program, before which a mending block stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Ending {
@@ -28,7 +28,7 @@ pub enum Ending {
     Elsewhere,
 }
 
-/// What a program does to one kind of compensation of one axis.
+/// Effect of a program on one kind of compensation of one axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AxisAudit {
@@ -41,7 +41,7 @@ pub struct AxisAudit {
     /// Whether it is selected at the start of the control.
     #[serde(skip)]
     pub on_at_start_up: bool,
-    /// What it makes of the selection.
+    /// Effect on the selection.
     pub effect: ProgramEffect,
     /// The last command that made it so.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,8 +88,8 @@ impl AxisAudit {
         motion.is_some_and(|motion| motion.perhaps)
     }
 
-    /// Where what has to be mended comes from: the command that leaves it away from its start-up state,
-    /// what makes that unknown, or the motion in the state that it finds.
+    /// Origin of the mending: the command that leaves the selection away from its start-up state, the
+    /// block that makes it unknown, or the motion in the inherited state.
     pub fn cause(&self, cure: Cure) -> Option<&Site> {
         let doubt = || self.reason.as_ref().and_then(|reason| reason.site.as_ref());
         match cure {
@@ -118,15 +118,15 @@ impl AxisAudit {
     }
 }
 
-/// What a program does, found by its runs.
+/// Effects of a program, found by its runs.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ProgramAudit {
     /// The file, as the user named it.
     pub file: String,
-    /// What it does to each configured axis and kind, in the order of the machine's axes.
+    /// Effects on each configured axis and kind, in the order of the machine's axes.
     pub axes: Vec<AxisAudit>,
-    /// Where it ends, when it starts with every axis in its start-up state.
+    /// The end of the run that starts with every axis in its start-up state.
     pub ending: Ending,
     /// The files of other programs whose blocks it executes, by their names.
     pub called: BTreeSet<Arc<str>>,
@@ -158,7 +158,7 @@ impl Auditor {
         }
     }
 
-    /// What is looked at.
+    /// Returns the audited axes and kinds.
     pub fn scope(&self) -> &Scope {
         &self.scope
     }
@@ -234,7 +234,7 @@ impl Auditor {
         Ok(observation)
     }
 
-    /// What the runs say of each subject.
+    /// Returns the effect that the runs show, subject by subject.
     pub(super) fn axes(&self, runs: &Runs) -> Vec<AxisAudit> {
         let subjects = self.scope.subjects().iter().enumerate();
         let name = |at: usize| {

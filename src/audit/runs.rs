@@ -1,4 +1,4 @@
-//! What the runs of one program say together (R10.1).
+//! The conclusions from the runs of one program together (R10.1).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::interpreter::EndedBy;
 /// known what it does.
 const MOST_ASKED: usize = 3;
 
-/// Where a run starts.
+/// States and conditions at the beginning of a run.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Start {
     /// Whether the subjects that are not apart start away from the start-up state.
@@ -53,7 +53,7 @@ pub(super) struct Runs {
     pub(super) between: BTreeMap<Start, Observation>,
 }
 
-/// Where the first two runs start.
+/// Beginning of the run from the start-up states.
 static START_UP: Start = Start::new(false);
 static AWAY: Start = Start::new(true);
 

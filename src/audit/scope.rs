@@ -1,4 +1,4 @@
-//! What is looked at on a machine, and the states of it.
+//! The audited axes and kinds of a machine, and their states.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ pub struct AuditedKind {
     pub kind: Kind,
 }
 
-/// What is looked at on a machine: each configured kind of each axis, of which friction compensation
+/// The audited part of a machine: each configured kind of each axis, of which friction compensation
 /// alone counts unless others are asked for.
 #[derive(Debug, Clone)]
 pub struct Scope {

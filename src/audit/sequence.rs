@@ -1,4 +1,4 @@
-//! What happens when programs run in a given order (R10.6).
+//! The effect of programs that run in a given order (R10.6).
 
 use std::ops::ControlFlow;
 
@@ -19,21 +19,21 @@ pub struct Sequence<'a> {
     left_by: Vec<Option<String>>,
 }
 
-/// What one program of the order did.
+/// Effect of one program of the order.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Step {
     /// The file, as the order names it.
     pub file: String,
-    /// What stopped it before its end; the next program starts with what it left.
+    /// Reason for a stop before its end; the next program starts with the states at that stop.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<WhyUnknown>,
-    /// What happened to each axis and kind.
+    /// Effects on each axis and kind.
     #[serde(skip)]
     pub axes: Vec<StepAxis>,
 }
 
-/// What happened to an axis.
+/// Effect on an axis.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct StepAxis {

@@ -8,7 +8,7 @@ use crate::interpreter::{PossibleState, PossibleStates, WayCondition};
 /// Ways that are named.
 const MAX_NAMED: usize = 4;
 
-/// What a run that starts in the start-up state leaves.
+/// States left by a run that begins in the start-up state.
 #[derive(PartialEq)]
 enum Left<'a> {
     StartUp,

@@ -1,4 +1,4 @@
-//! What the compensation has to know of an axis.
+//! The properties of an axis that compensation depends on.
 
 use serde::{Deserialize, Serialize};
 

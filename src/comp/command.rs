@@ -1,11 +1,11 @@
-//! What a COMP command says.
+//! A COMP command as data.
 
 use serde::{Deserialize, Serialize};
 
 use super::kind::KindSet;
 use crate::text::Span;
 
-/// What a COMP bracket selects.
+/// Selection of a COMP bracket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Selection {
@@ -33,7 +33,7 @@ impl Selection {
 pub struct CompCommand {
     /// The axis in front of the bracket.
     pub axis: String,
-    /// What is switched.
+    /// Kinds to switch.
     pub selection: Selection,
     /// Whether the bracket contains `NO_MOVE`, which does not matter to friction compensation (R1.6).
     pub no_move: bool,

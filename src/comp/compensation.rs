@@ -125,7 +125,7 @@ impl Compensation {
         self.axes[axis.get()].state(kind)
     }
 
-    /// How many axes there are.
+    /// Returns the number of axes.
     pub fn len(&self) -> usize {
         self.axes.len()
     }
@@ -197,8 +197,8 @@ impl Compensation {
         Ok(())
     }
 
-    /// What program end does (R1.27, R1.40): friction compensation stays as it is, kinds with
-    /// manual activation fall off. Returns what changed.
+    /// Ends a program (R1.27, R1.40): friction compensation keeps its state, kinds with manual
+    /// activation fall off. Returns the changes.
     pub fn program_end(&mut self) -> Vec<Change> {
         let mut changes = Vec::new();
         for index in 0..self.axes.len() {
@@ -214,7 +214,7 @@ impl Compensation {
         changes
     }
 
-    /// What a reset does: the same as program end (R1.28).
+    /// Resets the control, with the effect of a program end (R1.28).
     pub fn reset(&mut self) -> Vec<Change> {
         self.program_end()
     }

@@ -40,7 +40,7 @@ pub enum CompensationError {
     ReadAsRefused {
         /// The axis of the command.
         axis: String,
-        /// What is refused.
+        /// The refused item.
         what: &'static str,
         /// The rule of the question.
         rule: &'static str,

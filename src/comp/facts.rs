@@ -4,7 +4,7 @@ use super::build::CncBuild;
 use super::kind::Kind;
 use crate::diagnostic::Code;
 
-/// What the control's documents say about a kind (R1.10, R1.36, R1.40, R1.41).
+/// Statements of the control's documents about a kind (R1.10, R1.36, R1.40, R1.41).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Facts {

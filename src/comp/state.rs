@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::axis::AxisIndex;
 use super::kind::Kind;
 
-/// What a user sees of one kind on one axis.
+/// State of one kind on one axis, as a user sees it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

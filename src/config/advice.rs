@@ -1,4 +1,4 @@
-//! What to do about a `frictcomp.toml` that cannot be used.
+//! Advice on a `frictcomp.toml` that cannot be used.
 
 use super::error::ConfigError;
 use crate::diagnostic::Advice;
@@ -34,7 +34,7 @@ fn line_at(text: &str, offset: usize) -> &str {
     text[start..].lines().next().unwrap_or_default()
 }
 
-/// How the value of a key is written, for a key that has one of another form.
+/// Returns an example of a key with a value of the expected form.
 pub fn example(key: &str) -> Option<&'static str> {
     let (_, example) = EXAMPLES.iter().find(|(name, _)| *name == key)?;
     Some(example)

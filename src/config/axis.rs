@@ -9,7 +9,7 @@ use crate::lists::{
     WrittenPoint, is_axis_name,
 };
 
-/// What `[[axis]]` says.
+/// Contents of `[[axis]]`.
 #[derive(Debug, Clone)]
 pub(crate) struct AxisTable {
     /// The name in NC programs.
@@ -20,7 +20,7 @@ pub(crate) struct AxisTable {
     pub(crate) value_list: Option<Given<String>>,
     /// The value list written in the file itself, `[axis.value]`.
     pub(crate) inline_list: Option<FrictionDraft>,
-    /// What an axis list could say, too.
+    /// Values that an axis list may give as well.
     pub(crate) values: AxisValues,
     /// Whether compensation is assumed.
     pub(crate) is_enabled: bool,

@@ -1,4 +1,4 @@
-//! What is wrong with a file of the user.
+//! Errors in a file of the user.
 
 use thiserror::Error;
 

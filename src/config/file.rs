@@ -16,7 +16,7 @@ use crate::lists::{Given, Written};
 use crate::readings::Readings;
 use crate::text::SourceFile;
 
-/// What `frictcomp.toml` says.
+/// Contents of `frictcomp.toml`.
 #[derive(Debug, Clone)]
 pub(crate) struct ConfigFile {
     /// `[machine]`.
@@ -79,7 +79,7 @@ pub(super) const CHECK: Shape = Shape {
 };
 
 impl ConfigFile {
-    /// What the file says by itself; the lists that it names are not read.
+    /// Parses the file itself; the lists that it names are not read.
     pub(crate) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
         let table = DeTable::parse(source.text());
         let table = table.map_err(|error| no_toml(source, &error))?;

@@ -50,7 +50,7 @@ pub struct KeyForm {
     pub key: &'static str,
     /// The form of its value.
     pub form: Form,
-    /// What it says, in a few words.
+    /// Meaning, in a few words.
     pub meaning: &'static str,
 }
 

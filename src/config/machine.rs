@@ -6,7 +6,7 @@ use crate::comp::{CncBuild, NoBuild};
 use crate::lists::Given;
 use crate::syntax::SkipLevels;
 
-/// What `[machine]` says.
+/// Contents of `[machine]`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MachineTable {
     /// The start-up list.

@@ -1,10 +1,10 @@
-//! Where `frictcomp.toml` takes one more axis.
+//! The place in `frictcomp.toml` for one more axis.
 
 use super::section::Section;
 use crate::diagnostic::NamedFix;
 use crate::text::Span;
 
-/// What a change of the file replaces, and with what around the name of the axis.
+/// A replacement in the file, with the text around the name of the axis.
 struct Change {
     span: Span,
     before: String,

@@ -21,7 +21,7 @@ pub(super) const CONFIRMATION: Shape = Shape {
     keys: Some(&["build", "date"]),
 };
 
-/// How the file reads the open questions.
+/// Reads the selected reading of each open question.
 pub(super) fn read(root: &Section<'_>) -> Result<Readings, ConfigError> {
     let mut readings = Readings::default();
     if let Some(section) = root.table("reading", &READING)? {

@@ -11,7 +11,7 @@ use crate::lists::{Given, Number, Written};
 use crate::syntax::SkipLevels;
 use crate::text::{SourceFile, Span};
 
-/// What a table is called and which keys it may have.
+/// Name and permitted keys of a table.
 pub struct Shape {
     /// As the user writes it.
     pub name: &'static str,
@@ -176,7 +176,7 @@ impl<'a> Section<'a> {
         Ok(Some(self.place(value, on)))
     }
 
-    /// What stands where a number may stand; `None` without the key or for a value of another
+    /// Returns the number at a key as it is written; `None` without the key or for a value of another
     /// type.
     pub fn number(&self, key: &str) -> Option<Given<Written>> {
         let value = self.table.get(key)?;
@@ -352,7 +352,7 @@ fn shortened(text: &str) -> String {
     }
 }
 
-/// Where the last thing in a value ends. The span of a table is that of its header.
+/// Returns the end of the last item in a value. The span of a table is that of its header.
 fn end(value: &Spanned<DeValue<'_>>) -> usize {
     let own = value.span().end;
     let ends = match value.get_ref() {

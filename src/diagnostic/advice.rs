@@ -1,4 +1,4 @@
-//! What to do about a diagnostic, as data.
+//! Advice on a diagnostic, as data.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -84,7 +84,7 @@ pub enum Advice {
     ReadPage(Code),
 }
 
-/// How a host words advice; `None` where the general words will do.
+/// Wording of advice by a host; `None` selects the general words.
 pub type Wording = fn(&Advice) -> Option<String>;
 
 impl Advice {

@@ -34,7 +34,7 @@ macro_rules! codes {
                 match self { $(Self::$name => Severity::$severity,)+ }
             }
 
-            /// What it is about, in a few words.
+            /// Returns the subject in a few words.
             pub fn title(self) -> &'static str {
                 match self { $(Self::$name => $title,)+ }
             }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::codes::Code;
 use super::message::Diagnostic;
 
-/// How many messages about one file are said; further ones are counted (R2.85).
+/// Number of messages listed for one file; further ones are counted (R2.85).
 pub const MAX_MESSAGES: usize = 10_000;
 
 /// Messages that are collected before they are said: as many as are said, the rest counted by code.
@@ -14,7 +14,7 @@ pub const MAX_MESSAGES: usize = 10_000;
 pub struct Collected {
     /// The messages.
     pub said: Vec<Diagnostic>,
-    /// How many more there were.
+    /// Number of further messages by code.
     pub unsaid: BTreeMap<Code, u64>,
 }
 

@@ -1,11 +1,11 @@
-//! Which codes count (R9.72).
+//! Selection of the codes that count (R9.72).
 
 use super::codes::Code;
 use super::levels::Levels;
 use super::message::Diagnostic;
 use super::severity::Severity;
 
-/// Which codes count, and how much. What the control itself reports always does.
+/// Selection of the codes that count, with their severity. Errors of the control always count.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CodeFilter {

@@ -33,9 +33,9 @@ impl Safety {
 /// are alternatives: each alone does what is advised.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Fix<P = Place> {
-    /// What is replaced; text is inserted at an empty place.
+    /// Text to replace; an empty place inserts.
     pub place: P,
-    /// What stands there afterwards, lines separated by `\n`.
+    /// Replacement, with lines separated by `\n`.
     pub text: String,
     /// Whether it may be applied without a look at it.
     pub safety: Safety,
@@ -95,9 +95,9 @@ impl Serialize for Fix {
 /// A fix whose text holds a name that is known only where something is said.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct NamedFix {
-    /// What is replaced; text is inserted at an empty place.
+    /// Text to replace; an empty place inserts.
     pub place: Place,
-    /// What stands there afterwards, up to the name.
+    /// Replacement up to the name.
     pub before: String,
     /// The rest, after the name.
     pub after: String,
@@ -117,8 +117,7 @@ impl NamedFix {
 pub struct Fixed {
     /// The text that takes the place of what stands there.
     pub text: String,
-    /// How many fixes were applied; the others overlap an earlier one, or their place is not in the
-    /// text.
+    /// Number of fixes applied; the others overlap an earlier one, or their place is outside the text.
     pub applied: usize,
 }
 
@@ -137,9 +136,9 @@ impl Fixed {
 /// A change of one text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced.
+    /// Text to replace.
     pub span: Span,
-    /// What stands there afterwards, with the line ends of the text.
+    /// Replacement, with the line ends of the text.
     pub text: String,
 }
 
@@ -184,7 +183,7 @@ pub fn edited(text: &str, edits: &[Edit]) -> String {
     result
 }
 
-/// How the first line of a text ends.
+/// Returns the line end of the first line.
 fn line_end(text: &str) -> &'static str {
     match text.find(['\r', '\n']).map(|at| &text[at..]) {
         Some(end) if end.starts_with("\r\n") => "\r\n",

@@ -6,7 +6,7 @@ use super::codes::Code;
 use super::message::Diagnostic;
 use super::severity::Severity;
 
-/// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
+/// Severities of the user's `[lint]` table for codes of frictcomp (R9.28).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Levels {
     levels: BTreeMap<Code, Option<Severity>>,

@@ -17,7 +17,7 @@ use crate::text::{Place, Span};
 pub struct Label {
     /// Where.
     pub place: Place,
-    /// What is there, in a few words.
+    /// Text at the label, in a few words.
     pub text: String,
 }
 
@@ -31,11 +31,11 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// One sentence in lower case.
     pub message: String,
-    /// What is meant.
+    /// Place of the cause.
     pub place: Place,
     /// The axis that it is about.
     pub axis: Option<String>,
-    /// What to do.
+    /// Advice to the user.
     pub advice: Vec<Advice>,
     /// Changes to the text, each of which alone does what is advised.
     pub fixes: Vec<Fix>,
@@ -137,7 +137,7 @@ impl Diagnostic {
         }
     }
 
-    /// What to do, in words.
+    /// Returns the advice in words.
     pub fn help(&self) -> Vec<String> {
         self.advice.iter().map(Advice::to_string).collect()
     }

@@ -1,10 +1,10 @@
-//! How much a diagnostic weighs.
+//! The weight of a diagnostic.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How much a diagnostic weighs.
+/// Weight of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

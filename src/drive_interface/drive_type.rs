@@ -29,7 +29,7 @@ pub enum DriveType {
     CanBus,
 }
 
-/// What a drive type is called.
+/// Names of a drive type.
 struct Names {
     drive_type: DriveType,
     number: i64,
@@ -94,7 +94,7 @@ impl DriveType {
         Some(row.drive_type)
     }
 
-    /// What people call it.
+    /// Returns the common name.
     pub fn as_str(self) -> &'static str {
         let row = NAMES.iter().find(|row| row.drive_type == self);
         row.map_or("", |row| row.name)

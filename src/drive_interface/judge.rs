@@ -19,7 +19,7 @@ const MOST_SERCOS: f64 = 1000.0;
 /// The largest torque that 16 bits hold, in 0.1 %.
 const MOST_16_BITS: f64 = 32767.0;
 
-/// Which device of the network drives an axis.
+/// The device of the network that drives an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SlaveOfAxis {
@@ -27,11 +27,11 @@ pub struct SlaveOfAxis {
     pub axis: String,
     /// The name of the device.
     pub slave: String,
-    /// Which axis of the device it is, from 1; needed where it drives several.
+    /// Number of the axis on the device, from 1; required where the device drives several.
     pub channel: Option<u8>,
 }
 
-/// What is known besides the axis list.
+/// Sources besides the axis list.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct Evidence {
@@ -39,11 +39,11 @@ pub struct Evidence {
     pub network: Option<Network>,
     /// The devices that an ESI file describes.
     pub devices: Vec<Device>,
-    /// Which device drives which axis, where the user said so.
+    /// Devices of axes, as named by the user.
     pub slaves: Vec<SlaveOfAxis>,
 }
 
-/// What is known about a torque value of an axis.
+/// Evidence on a torque value of an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(tag = "state", rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -67,7 +67,7 @@ pub enum Presence {
     NotApplicable,
 }
 
-/// What is known about the torque interface of an axis.
+/// Evidence on the torque interface of an axis.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct DriveReport {
@@ -88,15 +88,15 @@ pub struct DriveReport {
     /// The largest torque that the value list sends, scaled, in 0.1 % of the rated one; absent
     /// without a value list.
     pub largest_torque: Option<f64>,
-    /// What is wrong for sure.
+    /// Definite faults.
     #[serde(skip)]
     pub diagnostics: Vec<Diagnostic>,
-    /// What is not known and must be, FC504.
+    /// Required facts that are not known, FC504.
     #[serde(skip)]
     pub open: Vec<Diagnostic>,
 }
 
-/// What one source says about a value.
+/// Statement of one source about a value.
 enum Says {
     Nothing,
     Present(Place),
@@ -105,7 +105,7 @@ enum Says {
     Undecided(String, Place),
 }
 
-/// What the lists say about an axis and its drive.
+/// Statements of the lists about an axis and its drive.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ListedDrive<'a> {
@@ -311,7 +311,7 @@ impl Judge<'_> {
         self.diagnostics.push(said);
     }
 
-    /// Which process data object could be selected (R7.4).
+    /// Returns the process data object that could be selected (R7.4).
     fn selectable(&self, signal: Signal) -> Option<String> {
         let slave = self.slave();
         let may_be = |device: &&Device| {
@@ -376,7 +376,7 @@ impl Judge<'_> {
     }
 }
 
-/// What the device says that the user named.
+/// Returns the statement of the device that the user named.
 fn assigned(network: &Network, slave: &Slave, channel: Option<u8>, signal: Signal) -> Says {
     let place = network.place(&slave.path, slave.line);
     let channels: Vec<u8> = match channel {
@@ -410,7 +410,7 @@ fn assigned(network: &Network, slave: &Slave, channel: Option<u8>, signal: Signa
     }
 }
 
-/// What all drives of the network say that the axis may have, whichever it is.
+/// Returns the statement on which all candidate drives of the network agree.
 fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> Says {
     let may_be = |slave: &&Slave| protocol.is_none_or(|protocol| slave.protocol == protocol);
     let mut drives = network.drives().filter(may_be);

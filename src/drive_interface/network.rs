@@ -1,4 +1,4 @@
-//! What network and device descriptions say about the torque values of their drives (R7.3, R7.4).
+//! Torque values in network and device descriptions (R7.3, R7.4).
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub struct NetworkObject {
     pub channel: u8,
     /// The index of the process data object that holds it.
     pub pdo: u16,
-    /// What that object is called.
+    /// Name of that object.
     pub pdo_name: String,
     /// The path of the element in the file.
     pub path: String,
@@ -23,7 +23,7 @@ pub struct NetworkObject {
     pub line: u32,
 }
 
-/// How a device exchanges parameters, and so which numbers its process data go by.
+/// Protocol of a device, which decides the numbers of its process data.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Protocol {
@@ -38,15 +38,15 @@ pub enum Protocol {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Slave {
-    /// What the engineer calls it.
+    /// Name given by the engineer.
     pub name: String,
     /// The number of the vendor.
     pub vendor: Option<u32>,
     /// The number of the product.
     pub product: Option<u32>,
-    /// How it exchanges parameters.
+    /// Protocol for parameters.
     pub protocol: Protocol,
-    /// How many axes it drives; 0 where it is no drive.
+    /// Number of axes it drives; 0 for a device that is not a drive.
     pub axes: u8,
     /// Whether the file says which process data objects it exchanges.
     pub assigns: bool,

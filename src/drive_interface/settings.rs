@@ -1,4 +1,4 @@
-//! What an axis list says about its drive (R7.1, R7.2, R7.6, R7.8).
+//! Statements of an axis list about its drive (R7.1, R7.2, R7.6, R7.8).
 
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ impl TorqueScale {
     }
 }
 
-/// What a telegram of the axis list says about a value.
+/// Statement of a telegram of the axis list about a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Telegram {
     /// It has no entry in this direction; TwinCAT fills it by itself (R7.5).
@@ -52,12 +52,12 @@ pub(super) enum Telegram {
     HoldsCommand(Place),
 }
 
-/// What an axis list says about its drive.
+/// Statements of an axis list about its drive.
 #[derive(Debug, Clone, Default)]
 pub struct DriveSettings {
     /// P-AXIS-00020; `None` where no list gives it, or none that is known.
     pub drive_type: Option<Given<DriveType>>,
-    /// Where P-AXIS-00790 switches the drive to simulation.
+    /// Place where P-AXIS-00790 switches the drive to simulation.
     pub simulated: Option<Place>,
     /// P-AXIS-00325 and P-AXIS-00326.
     pub scale: TorqueScale,
@@ -119,7 +119,7 @@ impl DriveSettings {
         settings
     }
 
-    /// What the telegrams of the list say about a value.
+    /// Returns the statement of the list's telegrams about a value.
     pub(super) fn telegram(&self, signal: Signal) -> Telegram {
         let entries = || self.telegram.iter().filter(|entry| entry.signal == signal);
         if let Some(entry) = entries().find(|entry| entry.holds) {
@@ -134,7 +134,7 @@ impl DriveSettings {
         }
     }
 
-    /// What the control says about the torque parameters when it takes the list (R7.8).
+    /// Checks the torque parameters as the control does when it loads the list (R7.8).
     pub(super) fn check(&self, diagnostics: &mut Vec<Diagnostic>) {
         if let (0, Some(place)) = (self.scale.denominator, &self.denominator) {
             let message = "the denominator of the torque scaling is 0: the control warns and sends \

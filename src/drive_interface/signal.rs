@@ -30,7 +30,7 @@ impl Signal {
     /// Both values.
     pub const ALL: [Self; 2] = [Self::AdditiveTorque, Self::ActualTorque];
 
-    /// What it is called in messages.
+    /// Returns the name used in messages.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::AdditiveTorque => "additive torque command",
@@ -64,7 +64,7 @@ impl Signal {
         idn & IDN_OF_MANUFACTURER == 0 && idn & IDN_NUMBER == self.idn()
     }
 
-    /// What `nc_ref` calls it besides its number (P-AXIS-00131, R7.2).
+    /// Returns the names in `nc_ref` besides the number (P-AXIS-00131, R7.2).
     fn words(self) -> &'static [&'static str] {
         match self {
             Self::AdditiveTorque => &[],

@@ -1,4 +1,4 @@
-//! Which lints look at what.
+//! Assignment of lints to commands, motions and ends.
 
 use super::linter::{LeftAway, Linter, Taken};
 use super::memory;

@@ -1,4 +1,4 @@
-//! What outlives a program: which block made each state other than the start-up state (R1.52, R9.32).
+//! Memory beyond a program: the block that made each state other than the start-up state (R1.52, R9.32).
 
 use serde::{Deserialize, Serialize};
 
@@ -54,7 +54,7 @@ struct Away {
     told: Told,
 }
 
-/// What the programs of a session left, and the state at the start of the control.
+/// States left by the programs of a session, and the states at the start of the control.
 #[derive(Debug, Clone)]
 pub(crate) struct History {
     start_up: Compensation,

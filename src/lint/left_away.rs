@@ -73,7 +73,7 @@ fn has_other_ends(ended: &Ended<'_>) -> bool {
     ended.ends.iter().any(|end| end.cause.is_some())
 }
 
-/// What is left, and how.
+/// A kind of an axis that is left away, with its cause.
 struct Subject<'a> {
     linter: &'a Linter<'a>,
     axis: AxisIndex,
@@ -81,7 +81,7 @@ struct Subject<'a> {
     end: State,
     /// The states that are possible, where ways differ.
     possible: Option<&'a PossibleStates>,
-    /// What ends the program.
+    /// The word that ends the program.
     ending: &'a str,
     ended: &'a Ended<'a>,
 }
@@ -104,7 +104,7 @@ impl Subject<'_> {
             ))
     }
 
-    /// What depends on a value that only the machine knows may be left away as well.
+    /// Says that a value that only the machine knows may leave a selection away as well.
     fn may_be_left(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let start_up = self.linter.history.start_up(self.axis, self.kind);

@@ -1,4 +1,4 @@
-//! What the lints know and say.
+//! State and messages of the lints.
 
 use super::history::{History, Told};
 use super::memory::{Jump, Memory};
@@ -14,11 +14,11 @@ use crate::text::Place;
 pub struct EndNote {
     /// The executed block that it is about.
     pub seq: u64,
-    /// What there is to say.
+    /// The message.
     pub diagnostic: Diagnostic,
 }
 
-/// That a program leaves a kind of an axis away from its start-up state.
+/// A kind of an axis that a program leaves away from its start-up state.
 pub(crate) struct LeftAway {
     pub(crate) axis: AxisIndex,
     pub(crate) kind: Kind,
@@ -33,7 +33,7 @@ pub(super) struct Taken<'a> {
     pub(super) executed: &'a Executed<'a>,
 }
 
-/// What the lints know while a program runs.
+/// Memory of the lints while a program runs.
 pub(crate) struct Linter<'m> {
     pub(super) machine: &'m Machine,
     pub(super) history: &'m mut History,
@@ -42,7 +42,7 @@ pub(crate) struct Linter<'m> {
     pub(super) memory: Memory,
     /// The file of the program.
     pub(super) file: String,
-    /// Where its first block begins.
+    /// Place of the first block.
     pub(super) begin: Option<Place>,
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
@@ -94,7 +94,7 @@ impl<'m> Linter<'m> {
             && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
     }
 
-    /// What became of a note that [`end`](Self::end) gave.
+    /// Records the outcome of a note of [`end`](Self::end).
     pub(crate) fn settle(&mut self, left: &LeftAway, told: Told) {
         self.history.set_told(left.axis, left.kind, told);
     }

@@ -1,4 +1,4 @@
-//! What the lints remember of the program that runs: its commands and its first motions.
+//! Memory of the running program: its commands and its first motions.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
     }
 }
 
-/// What a block did to a kind.
+/// Effect of a block on a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Deed {
     /// A command switched it on.
@@ -66,12 +66,12 @@ impl From<Selection> for Deed {
     }
 }
 
-/// What the program did to one kind of one axis.
+/// Effects of the program on one kind of one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KindMemory {
     /// Whether a command of the program was about it.
     pub(super) is_commanded: bool,
-    /// What was done to it last; one site for all kinds of a command.
+    /// The last effect; one site for all kinds of a command.
     pub(super) last: Option<(Deed, Arc<Site>)>,
     /// The first block that moved the axis for sure, homing apart, while it was as the program found
     /// it, or may have been.
@@ -99,7 +99,7 @@ pub(super) struct Jump {
     pub(super) place: Place,
 }
 
-/// What the program did to one axis.
+/// Effects of the program on one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
@@ -112,8 +112,8 @@ pub(super) struct AxisMemory {
     settled: Settled,
 }
 
-/// What is settled about the first motion of an axis: on some ways of the program it may be another
-/// one (R14.5).
+/// Settled questions about the first motion of an axis: on some ways of the program it may be
+/// another one (R14.5).
 #[derive(Debug, Clone, Copy, Default)]
 struct Settled {
     /// Of its motions in any way.
@@ -150,7 +150,7 @@ fn is_of_a_kind(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
 
-/// What the program did.
+/// Effects of the program.
 #[derive(Debug, Clone)]
 pub(super) struct Memory {
     axes: Vec<AxisMemory>,
@@ -251,7 +251,7 @@ impl Memory {
         is_new
     }
 
-    /// What there is to say about the first motion of an axis was said.
+    /// Marks the message about the first motion of an axis as said.
     pub(super) fn settle(&mut self, axis: AxisIndex) {
         self.axes[axis.get()].settled.any = true;
     }

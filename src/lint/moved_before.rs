@@ -72,7 +72,7 @@ pub(super) fn lint(
     Some(diagnostic)
 }
 
-/// How the axis is moved, where its own motion word does not say it.
+/// Returns the kind of motion in words, for motion without a motion word of the axis.
 fn way(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Homing => " towards its reference point",

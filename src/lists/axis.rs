@@ -1,5 +1,4 @@
-//! What an axis list says about compensation (R3.10), and the few keys of that kind that stand in
-//! value lists (R3.11).
+//! Compensation in an axis list (R3.10), and the few keys of that kind in value lists (R3.11).
 
 use std::collections::BTreeMap;
 
@@ -50,7 +49,7 @@ pub(crate) fn is_axis_name(name: &str) -> bool {
         && name.len() <= 16
 }
 
-/// How a name of an axis is written.
+/// Help on the form of an axis name.
 pub(crate) const AXIS_NAME_HELP: &str =
     "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 

@@ -35,7 +35,7 @@ impl FeedUnit {
     }
 }
 
-/// What holds for the motion of a channel.
+/// Effective settings for the motion of a channel.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSettings {
@@ -200,7 +200,7 @@ impl ChannelDraft {
         self.spindle_name = other.spindle_name.or(self.spindle_name.take());
     }
 
-    /// What holds; `spindles` are the names of the spindles with their axis numbers.
+    /// Returns the effective settings; `spindles` are the names of the spindles with their axis numbers.
     pub(super) fn settings<'a>(
         &self,
         spindles: impl Iterator<Item = (&'a str, Option<u32>)>,

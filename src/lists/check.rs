@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 /// After so many statements the rest of a broken table is not looked at.
 const MAX_DIAGNOSTICS: usize = 50;
 
-/// What the checks need to know besides the list.
+/// Facts that the checks depend on besides the list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
     /// The kernel version, where it is known.
@@ -32,7 +32,7 @@ impl Default for Conditions {
     }
 }
 
-/// What the control makes of a list.
+/// The control's reaction to a list.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Verdict {
@@ -49,13 +49,13 @@ pub enum Verdict {
 /// A checked friction value list.
 #[derive(Debug, Clone)]
 pub struct FrictionReading {
-    /// What the control makes of it.
+    /// The control's reaction.
     pub verdict: Verdict,
     /// The table size that is reserved, P-COMP-00062.
     pub max_points: u32,
     /// Every parameter with its value and where that came from.
     pub parameters: Vec<Parameter>,
-    /// What the checks found.
+    /// Messages of the checks.
     pub diagnostics: Vec<Diagnostic>,
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::value::{Given, Number, Written};
 use crate::text::{Place, SourceFile, Span};
 
-/// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
+/// Quotes around a value that holds `(`; printed samples have the slanted ones (TF5200 Channel
 /// parameters, comments in the ASCII list file).
 const QUOTES: [char; 4] = ['"', '\u{201c}', '\u{201d}', '\u{2033}'];
 
@@ -19,11 +19,11 @@ pub struct Entry {
     pub pattern: String,
     /// The indices from left to right.
     pub indices: Vec<u32>,
-    /// Where the key stands.
+    /// Span of the key.
     pub key_span: Span,
     /// Everything after the key, without blanks at either end.
     pub value_span: Span,
-    /// Where the value stands that holds: there, or where a reference leads (R3.40).
+    /// Span of the effective value: the entry's own, or the target of a reference (R3.40).
     pub(super) meant: Span,
     pub(super) source: Arc<SourceFile>,
 }
@@ -49,7 +49,7 @@ impl Entry {
         self.key_span.of(self.source.text())
     }
 
-    /// Where the key stands.
+    /// Returns the place of the key.
     pub fn key_place(&self) -> Place {
         self.source.place(self.key_span)
     }

@@ -236,7 +236,7 @@ impl FrictionDraft {
         self.scalars.is_empty() && self.table.is_empty()
     }
 
-    /// What is written for a parameter.
+    /// Returns the value as written for a parameter.
     pub fn get(&self, field: Field) -> Option<&Given<Written>> {
         self.scalars.get(&field)
     }
@@ -315,10 +315,10 @@ fn floored(field: Field, written: &Written) -> bool {
     matches!(written.number, Some(Number::Integer(value)) if field.floors(value))
 }
 
-/// What the keys of friction compensation begin with.
+/// Prefix of the keys of friction compensation.
 pub(super) const STRUCTURE: &str = "frict_comp.";
 
-/// What stands after `frict_comp` in a key of that structure, in whatever case it is written.
+/// Returns the rest of a key after `frict_comp`, in any case.
 fn after_structure(pattern: &str) -> Option<&str> {
     let name = STRUCTURE.trim_end_matches('.');
     let (head, rest) = pattern.split_at_checked(name.len())?;

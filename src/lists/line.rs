@@ -19,7 +19,7 @@ const MAX_ODD: usize = 20;
 pub struct Entries {
     /// The entries in the order of their lines; of a key given twice only the last.
     pub entries: Vec<Entry>,
-    /// What the lines themselves give reason to say: FC120, FC121, FC124.
+    /// Messages on the lines themselves: FC120, FC121, FC124.
     pub diagnostics: Vec<Diagnostic>,
     /// The entries whose value is a reference that leads nowhere (R3.40).
     pub(super) unresolved: Vec<Entry>,
@@ -128,7 +128,7 @@ impl Entries {
     }
 }
 
-/// What a line is.
+/// Kind of a line.
 enum Line {
     /// Nothing, or a comment.
     Blank,

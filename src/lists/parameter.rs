@@ -1,4 +1,4 @@
-//! What a parameter is worth in the end, and where that came from.
+//! The effective value of a parameter and its origin.
 
 use std::str::FromStr;
 
@@ -53,7 +53,7 @@ impl FromStr for AxisType {
     }
 }
 
-/// Where the value of a parameter came from.
+/// Origin of the value of a parameter.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Origin {
@@ -90,6 +90,6 @@ pub struct Parameter {
     pub value: String,
     /// Its unit for the axis' type, empty for plain numbers.
     pub unit: &'static str,
-    /// Where the value came from.
+    /// Origin of the value.
     pub origin: Origin,
 }

@@ -12,7 +12,7 @@ const SLOW_TABLE: f64 = 1000.0;
 /// A smaller scaling factor leaves less than a tenth of the outputs.
 const SMALL_SCALING: i64 = 100;
 
-/// What is hardly meant in a list with these points.
+/// Returns remarks on points that are hardly intended.
 pub(super) fn doubts(
     draft: &FrictionDraft,
     points: &[TablePoint],

@@ -7,7 +7,7 @@ use super::line::Entries;
 use super::parameter::Parameter;
 use super::value::Given;
 
-/// What runs a program of the channel list.
+/// Event that starts a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Role {

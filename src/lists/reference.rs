@@ -86,7 +86,7 @@ pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic
     unresolved
 }
 
-/// Where the value stands that an entry refers to; `None` when it refers to none.
+/// Returns the span of the value that an entry refers to; `None` for an entry that refers to none.
 fn follow(entries: &[Entry], first: usize) -> Result<Option<Span>, (&'static str, Vec<usize>)> {
     let mut passed = vec![first];
     loop {

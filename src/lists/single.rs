@@ -17,7 +17,7 @@ use crate::text::SourceFile;
 pub struct ReadList {
     /// The values.
     pub list: FrictionList,
-    /// What there is to say about them.
+    /// Messages on the values.
     pub diagnostics: Vec<Diagnostic>,
 }
 

@@ -103,7 +103,7 @@ impl ListKind {
             || matches!(Self::detect(list), None | Some(Self::Head))
     }
 
-    /// What it is called, with its article: `a start-up list`.
+    /// Returns the name with its article: `a start-up list`.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Startup => "a start-up list",
@@ -243,7 +243,7 @@ pub struct ChannelList {
     count: Option<u32>,
     /// The programs and macros that it names.
     pub programs: ChannelPrograms,
-    /// What it says about motion.
+    /// Settings of motion.
     pub motion: ChannelDraft,
 }
 
@@ -309,7 +309,7 @@ impl ChannelList {
         axes.filter(|axis| axis.is_there())
     }
 
-    /// What holds for motion.
+    /// Returns the effective settings of motion.
     pub fn settings(&self) -> ChannelSettings {
         let spindles = self.spindles().filter_map(|spindle| {
             let name = spindle.name.as_ref()?;

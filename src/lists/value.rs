@@ -69,7 +69,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// What stands where a number is expected.
+/// A value in the place of a number.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Written {
@@ -80,7 +80,7 @@ pub struct Written {
 }
 
 impl Written {
-    /// What a word says as a number.
+    /// Reads a word as a number.
     pub fn new(text: &str) -> Self {
         Self {
             text: text.to_owned(),
@@ -113,12 +113,12 @@ impl<T> Given<T> {
         Given::new(value, &self.source, self.span)
     }
 
-    /// Where the value stands.
+    /// Returns the place of the value.
     pub fn place(&self) -> Place {
         self.source.place(self.span)
     }
 
-    /// What stands there, in the text of its file.
+    /// Returns the span of the value in its file.
     pub(crate) fn span(&self) -> Span {
         self.span
     }

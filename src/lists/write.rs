@@ -7,7 +7,7 @@ use super::table::{FrictionList, TablePoint};
 use crate::comp::CncBuild;
 use crate::text::is_hidden;
 
-/// How the points of the table are written.
+/// Form of the points in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Points {
@@ -21,8 +21,8 @@ pub enum Points {
 const DECIMALS: f64 = 1000.0;
 
 impl Points {
-    /// What a build reads (P-COMP-00046, P-COMP-00047): whole numbers unless it is known to read
-    /// real ones.
+    /// Returns the form that a build reads (P-COMP-00046, P-COMP-00047): whole numbers, unless the build
+    /// is known to read real ones.
     pub fn of_build(build: Option<CncBuild>) -> Self {
         match build {
             Some(build) if build.reads_real_points() => Self::Real,
@@ -60,7 +60,7 @@ impl Points {
     }
 }
 
-/// What stands above the values of a list.
+/// Comment above the values of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListHead<'a> {
     /// Remarks of a line each.

@@ -37,7 +37,8 @@ pub struct AxisReport {
 }
 
 impl AxisReport {
-    /// What the lists say about the drive of the axis, with the value list that the control accepts.
+    /// Returns the statements of the lists about the drive of the axis, with the
+    /// value list that the control accepts.
     pub fn listed_drive<'a>(&'a self, friction: Option<&'a FrictionList>) -> ListedDrive<'a> {
         ListedDrive {
             axis: &self.axis,
@@ -48,7 +49,7 @@ impl AxisReport {
     }
 }
 
-/// What `frictcomp.toml` says about the dynamics of an axis, in its units.
+/// Dynamics of an axis in `frictcomp.toml`, in its units.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Dynamics {
     pub(super) velocity: Option<f64>,
@@ -60,7 +61,7 @@ pub(super) struct Dynamics {
 #[derive(Debug, Clone)]
 pub(super) struct AxisDraft {
     pub(super) name: String,
-    /// What the axis lists say, then `frictcomp.toml`.
+    /// Values of the axis lists, then those of `frictcomp.toml`.
     pub(super) values: AxisValues,
     /// The number that the axis lists give, before `frictcomp.toml` overrides it.
     number_in_list: Option<Given<u32>>,

@@ -44,7 +44,7 @@ pub struct Axis {
     /// The kinds that the axis list of the control is known not to select (R1.41); none where no
     /// such list describes the axis.
     pub unselected: KindSet,
-    /// Where P-AXIS-00522 came from.
+    /// Origin of P-AXIS-00522.
     pub frict_comp_origin: Origin,
     /// The change of the list of the axis that sets P-AXIS-00522, where it has one and it is not set.
     pub configuring: Option<Fix>,
@@ -57,7 +57,7 @@ pub struct Axis {
     pub friction: Parameterisation,
     /// The table size that was reserved at start-up, P-COMP-00062.
     pub max_points: u32,
-    /// Where that size stands, or else the value list; `None` without a value list.
+    /// Place of that size, or else of the value list; `None` without a value list.
     pub max_points_place: Option<Place>,
     /// The maximum velocity in mm/min or °/min, where known.
     pub max_velocity_per_min: Option<f64>,

@@ -19,13 +19,13 @@ use crate::lists::{
 };
 use crate::text::{SourceFile, Span};
 
-/// What there is to say about a list.
+/// Messages on a list.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ListsReport {
     /// The kind of the list, by its keys; `None` when they belong to no kind that is read.
     pub kind: Option<ListKind>,
-    /// What the checks found, with their own severities.
+    /// Messages of the checks, with their own severities.
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters of each axis that the list describes.
     pub reports: Vec<AxisReport>,
@@ -35,7 +35,7 @@ pub struct ListsReport {
     pub accepted: Vec<AcceptedList>,
     /// The lists that were read, in the order of reading.
     pub files: Vec<Arc<str>>,
-    /// How many lists are named and are not there.
+    /// Number of named lists that do not exist.
     pub missing: usize,
 }
 

@@ -26,11 +26,11 @@ pub struct Configuration {
     pub extensions: Vec<String>,
     /// The folders in which called programs are looked for, as written.
     pub program_dirs: Vec<String>,
-    /// What the lists give reason to say.
+    /// Messages on the lists.
     pub diagnostics: Vec<Diagnostic>,
     /// The lists that were read, as they are named in diagnostics, in the order of reading.
     pub files: Vec<Arc<str>>,
-    /// How many lists are named and are not there.
+    /// Number of named lists that do not exist.
     pub missing: usize,
     /// The effective parameters of each axis, in the order of [`Machine::axes`], then those of the
     /// slaves of static gantries.

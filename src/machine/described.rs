@@ -1,8 +1,8 @@
-//! What a file is that is named instead of a list.
+//! Recognition of a file that is named in place of a list.
 
 use crate::lists::{Entries, Entry, ListKind};
 
-/// What a file is, with its article: `a value list`, `a program`.
+/// Returns the kind of a file with its article: `a value list`, `a program`.
 pub(super) fn describe(entries: &Entries) -> &'static str {
     if let Some(kind) = ListKind::detect(entries) {
         return kind.noun();

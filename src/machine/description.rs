@@ -9,7 +9,7 @@ use crate::lists::{ChannelSettings, Origin};
 use crate::readings::{Question, Readings};
 use crate::syntax::SkipLevels;
 
-/// Where the axes of a machine come from.
+/// Origin of the axes of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum AxisSet {
@@ -43,15 +43,15 @@ pub struct Machine {
     pub programs: ConfiguredPrograms,
     /// Commands of the user's own machine that change nothing that frictcomp follows.
     pub harmless: HarmlessWords,
-    /// What a program start does to P parameters.
+    /// Effect of a program start on P parameters.
     pub parameters: Parameters,
     /// The skip levels that are on, where the configuration says so (R2.90).
     pub skip: Option<SkipLevels>,
     /// The variables of the machine that keep their values while a program runs (R14.1).
     pub stable: Vec<String>,
-    /// What the channel list says about motion.
+    /// Settings of motion from the channel list.
     pub channel: ChannelSettings,
-    /// How the open questions are read.
+    /// Selected readings of the open questions.
     pub readings: Readings,
 }
 
@@ -64,7 +64,7 @@ pub struct GantrySlave {
     pub master: Option<String>,
 }
 
-/// What a program start does to P parameters (R2.33).
+/// Effect of a program start on P parameters (R2.33).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Parameters {

@@ -119,7 +119,7 @@ fn setting((name, value): (String, Variable)) -> (String, Setting) {
 }
 
 impl AxisDraft {
-    /// What the user says about the axis, over what the lists say.
+    /// Lets the values of the user's table replace those of the lists.
     fn take_table(&mut self, table: AxisTable, loader: &mut Loader<'_>) {
         let list = table.axis_list.as_ref();
         if let Some(values) = list.and_then(|asked| loader.axis_list(asked)) {

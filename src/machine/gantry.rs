@@ -32,7 +32,7 @@ fn named(slave: &Axis) -> String {
     }
 }
 
-/// What differs, if the friction of either is compensated.
+/// Returns the difference between two axes, if the friction of either is compensated.
 fn difference(master: &Axis, slave: &Axis) -> Option<String> {
     let is_on = |axis: &Axis| axis.configured.contains(Kind::Frict);
     match (is_on(master), is_on(slave)) {
@@ -43,7 +43,7 @@ fn difference(master: &Axis, slave: &Axis) -> Option<String> {
     }
 }
 
-/// What differs between the value lists of two configured axes.
+/// Returns the difference between the value lists of two configured axes.
 fn values(master: &Parameterisation, slave: &Parameterisation) -> Option<String> {
     use Parameterisation::Accepted;
     match (master, slave) {

@@ -23,13 +23,13 @@ pub(super) struct Loader<'f> {
     pub(super) startup_folder: Option<String>,
     pub(super) diagnostics: Vec<Diagnostic>,
     pub(super) names: Vec<Arc<str>>,
-    /// How many lists were asked for and are not there.
+    /// Number of requested lists that do not exist.
     pub(super) missing: usize,
-    /// Where they were looked for.
+    /// Paths at which they were looked for.
     lookups: Missing,
     /// The slaves of static gantries, which no channel knows (R1.43).
     pub(super) slaves: Vec<AxisDraft>,
-    /// What the list of the first channel says.
+    /// Contents of the first channel's list.
     pub(super) channel: Option<FirstChannel>,
 }
 

@@ -23,7 +23,7 @@ struct Lacking {
     folder: String,
     /// The last part of its path.
     name: String,
-    /// Which message says so.
+    /// Index of the message about it.
     message: usize,
 }
 

@@ -1,15 +1,15 @@
-//! What is known about a machine before anybody has described it (R9.73).
+//! Knowledge of a machine that is not described (R9.73).
 
 use std::collections::BTreeMap;
 
 use crate::syntax::{AxisUse, axis_uses};
 
-/// What is known about a machine before anybody has described it.
+/// Knowledge of a machine that is not described.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outline {
     /// The path of its start-up list, as a configuration would write it.
     Startup(String),
-    /// What its programs do with axes.
+    /// Use of axes by its programs.
     Programs(BTreeMap<String, AxisUse>),
 }
 

@@ -10,7 +10,7 @@ pub struct ConfiguredPrograms {
     pub start: Option<String>,
     /// Runs before M02 or M30 of every main program, P-CHAN-00252.
     pub end: Option<String>,
-    /// What a word calls: `G80`, `M6`, `T`.
+    /// Words and the programs that they call: `G80`, `M6`, `T`.
     pub words: Vec<(String, String)>,
     /// The macros of the channel list: name and code.
     pub macros: Vec<(String, String)>,
@@ -26,7 +26,7 @@ pub struct ConfiguredPrograms {
     pub keep_parameters: Vec<String>,
 }
 
-/// What a program that only the machine has leaves as it is.
+/// The part of the state that a program which only the machine has leaves unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Keeps {
     /// The compensation of all axes.
@@ -80,7 +80,7 @@ impl ConfiguredPrograms {
         any_matches(&self.external, name)
     }
 
-    /// What a program that only the machine has leaves as it is.
+    /// Returns the part of the state that a program which only the machine has leaves unchanged.
     pub fn keeps(&self, name: &str) -> Keeps {
         Keeps {
             compensation: any_matches(&self.keep_compensation, name),

@@ -1,4 +1,4 @@
-//! Which of the two readings of a question.
+//! The two readings of a question.
 
 /// One of the two readings of a question, in the order of [`QuestionFacts::readings`](super::QuestionFacts::readings).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,9 +1,9 @@
-//! What is known about each question: the one table.
+//! Facts about each question: the one table.
 
 use super::alternative::Alternative::{self, First};
 use Way::{Note, Program, Recording};
 
-/// How a control is asked (R15.1).
+/// Way to put a question to a control (R15.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Way {
     /// By an NC program that leaves its answer in a file of the control.
@@ -25,7 +25,7 @@ impl Way {
     }
 }
 
-/// What is known about a question. The texts name words of programs in backquotes.
+/// Facts about a question. The texts name words of programs in backquotes.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct QuestionFacts {
@@ -35,17 +35,17 @@ pub struct QuestionFacts {
     pub question: &'static str,
     /// The names of the two readings.
     pub readings: [&'static str; 2],
-    /// What each of them means.
+    /// Meaning of each reading.
     pub meanings: [&'static str; 2],
     /// The one that is assumed; `None` where neither is, and what differs is unknown.
     pub assumed: Option<Alternative>,
     /// Why that one.
     pub why: &'static str,
-    /// What depends on it.
+    /// Results that depend on the answer.
     pub depends: &'static str,
-    /// How it is asked.
+    /// Way to put the question.
     pub way: Way,
-    /// What answers it: the command, the channel, or what to write down.
+    /// Source of the answer: the command, the channel, or the operator's note.
     pub how: &'static str,
 }
 

@@ -74,7 +74,7 @@ impl Question {
         Self::Below,
     ];
 
-    /// What is known about it.
+    /// Returns the facts about the question.
     pub fn facts(self) -> &'static QuestionFacts {
         &FACTS[self as usize]
     }

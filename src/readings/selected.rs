@@ -6,7 +6,7 @@ use super::alternative::Alternative;
 use super::question::Question;
 use crate::comp::CncBuild;
 
-/// Where somebody saw the answer of a control (R15.2).
+/// Build and date of an answer of a control (R15.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Confirmation {
@@ -16,10 +16,10 @@ pub struct Confirmation {
     pub date: String,
 }
 
-/// What a reading rests on (R15.3).
+/// Basis of a reading (R15.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis<'a> {
-    /// Nobody asked.
+    /// No control was asked.
     Assumed,
     /// The configuration selects it, without an answer of this build.
     Selected,
@@ -27,7 +27,7 @@ pub enum Basis<'a> {
     Confirmed(&'a Confirmation),
 }
 
-/// How a machine reads the open questions.
+/// Readings of the open questions on a machine.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Readings {
     selected: BTreeMap<Question, Alternative>,
@@ -62,13 +62,13 @@ impl Readings {
             .map_or("unknown", |reading| question.name_of(reading))
     }
 
-    /// Where the answer was seen, on whatever build.
+    /// Returns the confirmation of an answer, on any build.
     pub fn confirmation(&self, question: Question) -> Option<&Confirmation> {
         self.confirmed.get(&question)
     }
 
-    /// What the reading in force rests on, on a machine of this build. An answer holds for the build
-    /// that gave it only (R15.2).
+    /// Returns the basis of the reading in force on a machine of this build. An answer holds only for
+    /// the build that gave it (R15.2).
     pub fn basis(&self, question: Question, build: Option<CncBuild>) -> Basis<'_> {
         let confirmed = self.confirmed.get(&question);
         match confirmed.filter(|it| Some(it.build) == build) {

@@ -7,7 +7,7 @@ use super::findings::Findings;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::Span;
 
-/// What makes two messages one cause (R17.3). The message names the kind of compensation.
+/// Key by which two messages have one cause (R17.3). The message names the kind of compensation.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 struct Cause {
     file: Arc<str>,

@@ -8,7 +8,7 @@ use crate::timeline::{FeedMoves, PositionFrame};
 struct Watched {
     axis: AxisIndex,
     state: State,
-    /// Where it stood after the last block, in the coordinates of the machine.
+    /// Position after the last block, in machine coordinates.
     stood: Option<f64>,
 }
 

@@ -8,17 +8,16 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::Position;
 use crate::timeline::{Record, Repeat, Sink};
 
-/// What makes two diagnostics the same.
+/// Key by which two diagnostics are the same.
 type Key = (Arc<str>, Position, Position, Code, String);
 
-/// What a dry run has to say about a program: a sink that keeps each diagnostic once, however often a
-/// loop brings it up.
+/// Diagnostics of a dry run: a sink that keeps each one once, however often a loop repeats it.
 #[derive(Debug, Clone, Default)]
 pub struct Findings {
     diagnostics: BTreeMap<Key, Diagnostic>,
     /// The main program that runs.
     program: Option<Arc<str>>,
-    /// How many came, by severity.
+    /// Number of diagnostics by severity.
     said: BTreeMap<Severity, u64>,
 }
 

@@ -34,18 +34,18 @@ struct Saying {
     message: String,
 }
 
-/// What one file said.
+/// Messages of one file.
 #[derive(Default)]
 struct PerFile {
     said: usize,
-    /// How many messages were not said, and where the first of them belongs.
+    /// Number of messages left out, and the place of the first of them.
     more: u64,
     place: Option<Place>,
 }
 
-/// What a program said.
+/// Messages of a program so far.
 pub(super) struct MessageDedup {
-    /// How many messages a file may say.
+    /// Limit of messages of a file.
     most: usize,
     places: HashMap<Key, Vec<Saying>>,
     files: HashMap<Arc<str>, PerFile>,
@@ -121,7 +121,7 @@ impl MessageDedup {
         false
     }
 
-    /// What applied more often than it was said, in the order of the places.
+    /// Returns the messages that applied more often than they were said, in the order of their places.
     pub(super) fn repeats(&self) -> Vec<Repeat> {
         let mut repeated = Vec::new();
         for ((code, file, start), sayings) in &self.places {

@@ -40,22 +40,22 @@ use message_dedup::MessageDedup;
 use recorder::{NoteBook, Recorder, Tally};
 use saved::{fingerprint, storable};
 
-/// How a session runs.
+/// Options of a session.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SessionOptions {
-    /// How its programs run.
+    /// Options of its programs.
     pub run: Options,
     /// The user's severities.
     pub levels: Levels,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
-    /// Where axes stand before the first program, by their names, in mm or degrees.
+    /// Positions of axes before the first program, by their names, in mm or degrees.
     pub start: Vec<(String, f64)>,
     /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
     /// no machine is described (R1.37).
     pub switched: Vec<String>,
-    /// How advice is worded; `None` for the general words.
+    /// Wording of advice; `None` for the general words.
     pub wording: Option<Wording>,
 }
 
@@ -289,7 +289,7 @@ impl Session {
             .map(|((_, name, ..), place)| (name.as_str(), place))
     }
 
-    /// How often something came up that [`Self::notes`] does not have, because there are too many.
+    /// Returns the number of occurrences that [`Self::notes`] leaves out because there are too many.
     pub fn notes_left_out(&self) -> u64 {
         self.notes.more
     }
@@ -384,7 +384,7 @@ impl Session {
         self.stopped
     }
 
-    /// How many diagnostics were said at each severity.
+    /// Returns the number of diagnostics by severity.
     pub fn counts(&self) -> &BTreeMap<Severity, u64> {
         &self.tally.counts
     }
@@ -425,7 +425,7 @@ impl Session {
         }))
     }
 
-    /// What the next session starts with.
+    /// Returns the state in which the next session begins.
     pub fn save(&self) -> SavedState {
         let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
         let mut carried = self.interpreter.carried();

@@ -22,21 +22,21 @@ use crate::timeline::{
 use super::feed_moves::FeedMoveCounter;
 use super::message_dedup::{MessageDedup, Verdict};
 
-/// How many blocks the summary of an axis names.
+/// Number of blocks that the summary of an axis names.
 const MAX_NAMED: usize = 100;
 
-/// How many notes are kept.
+/// Number of notes kept.
 pub(super) const MAX_NOTES: usize = 20_000;
 
 /// Notes by kind, name and place, each once.
 #[derive(Default)]
 pub(super) struct NoteBook {
     pub(super) notes: BTreeMap<(NoteKind, String, Arc<str>, Position), Place>,
-    /// How often something came up that is not among them.
+    /// Number of occurrences that are not kept.
     pub(super) more: u64,
 }
 
-/// What the summary says.
+/// Totals of a session for the summary record.
 pub(super) struct Tally {
     pub(super) blocks: u64,
     pub(super) counts: BTreeMap<Severity, u64>,
@@ -61,8 +61,8 @@ impl Tally {
     }
 }
 
-/// How many comments are kept, to say of each whether it was of use. Further ones allow what they
-/// say in their block, and that is all.
+/// Number of comments kept for the report on unused ones. Further ones take effect in their block
+/// only.
 const MAX_ALLOWS: usize = 20_000;
 
 /// A code that a comment allows, and whether that was of use.
@@ -86,10 +86,10 @@ pub(super) struct Recorder<'a> {
     pub(super) said: Vec<Diagnostic>,
     /// FC326, until it is said in front of everything else.
     pub(super) foreign: Option<Diagnostic>,
-    /// What was said so far.
+    /// Messages so far.
     pub(super) before: MessageDedup,
     pub(super) allows: HashMap<(Arc<str>, u32, Code), Allow>,
-    /// What the comments of the block allow.
+    /// Codes allowed by the comments of the block.
     pub(super) here: Vec<Code>,
     pub(super) broken: bool,
     /// Whether a configured kind of an axis is unknown at the moment.

@@ -55,7 +55,7 @@ pub struct SafeFixes {
 
 #[derive(Debug, Clone, Default)]
 struct FileFixes {
-    /// How many runs saw the file.
+    /// Number of runs that executed the file.
     runs: usize,
     /// Each change, for which code, and how many runs propose it.
     proposed: HashMap<Fix, (Code, usize)>,

@@ -1,5 +1,5 @@
-//! What outlives the programs of a session: axis states and who made them, variables, value lists
-//! (R9.30, R9.32).
+//! State that outlives the programs of a session: axis states and their makers, variables, value
+//! lists (R9.30, R9.32).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub enum StateError {
     /// It belongs to another machine.
     #[error("the state belongs to another machine: {difference}")]
     OtherMachine {
-        /// What differs.
+        /// The difference.
         difference: String,
     },
     /// It contradicts itself.
@@ -40,7 +40,7 @@ pub enum StateError {
     },
 }
 
-/// What outlives the programs of a session (R9.30).
+/// State that outlives the programs of a session (R9.30).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -83,7 +83,7 @@ pub struct SavedState {
     pub lost_parameters: Option<Arc<str>>,
 }
 
-/// What outlives the programs of a session on one axis.
+/// State of one axis that outlives the programs of a session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -232,7 +232,7 @@ fn fingerprint_of(axis: &Axis, configured: KindSet) -> String {
     )
 }
 
-/// What differs between the machines; the order of the axes does not count.
+/// Returns the difference between the machines; the order of the axes does not count.
 fn difference(saved: &[String], here: &[String]) -> Option<String> {
     if saved.len() != here.len() {
         return Some(format!(

@@ -1,4 +1,4 @@
-//! What stands above everything that depends on a machine that is not described (R1.37).
+//! The remark above every result that depends on a machine that is not described (R1.37).
 
 use crate::diagnostic::Advice;
 use crate::machine::Machine;

@@ -41,7 +41,7 @@ const BIDIRECTIONAL: [(char, &str); 12] = [
     ('\u{2069}', "POP DIRECTIONAL ISOLATE"),
 ];
 
-/// Where a text holds characters that change its direction, and a sentence that names them (R9.94).
+/// Finds characters that change the direction of a text, with a sentence that names them (R9.94).
 pub fn changed_direction(text: &str) -> Option<(Span, String)> {
     if text.is_ascii() {
         return None;

@@ -1,4 +1,4 @@
-//! Where the lines of a text begin.
+//! The beginnings of the lines of a text.
 
 use super::span::Span;
 
@@ -11,7 +11,7 @@ pub struct Utf16Position {
     pub column: u32,
 }
 
-/// Where the lines of a text begin.
+/// Beginnings of the lines of a text.
 #[derive(Debug, Clone)]
 pub struct LineIndex {
     starts: Vec<u32>,
@@ -93,7 +93,7 @@ impl LineIndex {
         self.first
     }
 
-    /// How many lines the text has; a text without any line end has one.
+    /// Returns the number of lines; a text without a line end has one.
     pub fn lines(&self) -> usize {
         self.starts.len()
     }

@@ -1,6 +1,6 @@
 //! Physical lines, one after another.
 
-/// What some editors write at the start of a text; it is no part of it.
+/// Byte order mark that some editors write at the start of a text; not part of the text.
 pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// A line of text without its line end.
@@ -10,12 +10,11 @@ pub struct PhysicalLine<'a> {
     pub text: &'a str,
     /// Whether characters were left out because the line is longer than any block may be.
     pub cut: bool,
-    /// Where the line begins, in bytes from the start of the text; 0 for a stream, to which nobody
-    /// goes back.
+    /// Offset of the line in bytes from the start of the text; 0 for a stream, which is not reread.
     pub offset: usize,
 }
 
-/// How many bytes the line end takes that a text begins with: LF, CRLF, CR, or none at the end.
+/// Returns the length in bytes of the line end at the start of a text: LF, CRLF, CR, or none at its end.
 pub fn line_end(text: &[u8]) -> usize {
     match text {
         [b'\r', b'\n', ..] => 2,

@@ -56,8 +56,8 @@ impl Place {
     }
 }
 
-/// Where places begin that come one after another: what was counted is not counted again while
-/// they show the same lines.
+/// Starts of places in ascending order: lines counted once are not counted again while places show
+/// the same lines.
 #[derive(Debug, Default)]
 pub(crate) struct StartsInOrder {
     last: Option<(Place, Position)>,

@@ -1,4 +1,4 @@
-//! How paths are written.
+//! Paths as they are shown.
 
 use std::path::Path;
 

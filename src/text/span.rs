@@ -61,7 +61,7 @@ pub struct Position {
 }
 
 impl Position {
-    /// Where a text ends that begins here.
+    /// Returns the position after a text that begins here.
     pub(super) fn after(self, text: &str) -> Self {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         // Many messages are about one long block.

@@ -1,4 +1,4 @@
-//! What a session costs: feed moves without friction compensation (R13.12).
+//! Feed moves without friction compensation in a session (R13.12).
 
 use serde::Serialize;
 

@@ -27,7 +27,7 @@ pub struct StateView<'a> {
     pub machine: &'a Machine,
     /// The state of all kinds on all axes.
     pub compensation: &'a Compensation,
-    /// What of it is unknown because ways differ, with the states that are possible.
+    /// Kinds that are unknown because ways differ, with their possible states.
     pub possible: &'a [PossibleStates],
     /// The axes that are listed, by position: all of a configured machine; of an unconfigured one
     /// those that occurred so far.
@@ -83,18 +83,18 @@ pub struct Row<'a> {
     pub level: Option<u32>,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
-    /// What the block changed, of every kind, in the order of the commands.
+    /// Changes by the block, of every kind, in the order of the commands.
     pub changes: &'a [Change],
     /// The state after the block.
     pub state: StateView<'a>,
     /// G functions and positions after the block.
     pub modal: &'a Modal,
-    /// What the block makes the machine do, where the session takes motions.
+    /// Motion of the block, where the session takes motions.
     pub motion: Option<&'a Motion>,
     /// The answers of the machine that lead to the block, where it is executed on some ways only: a
     /// list of ways, each a list of conditions that hold together.
     pub branch: Option<&'a [Vec<WayCondition>]>,
-    /// What there is to say about the block; written right after it.
+    /// Messages on the block, written right after it.
     pub diagnostics: &'a [Diagnostic],
 }
 
@@ -106,13 +106,13 @@ impl Row<'_> {
     }
 }
 
-/// Where ways that differ in an answer of the machine go on as one (R14.2).
+/// A block before which ways that differ in an answer of the machine join (R14.2).
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Join<'a> {
     /// The program of the session, from 1.
     pub program: u32,
-    /// How many blocks of the program were executed before it.
+    /// Number of blocks of the program executed before it.
     pub seq: u64,
     /// The file that holds the block at which they meet.
     pub file: &'a str,
@@ -122,7 +122,7 @@ pub struct Join<'a> {
     pub state: StateView<'a>,
 }
 
-/// How often a remark applied that was made only once.
+/// Number of repetitions of a remark that was made once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Repeat {
@@ -134,7 +134,7 @@ pub struct Repeat {
     pub line: u32,
     /// The number of executed blocks to which it applied.
     pub times: u64,
-    /// Where the remark points.
+    /// Position of the remark.
     pub start: Position,
     /// Its message.
     pub message: String,
@@ -146,21 +146,21 @@ pub struct Repeat {
 pub struct End<'a> {
     /// The program of the session, from 1.
     pub program: u32,
-    /// How many blocks were executed.
+    /// Number of executed blocks.
     pub seq: u64,
     /// Why it ended.
     pub by: EndedBy,
-    /// What can only be said now (FC401, FC403, …); written before the end record.
+    /// Notes at the end (FC401, FC403, …), written before the end record.
     pub notes: &'a [EndNote],
     /// Remarks that were made once for a place although they applied more often.
     pub repeated: &'a [Repeat],
-    /// What program end itself changed (kinds with manual activation).
+    /// Changes by the program end itself (kinds with manual activation).
     pub changes: &'a [Change],
     /// The state that the next program starts with.
     pub state: StateView<'a>,
 }
 
-/// What the text summary says about one axis.
+/// Line of the text summary on one axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisSummary {
@@ -179,7 +179,7 @@ pub struct AxisSummary {
     pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.
     pub changed_by: Vec<ChangedBy>,
-    /// How many executed blocks changed it.
+    /// Number of executed blocks that changed it.
     pub changes: u64,
     /// The feed moves of the axis while it was not active.
     pub feed_moves: FeedMoves,
@@ -201,7 +201,7 @@ pub struct ChangedBy {
     pub to: State,
 }
 
-/// What the states of a session rest on.
+/// Basis of the states of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Footing {
     /// Nothing but the programs and the machine.
@@ -214,24 +214,24 @@ pub enum Footing {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Summary<'a> {
-    /// How many programs were started.
+    /// Number of programs started.
     pub programs: u32,
-    /// How many blocks were executed.
+    /// Number of executed blocks.
     pub blocks: u64,
-    /// How many diagnostics were said, by severity.
+    /// Number of diagnostics by severity.
     pub counts: BTreeMap<Severity, u64>,
-    /// What was accepted and passed over: word → how often.
+    /// Words accepted and passed over, with their number.
     pub opaque: &'a BTreeMap<String, u64>,
-    /// What happened to each listed axis.
+    /// Summary of each listed axis.
     pub axes: Vec<AxisSummary>,
-    /// What the states rest on.
+    /// Basis of the states.
     pub footing: Footing,
     /// The state that is left.
     pub state: StateView<'a>,
 }
 
 impl Summary<'_> {
-    /// How many diagnostics of a severity were said.
+    /// Returns the number of diagnostics of a severity.
     pub fn count(&self, severity: Severity) -> u64 {
         self.counts.get(&severity).copied().unwrap_or_default()
     }
@@ -250,7 +250,7 @@ pub enum Record<'a> {
     Session {
         /// The state that the first program starts with.
         state: StateView<'a>,
-        /// What stands above everything else: that no machine is described (R1.37).
+        /// Remark above everything else: no machine is described (R1.37).
         remark: Option<&'a str>,
     },
     /// A statement about the machine's lists; the programs have not begun.
@@ -309,7 +309,7 @@ pub struct DiagnosticRecord<'a> {
 }
 
 impl<'a> DiagnosticRecord<'a> {
-    /// What is said about the machine's lists.
+    /// Returns the record of a message on the machine's lists.
     pub fn of_machine(diagnostic: &'a Diagnostic) -> Self {
         Self {
             block: None,

@@ -128,9 +128,9 @@ impl Archive {
         }
     }
 
-    /// What is to be mended of each program, by its position, so that no hazard is left. A program
-    /// that may leave an axis away from its start-up state, depending on a value of the machine, is a leaver here;
-    /// one that an error or a budget stops has to be mended by hand first.
+    /// Returns the mendings of each program, by its position, that leave no hazard. A program that
+    /// may leave an axis away from its start-up state, depending on a value of the machine, is a
+    /// leaver here; one that an error or a budget stops has to be mended by hand first.
     pub fn to_mend(&self, end: MendedEnd) -> BTreeMap<usize, Vec<Mending>> {
         let mut wanted: BTreeMap<usize, Vec<Mending>> = BTreeMap::new();
         for finding in self.findings() {

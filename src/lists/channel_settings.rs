@@ -1,5 +1,5 @@
-//! What a channel list says about motion: the unit of F, what holds at the start of a program, and
-//! the main spindle (TF5200 Channel parameters, `prog_start.*` and `spindel[].*`).
+//! Motion in a channel list: the unit of F, the state at the start of a program, and the main
+//! spindle (TF5200 Channel parameters, `prog_start.*` and `spindel[].*`).
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! What an axis list says about the dynamics of an axis (R11.20; TF5200 Axis parameters,
-//! `getriebe[i].dynamik`, `.slope_profil`, `.lslope_profil`). Programs begin in gear step 0.
+//! Dynamics in an axis list (R11.20; TF5200 Axis parameters, `getriebe[i].dynamik`,
+//! `.slope_profil`, `.lslope_profil`). Programs begin in gear step 0.
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,6 @@
-//! What a value list says about friction compensation: the `frict_comp` structure (chapter 3.3).
+//! Friction compensation in a value list: the `frict_comp` structure (chapter 3.3).
 //!
-//! This file gathers what is written, `check` says what the control makes of it.
+//! This file gathers what is written, `check` decides on the control's reaction.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;

@@ -32,7 +32,8 @@ impl Findings {
         self.diagnostics.into_values()
     }
 
-    /// How many more of each severity a session counted: a file says so many and no more (R2.85).
+    /// Returns the number of messages of each severity that a session counted beyond the limit of a
+    /// file (R2.85).
     pub fn unsaid(&self, counts: &BTreeMap<Severity, u64>) -> BTreeMap<Severity, u64> {
         let unsaid = |(severity, count): (&Severity, &u64)| {
             let said = self.said.get(severity).copied().unwrap_or_default();

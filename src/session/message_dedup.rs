@@ -1,5 +1,5 @@
-//! What a program said so far: a message in a loop is said once a place, with how often it came
-//! true, and no file is allowed to say without end (R2.85).
+//! Messages of a program so far: a message in a loop is said once a place, with the number of its
+//! repetitions, and the messages of a file are limited (R2.85).
 
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};

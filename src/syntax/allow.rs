@@ -4,33 +4,33 @@ use super::fault::Fault;
 use crate::diagnostic::{Code, did_you_mean, nearest};
 use crate::text::Span;
 
-/// What a comment that speaks to this tool contains.
+/// Mark of a comment addressed to this tool.
 pub(crate) const MARK: &str = "frictcomp:";
 
 /// The word that allows.
 const ALLOW: &str = "allow";
 
-/// What a comment says to this tool.
+/// Contents of a comment addressed to this tool.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Allowance {
     /// The codes that it allows.
     pub(crate) codes: Vec<Code>,
-    /// What is wrong with it (FC491).
+    /// Fault of the comment (FC491).
     pub(crate) fault: Option<AllowFault>,
 }
 
-/// What keeps a comment from being understood.
+/// Fault that keeps a comment from being understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AllowFault {
     /// The word, or the mark where a word is missing.
     pub(crate) span: Span,
     /// One sentence.
     pub(crate) message: String,
-    /// What to write.
+    /// Advice on it.
     pub(crate) help: Help,
 }
 
-/// What to write in place of a word that is not understood.
+/// Advice on the replacement of a word that is not understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Help {
     /// This word.
@@ -55,7 +55,7 @@ impl Word<'_> {
     }
 }
 
-/// What a text says to this tool; the first word that is no code and does not look like one begins
+/// Reads a text addressed to this tool; the first word that is not a code and does not look like one begins
 /// the reason.
 pub(crate) fn allowed(text: &str) -> Allowance {
     let mut allowance = Allowance::default();
@@ -114,7 +114,7 @@ pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     Some(Span::new(before, start + length))
 }
 
-/// What makes a line allow a code, and where in the line that belongs.
+/// Returns the text that makes a line allow a code, and its place in the line.
 pub(crate) fn insertion(line: &str, code: Code) -> (usize, String) {
     let known = line.find(MARK).and_then(|mark| {
         let first = words(line, mark + MARK.len()).next()?;
@@ -131,8 +131,8 @@ pub(crate) fn line_above(code: Code) -> String {
     format!("; {MARK} {ALLOW} {code}\n")
 }
 
-/// What there is to say about a comment line that stands directly above no block: FC490, or FC491
-/// where it is not understood anyway.
+/// Returns the fault of a comment line without a block directly below it: FC490, or FC491 where it is not
+/// understood anyway.
 pub(crate) fn lost(text: &str) -> Option<Fault> {
     let allowance = allowed(text);
     if let Some(fault) = allowance.fault {
@@ -179,7 +179,7 @@ fn unknown(word: &Word<'_>) -> AllowFault {
     word.fault(message, help)
 }
 
-/// How the whole comment is written.
+/// Form of the whole comment.
 const HOW: &str = "write `frictcomp: allow`, the codes as the messages show them, and the reason";
 
 #[cfg(test)]

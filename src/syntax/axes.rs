@@ -1,4 +1,4 @@
-//! Which axes a program names, without running it.
+//! The axes that a program names, found without running it.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::text::TextLines;
 /// Number of macro definitions inside each other that are looked into.
 pub(crate) const MAX_MACROS: usize = 16;
 
-/// What a program does with an axis.
+/// Use of an axis in a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AxisUse {
     /// It moves the axis, or speaks to it.
@@ -63,7 +63,7 @@ pub(crate) fn with_macros(
     }
 }
 
-/// What stands for an axis in a block, without its macros.
+/// Finds the axis names in a block, without those of its macros.
 pub(super) fn own_uses<'a>(
     block: &'a Block,
     text: &'a str,

@@ -1,4 +1,4 @@
-//! Which brackets of a block stay open, and how deep they nest.
+//! The open brackets of a block and their depth.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use super::texts::Texts;
 use crate::diagnostic::Code;
 use crate::text::Span;
 
-/// How deep brackets may nest (R2.60).
+/// Greatest depth of nested brackets (R2.60).
 pub const MAX_BRACKETS: usize = 64;
 
 /// Texts of one block that may end in a `\`: looking for the end of each goes to the end of the block.

@@ -139,7 +139,7 @@ impl CompWords<'_> {
     }
 }
 
-/// Where a COMP command ends whose bracket is not closed: after the last of its words.
+/// Returns the end of a COMP command whose bracket is not closed: after the last of its words.
 pub(super) fn end_of_command(code: &str, start: usize) -> Option<usize> {
     let is_letter = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
     let mut end = None;

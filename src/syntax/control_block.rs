@@ -1,4 +1,4 @@
-//! Which statements open, part and close control blocks.
+//! The statements that open, part and close control blocks.
 
 use super::ast::{Block, Flow, Item};
 
@@ -21,7 +21,7 @@ pub enum ControlBlock {
     RealTime,
 }
 
-/// What a statement is to its control block.
+/// Part of a statement in its control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// It opens the block.

@@ -38,15 +38,15 @@ impl fmt::Display for Dialect {
     }
 }
 
-/// What shows that a program is of another control.
+/// Evidence that a program is of another control.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Foreign {
     pub(crate) dialect: Dialect,
     /// The first of its words that showed it.
     pub(crate) words: Vec<String>,
-    /// How many blocks have such words.
+    /// Number of blocks with such words.
     pub(crate) blocks: usize,
-    /// How many were looked at.
+    /// Number of blocks examined.
     pub(crate) of: usize,
 }
 
@@ -105,7 +105,7 @@ const SINUMERIK_CYCLES: [&str; 5] = ["CYCLE", "HOLES", "LONGHOLE", "POCKET", "SL
 const SINUMERIK_VARIABLES: [&str; 9] =
     ["P_", "A_", "AA_", "AC_", "TC_", "MN_", "MC_", "MA_", "VA_"];
 
-/// What stands after the number of an O word of RS-274.
+/// Keywords after the number of an O word of RS-274.
 const O_WORDS: [&str; 13] = [
     "BREAK", "CALL", "CONTINUE", "DO", "ELSE", "ELSEIF", "ENDIF", "ENDSUB", "ENDWHILE", "IF",
     "RETURN", "SUB", "WHILE",
@@ -160,7 +160,7 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
     })
 }
 
-/// What a block tells of its control.
+/// Evidence of a block on its control.
 enum Meaning {
     Isg,
     Of(Dialect, String),
@@ -259,7 +259,7 @@ fn after_dollar(text: &str) -> Meaning {
     }
 }
 
-/// What a word tells, between what stands before and after it.
+/// Returns the evidence of a word, from the text before and after it.
 fn of_word(before: &str, word: &str, after: &str) -> Meaning {
     let numbered = |begin: &str| {
         let number = word.strip_prefix(begin);

@@ -7,7 +7,7 @@ use super::ast::{BinaryOperator, Block, Expression, Function, Node, Operand, Own
 use super::grammar::Rule;
 use crate::text::Span;
 
-/// How tightly operators bind, loosest first.
+/// Precedence of operators, loosest first.
 const PRECEDENCE: &[&[BinaryOperator]] = {
     use BinaryOperator::{
         Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
@@ -146,7 +146,7 @@ fn operand(from: usize, block: &mut Block) -> Operand {
     }
 }
 
-/// What waits while an expression is lowered.
+/// Operands and operators that wait while an expression is lowered.
 #[derive(Default)]
 struct Stacks {
     /// Operators, each with the place of its sign.

@@ -138,7 +138,7 @@ fn span(start: usize, end: usize) -> Span {
     }
 }
 
-/// Where the comment at a place ends; one that holds another is not plain.
+/// Returns the end of the comment at a place; a comment that holds another is not plain.
 fn comment(bytes: &[u8], start: usize) -> Option<usize> {
     let rest = &bytes[start..];
     let line_end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
@@ -221,7 +221,7 @@ fn whole(number: u64) -> f64 {
 struct Digits {
     /// All of them as one whole number, below 10^15.
     mantissa: u64,
-    /// How many stand after the point.
+    /// Number of digits after the point.
     decimals: usize,
     /// The bytes of the number.
     length: usize,

@@ -1,4 +1,4 @@
-//! What is wrong with the text of a block.
+//! Faults in the text of a block.
 
 use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
 use crate::text::{Place, Span};
@@ -14,7 +14,7 @@ pub struct Fault {
     pub span: Span,
     /// One sentence in lower case.
     pub message: String,
-    /// What to do.
+    /// Advice on the fault.
     pub advice: Vec<Advice>,
     /// Changes to the text of the block, each of which alone does what is advised.
     pub fixes: Vec<Fix<Span>>,

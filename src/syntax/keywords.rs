@@ -5,7 +5,7 @@
 
 use super::ast::{Address, Block, Item, Operand, Word};
 
-/// What a `#` command does to what is followed here.
+/// Effect of a `#` command on the followed state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Touches {
     /// Neither flow nor values; what it does to coordinates is the modal state's business.
@@ -241,8 +241,8 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#WCS TO MCS", Values, "PM/208525707"),
 ];
 
-/// What a `#` command touches; `None` where no row names it. The name has its words in upper case
-/// with one blank between them; a row holds for what continues it.
+/// Returns the effect of a `#` command; `None` where no row names it. The name has its words in upper case
+/// with one blank between them; a row holds for its continuations.
 pub(crate) fn hash_command(name: &str) -> Option<Touches> {
     let begins = |words: &str| {
         name.strip_prefix(words)

@@ -1,10 +1,10 @@
-//! What the parser does not see of a line: comments, continuation signs, block numbers of continued
+//! Masking of the text that the parser skips: comments, continuation signs, block numbers of continued
 //! lines and foreign characters are blanked out byte for byte.
 
 use super::pieces::{PieceKind, is_blank, pieces};
 use crate::text::Span;
 
-/// What masking found in a line.
+/// Findings of the masking of a line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Masked {
     /// A `\` stands at the end of the code.

@@ -3,7 +3,7 @@
 use super::ast::{Block, CallName, CallScope, Flow, Item, JumpTarget, Operand};
 use crate::text::Span;
 
-/// What has a name.
+/// Kind of a named thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
     /// A local subprogram.
@@ -14,10 +14,10 @@ pub enum Named {
     File,
 }
 
-/// What a name does where it stands.
+/// Role of a name at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// What has the name is here.
+    /// The named thing is defined here.
     Definition,
     /// It is called, or jumped to.
     Use,
@@ -26,13 +26,13 @@ pub enum Role {
 /// A name in a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NameInBlock {
-    /// What has the name.
+    /// Kind of the named thing.
     pub named: Named,
-    /// What it does here.
+    /// Role at this place.
     pub role: Role,
     /// A number without leading zeros: `N30`.
     pub name: String,
-    /// Where it stands.
+    /// Span of the name.
     pub span: Span,
 }
 

@@ -1,14 +1,14 @@
-//! What each byte of a line is: code, string, quoted number, comment, or a character that is none of the
-//! language. Everybody who looks at the text of a program asks here.
+//! The kind of each byte of a line: code, string, quoted number, comment, or a foreign character.
+//! Every question about the text of a program is answered here.
 
 use std::ops::Range;
 
 use super::texts::Texts;
 
-/// What a piece of a line is.
+/// Kind of a piece of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PieceKind {
-    /// What the control reads.
+    /// Text that the control reads.
     Code,
     /// `"…"`, with its quotes.
     Text,
@@ -69,7 +69,7 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
     })
 }
 
-/// What a letter would be that is typed at a place of a line.
+/// Returns the kind of a letter that would be typed at a place of a line.
 pub fn kind_at(line: &str, at: usize) -> PieceKind {
     let (before, after) = line.split_at(at);
     let typed = format!("{before}A{after}");
@@ -111,7 +111,7 @@ fn is_control(byte: u8) -> bool {
     matches!(byte, 0 | 3 | 0x1a)
 }
 
-/// How many bytes stand in front of a text, a comment, a foreign or a control character.
+/// Returns the number of bytes before a text, a comment, a foreign or a control character.
 fn code_length(bytes: &[u8]) -> usize {
     let ends = |byte: &u8| is_control(*byte) || matches!(byte, b'"' | b';' | b'(' | 0x80..);
     bytes.iter().position(ends).unwrap_or(bytes.len())

@@ -9,7 +9,7 @@ use crate::text::{Place, Span};
 /// Characters that one line may have (R2.2).
 pub const MAX_LINE: usize = 4000;
 
-/// What a stretch of source lines is.
+/// Kind of a stretch of source lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stretch {
     /// A block, parsed.
@@ -26,13 +26,13 @@ pub enum Stretch {
 /// One block, or one `%` line, as it stands in the file.
 #[derive(Debug, Clone, Copy)]
 pub struct RawBlock<'a> {
-    /// What it is.
+    /// Kind of the stretch.
     pub stretch: Stretch,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
     /// The line on which it starts, from 1.
     pub line: u32,
-    /// Where that line starts, in bytes from the start of the text.
+    /// Offset of that line in bytes from the start of the text.
     pub offset: usize,
     /// Whether comments stand in it.
     pub comments: Comments,
@@ -82,7 +82,7 @@ impl Remark {
 pub struct LostRemarks {
     /// The first of them.
     pub remarks: Vec<Remark>,
-    /// How many more there are.
+    /// Number of further remarks.
     pub more: u64,
     /// Lines outside blocks whose characters may be shown in another order than they are read.
     pub reordered: Vec<Remark>,

@@ -79,7 +79,7 @@ const PIECES: [&str; 60] = [
     "\u{feff}",
 ];
 
-/// What opens and closes brackets, and what hides them.
+/// Characters that open, close and hide brackets.
 const BRACKETS: [&str; 48] = [
     "X[",
     "X[COMP ON FRICT",
@@ -193,7 +193,7 @@ fn damage(line: &mut String, rng: &mut Rng) {
     line.replace_range(at..at + removed, &put);
 }
 
-/// How many blocks a program has; both readers must find the same ones.
+/// Returns the number of blocks of a program; both readers must find the same ones.
 fn compare(program: &str) -> u64 {
     let reader = |path| BlockReader::new(TextLines::new(program), 1, path);
     let (mut fast, mut grammar) = (reader(FastPath::On), reader(FastPath::Off));

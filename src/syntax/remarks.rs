@@ -47,7 +47,7 @@ impl Remarks {
         }
     }
 
-    /// What stands directly above a block that begins on a line.
+    /// Returns the remark directly above a block that begins on a line.
     #[inline]
     pub(super) fn above(&mut self, line: u32) -> Option<&Remark> {
         if self.last == 0 || self.last + 1 != line {
@@ -69,7 +69,7 @@ impl Remarks {
         self.last = 0;
     }
 
-    /// What no block followed.
+    /// Returns the remarks that no block followed.
     pub(super) fn lost(&self) -> &LostRemarks {
         &self.lost
     }

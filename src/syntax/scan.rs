@@ -12,7 +12,7 @@ use super::parse::parse_block;
 /// Bytes that the lines of a continued block may have together to be looked at.
 const MAX_CONTINUED: usize = 64 * 1024;
 
-/// What is asked of a program.
+/// A question to a program.
 pub trait Question {
     /// The first place of a text, from one on, at which a line may tell something.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
@@ -24,7 +24,7 @@ pub trait Question {
 /// Finds the blocks that answer a question; knows continued blocks and `#COMMENT` regions.
 #[derive(Debug, Default)]
 pub struct Scan<Q> {
-    /// What is asked, with what was found.
+    /// The question, with its findings.
     pub question: Q,
     /// The lines of a block that goes on.
     open: String,
@@ -130,7 +130,7 @@ impl Question for SwitchedAxes {
     }
 }
 
-/// Which axes a program names, of those that are asked for, and whether it calls a file (R2.74).
+/// The requested axes that a program names, and whether it calls a file (R2.74).
 #[derive(Debug, Default)]
 pub struct NamedAxes {
     sought: Vec<PendingLabel>,
@@ -206,7 +206,7 @@ impl Question for NamedAxes {
     }
 }
 
-/// Where a name may begin a word.
+/// Returns the next place where a name may begin a word.
 fn axis_place(text: &[u8], from: usize, name: &[u8]) -> Option<usize> {
     let begins = |at: &usize| {
         let before = at.checked_sub(1).map(|before| text[from + before]);
@@ -221,7 +221,7 @@ pub(crate) fn may_call_file(text: &[u8]) -> bool {
     call_place(text, 0).is_some()
 }
 
-/// Where an `L` may begin a call of a file.
+/// Returns the next place where an `L` may begin a call of a file.
 fn call_place(text: &[u8], from: usize) -> Option<usize> {
     let begins = |at: &usize| {
         let before = at.checked_sub(1).map(|before| text[from + before]);

@@ -1,4 +1,4 @@
-//! Where the texts of a line or a block end, `"…"`.
+//! The ends of the texts `"…"` of a line or a block.
 
 use std::cell::OnceCell;
 

@@ -15,7 +15,7 @@ use crate::syntax::ast::{Call, CallName, Operand};
 use crate::text::Span;
 
 impl Interpreter {
-    /// What a call statement asks for; `None` when its name is not known offline (R2.52).
+    /// Returns the program that a call statement names; `None` where the name is not known offline (R2.52).
     pub(in crate::interpreter) fn wanted(
         &mut self,
         call: &Call,
@@ -79,7 +79,7 @@ impl Interpreter {
     }
 }
 
-/// Where the name of a program stands in its block, without its quotes.
+/// Returns the span of a program's name in its block, without quotes.
 fn named(name: CallName, at: &BlockContext<'_>) -> Option<Span> {
     let span = match name {
         CallName::Literal(span) | CallName::Quoted(span) => span,

@@ -1,5 +1,5 @@
-//! What a block moves beside its axis words (R10.7): axes with a command in their bracket, those that
-//! follow another one, those of a rotated or transformed frame.
+//! The axes that a block moves without axis words (R10.7): those with a command in their bracket,
+//! followers of another axis, axes of a rotated or transformed frame.
 
 use std::collections::BTreeMap;
 

@@ -109,8 +109,8 @@ impl Interpreter {
         })
     }
 
-    /// What a command switches where the first of a block wins (R1.31): the kinds that no earlier
-    /// command of the block named for the axis.
+    /// Returns the kinds that a command switches where the first of a block wins (R1.31): those that no
+    /// earlier command of the block named for the axis.
     fn not_yet_switched(&self, selection: Selection, axis: AxisIndex) -> Selection {
         if !self.machine.readings.takes_second(Question::OrderInBlock) {
             return selection;
@@ -331,8 +331,8 @@ impl Interpreter {
         diagnostic
     }
 
-    /// What to do about an axis that the machine does not have. Without a configuration nobody has
-    /// said which axes there are (R2.20).
+    /// Advises on an axis that the machine does not have. Without a configuration the axes of the machine
+    /// are not known (R2.20).
     fn advise_on_axis(&self, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
         let known: Vec<&str> = self
             .machine

@@ -104,7 +104,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// What a command does beside that to what is followed here (R2.93).
+    /// Applies the side effects of a command on the followed state (R2.93).
     fn touch(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         match hash_command(&hash.name) {
             Some(Touches::Motion) => {
@@ -238,7 +238,7 @@ fn goes_on(name: &str) -> bool {
         .any(|known| name.starts_with(known))
 }
 
-/// What stands after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.
+/// Returns the text after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.
 fn remedy_class(text: &str) -> Option<&str> {
     let outside_of_texts = text.split('"').step_by(2);
     let mut words = outside_of_texts.flat_map(|part| part.split([' ', '\t', '[', ',']));

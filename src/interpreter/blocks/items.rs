@@ -23,7 +23,7 @@ use crate::text::Span;
 pub(in crate::interpreter) const MAX_SAID: usize = 1000;
 
 impl Interpreter {
-    /// Where the control would refuse the block's text; nothing right of it is executed then.
+    /// Returns the first place of the block that the control would refuse; nothing to its right is executed.
     pub(in crate::interpreter) fn first_refusal(&self, block: &Block) -> Option<u32> {
         if self.options.stop != StopPolicy::FirstError {
             return None;
@@ -337,7 +337,7 @@ impl Interpreter {
     }
 }
 
-/// What a fault is about.
+/// Returns the text that a fault is about.
 fn cause_of(fault: &Fault, at: &BlockContext<'_>) -> Arc<str> {
     fault.span.of(at.text).trim().into()
 }

@@ -1,4 +1,4 @@
-//! What the words and statements of a block do.
+//! The effects of the words and statements of a block.
 
 pub(super) mod call;
 pub(super) mod carry;

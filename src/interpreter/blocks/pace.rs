@@ -1,5 +1,5 @@
-//! What a block says about the velocity of paths beside F: overrides, weights, the main spindle, and
-//! what a commanded trace does not follow in full (R5.1).
+//! The velocity of paths besides F: overrides, weights, the main spindle, and commands that a commanded
+//! trace does not follow in full (R5.1).
 
 use crate::interpreter::coordinates::contouring::ContouringCommand;
 use crate::interpreter::coordinates::pace::Factors;
@@ -60,7 +60,7 @@ impl Interpreter {
         self.state.control.modal.pace.weigh_rapid(weight);
     }
 
-    /// What a `#` command says about the velocity of paths.
+    /// Applies a `#` command that changes the velocity of paths.
     pub(in crate::interpreter) fn pace_command(
         &mut self,
         name: &str,
@@ -142,7 +142,7 @@ impl Interpreter {
         }
     }
 
-    /// What an override changes.
+    /// Returns the factors in the text of an override.
     fn factors_in(
         &mut self,
         text: &str,
@@ -162,7 +162,7 @@ impl Interpreter {
     }
 }
 
-/// What stands after a keyword, up to the next one.
+/// Returns the text after a keyword, up to the next keyword.
 fn value_after<'a>(key: &str, text: &'a str) -> Option<&'a str> {
     let upper = text.to_ascii_uppercase();
     let start = upper.find(key)? + key.len();

@@ -1,4 +1,4 @@
-//! What blocks ask the machine, and where each answer leads (R14.1).
+//! The questions of blocks to the machine, and the target of each answer (R14.1).
 
 use std::sync::Arc;
 
@@ -158,8 +158,8 @@ impl Interpreter {
         self.part(question, [to, next].map(Goal::block).into(), at)
     }
 
-    /// Where the one jump of a block goes; `None` where that is not known, or where the block does
-    /// more than jump and move.
+    /// Returns the target of the one jump of a block; `None` where it is not known, or where the block
+    /// does more than jump and move.
     fn only_jump(&mut self, at: &BlockContext<'_>) -> Option<(EntryIndex, Span)> {
         let mut jump = None;
         for item in &at.block.items {
@@ -334,7 +334,7 @@ impl Interpreter {
         true
     }
 
-    /// Where a jump goes that is not taken.
+    /// Returns the target of a jump that is not taken.
     pub(in crate::interpreter) fn exit(
         &mut self,
         target: &JumpTarget,

@@ -71,7 +71,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// What a target names; `None` where that is not known offline.
+    /// Returns the label that a target names; `None` where it is not known offline.
     fn label_of(
         &mut self,
         target: JumpTarget,

@@ -1,4 +1,4 @@
-//! What a block makes the axes do, from its words (R5.1).
+//! The motion of a block, from its words (R5.1).
 
 use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
@@ -236,7 +236,7 @@ impl Interpreter {
         start.zip(word).map(|(start, word)| start + word)
     }
 
-    /// What F, overrides and the spindle make of the velocity of the block.
+    /// Computes the velocity of the block from F, overrides and the spindle.
     fn path_feed(&self, geometry: &Geometry) -> PathFeed {
         let modal = &self.state.control.modal;
         let haste = match modal.functions.motion {
@@ -276,7 +276,7 @@ impl Interpreter {
         }
     }
 
-    /// What the overrides leave of the velocity; G166 suppresses those that are programmed
+    /// Returns the share of the velocity that overrides leave; G166 suppresses programmed ones
     /// (PM/206744331).
     fn override_share(&self, geometry: &Geometry, haste: Haste) -> Option<f64> {
         let pace = &self.state.control.modal.pace;

@@ -520,7 +520,7 @@ impl Interpreter {
         }
     }
 
-    /// Where the axes of the block's words stand, as far as that is known.
+    /// Returns the positions of the axes of the block's words, where they are known.
     fn ends(&self) -> Vec<Option<f64>> {
         let words = self.scratch.moved[..self.coordinates()].iter();
         words

@@ -13,11 +13,11 @@ pub struct AxisWord {
     pub span: Span,
     /// The coordinate as it is programmed, where it is known.
     pub value: Option<f64>,
-    /// Where the axis stood before, where that is known.
+    /// Position before, where it is known.
     pub from: Option<f64>,
 }
 
-/// What axis words of a block are.
+/// Meaning of the axis words of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(in crate::interpreter) enum AxisWords {
     /// Coordinates to move to.

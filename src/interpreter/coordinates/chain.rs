@@ -1,11 +1,11 @@
-//! What touches the chain of coordinates: which commands and functions take positions away from
-//! the machine's, and which are known not to (R2.47, R2.82).
+//! The chain of coordinates: commands and functions that separate positions from those of the machine, and
+//! those that are known not to (R2.47, R2.82).
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
 use super::group::Group;
 
-/// What a `#` command does to positions.
+/// Effect of a `#` command on positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Step {
     /// It switches to other coordinates, and back.

@@ -1,27 +1,26 @@
-//! How the control rounds the transitions between blocks (R11.21): the parameters of
-//! `#CONTOUR MODE` and `#HSC`.
+//! The rounding of transitions between blocks (R11.21): the parameters of `#CONTOUR MODE` and `#HSC`.
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
 use serde::{Deserialize, Serialize};
 
-/// How transitions between blocks are rounded. Lengths are in mm; `None` is no limit.
+/// Rounding of transitions between blocks. Lengths are in mm; `None` is no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Contouring {
-    /// How far the path may leave the programmed one; 0 where that is not known.
+    /// Permitted deviation from the programmed path; 0 where it is not known.
     pub tolerance_mm: Option<f64>,
-    /// How far before and after a corner the path may leave its blocks.
+    /// Permitted length before and after a corner off the programmed blocks.
     pub distance_mm: Option<f64>,
     /// The largest share of a block that a corner takes at either end.
     pub reach: f64,
     /// The sharpest corner that is rounded, in degrees.
     pub max_angle_deg: Option<f64>,
-    /// Which blocks become one curve.
+    /// Blocks that become one curve.
     pub joining: Joining,
 }
 
-/// Which straight blocks become one curve.
+/// Selection of the straight blocks that become one curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Joining {
@@ -40,11 +39,11 @@ pub(in crate::interpreter) enum ContouringCommand {
     HighSpeed,
 }
 
-/// What `PATH_DEV` and `PRE_DIST` are without a value (PM/475164939, PM/475180811).
+/// Default of `PATH_DEV` and `PRE_DIST` (PM/475164939, PM/475180811).
 const CONTOUR_MM: f64 = 1.0;
-/// What `CONTERROR` is without a value (PM/207285131).
+/// Default of `CONTERROR` (PM/207285131).
 const CONTOUR_ERROR_MM: f64 = 0.1;
-/// What `PATH_DEV` and `MAX_ANGLE` of B-splines are without a value (PM/207308683).
+/// Default of `PATH_DEV` and `MAX_ANGLE` of B-splines (PM/207308683).
 const SPLINE_MM: f64 = 0.2;
 const SPLINE_ANGLE_DEG: f64 = 5.0;
 

@@ -4,7 +4,7 @@ use super::motion::BlockEnd;
 use super::simplified::Simplifications;
 use crate::text::Span;
 
-/// What a word says: nothing, or a value that may be unknown.
+/// Value of a word: absent, or a value that may be unknown.
 pub(in crate::interpreter) type Given = Option<Option<f64>>;
 
 /// The words of a block that shape its motion and nothing else.
@@ -21,11 +21,11 @@ pub(in crate::interpreter) struct Geometry {
     pub(in crate::interpreter) end_feed: Given,
     /// G166: overrides do not count.
     pub(in crate::interpreter) at_full_speed: bool,
-    /// What a commanded trace does not follow in full, in this block.
+    /// Simplifications of the commanded trace in this block.
     pub(in crate::interpreter) simplified: Simplifications,
-    /// Where the first of I, J, K and R stands.
+    /// Span of the first of I, J, K and R.
     pub(in crate::interpreter) span: Option<Span>,
-    /// How many axes move along the circle without a word of their own.
+    /// Number of axes that move along the circle without a word of their own.
     pub(in crate::interpreter) around: usize,
     /// A G function that makes the block's motion something else.
     pub(in crate::interpreter) foreign: Option<&'static str>,

@@ -39,7 +39,7 @@ impl Group {
         Self::ExactStop,
     ];
 
-    /// How many groups there are.
+    /// Number of groups.
     pub(in crate::interpreter) const COUNT: usize = Self::ExactStop as usize + 1;
 
     /// The group of a G number; `None` for one that is not modal or not modelled.

@@ -1,4 +1,4 @@
-//! What words of geometry mean: G functions, positions, motions.
+//! The meaning of words of geometry: G functions, positions, motions.
 
 pub(super) mod arc;
 pub(super) mod axis_words;

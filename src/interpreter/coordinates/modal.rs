@@ -56,7 +56,7 @@ pub struct GFunctions {
     pub offset: u32,
     /// Whether the circle centre is absolute, G161.
     pub centre_absolute: bool,
-    /// How blocks end, G359 and G360.
+    /// Condition for the end of blocks, G359 and G360.
     pub block_end: BlockEnd,
     /// Groups whose active function is not known offline (R2.51).
     pub(super) unknown: GroupSet,
@@ -87,9 +87,9 @@ pub struct Modal {
     pub functions: GFunctions,
     /// The radius of circles without a centre, R; `None` where it is not known.
     pub radius: Option<f64>,
-    /// What takes positions away from the machine's: names of `#` commands and G functions.
+    /// Names of the `#` commands and G functions that separate positions from those of the machine.
     pub transformed: BTreeSet<String>,
-    /// What the control does to the path or its velocity and a commanded trace does not.
+    /// Functions on the path or its velocity that a commanded trace does not follow.
     pub simplified: Simplifications,
     /// The parameters of `#CONTOUR MODE`, for G61 and G261.
     contour: Contouring,
@@ -98,7 +98,7 @@ pub struct Modal {
     /// The profile of the acceleration, where the program selects one (`#SLOPE`).
     #[serde(default)]
     slope: Option<SlopeProfile>,
-    /// What makes of F the velocity of the path.
+    /// State that turns F into the velocity of the path.
     pub(in crate::interpreter) pace: Pace,
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
     #[serde(default)]
@@ -109,7 +109,7 @@ pub struct Modal {
     positions: Vec<Option<f64>>,
     /// G92; `None` where it is not known.
     references: Vec<Option<f64>>,
-    /// What G92 set before `#MCS ON`, which comes back with `#MCS OFF`.
+    /// Offsets of G92 before `#MCS ON`, restored by `#MCS OFF`.
     suspended: Option<Vec<Option<f64>>>,
 }
 
@@ -239,7 +239,7 @@ impl Modal {
         }
     }
 
-    /// How the transition after a block is rounded; `once` holds in the block alone.
+    /// Returns the rounding of the transition after a block; `once` holds in the block alone.
     pub(in crate::interpreter) fn contouring(&self, once: Simplifications) -> Option<Contouring> {
         let holds = self.simplified.union(once);
         if holds.contains(Simplification::HighSpeed) {
@@ -295,7 +295,7 @@ impl Modal {
         }
     }
 
-    /// What a `#` command does to the coordinate chain.
+    /// Applies a `#` command to the coordinate chain.
     pub fn hash(&mut self, name: &str) {
         let Some((words, step, off)) = chain::command(name) else {
             return;
@@ -349,8 +349,7 @@ impl Modal {
         }
     }
 
-    /// What the blocks of a contour description leave of the state before it: whether their G
-    /// functions and feeds hold after it is not documented (R2.81).
+    /// Ends a contour description: whether its G functions and feeds hold after it is not documented (R2.81).
     pub(in crate::interpreter) fn end_description(&mut self, before: &Self) {
         self.join_functions(before);
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
@@ -361,7 +360,7 @@ impl Modal {
         self.havoc_positions();
     }
 
-    /// What says which function of a group is in force.
+    /// Returns the function of a group in force, as the number that stands for it.
     fn value(&self, group: Group) -> u32 {
         let functions = &self.functions;
         match group {
@@ -484,7 +483,7 @@ impl Modal {
         }
     }
 
-    /// What may also have been another state becomes unknown.
+    /// Makes unknown what differs between two states.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         self.join_functions(other);
         for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
@@ -549,7 +548,7 @@ impl Modal {
         position.map(|(position, reference)| position - reference)
     }
 
-    /// Where the axes stand: the programmed coordinate with the offset of G92.
+    /// Returns the positions of the axes: the programmed coordinate with the offset of G92.
     pub(in crate::interpreter) fn positions(&self) -> &[Option<f64>] {
         &self.positions
     }

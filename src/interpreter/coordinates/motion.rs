@@ -19,7 +19,7 @@ pub enum Motions {
     Taken,
 }
 
-/// What a block makes the machine do.
+/// Motion or wait that a block commands.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Motion {
@@ -41,21 +41,21 @@ pub struct Travel {
     pub from: Vec<Option<f64>>,
     /// The position of each axis after it.
     pub to: Vec<Option<f64>>,
-    /// How fast.
+    /// Feed of the path.
     pub feed: PathFeed,
-    /// What happens at the end of the block.
+    /// Condition for the end of the block.
     pub end: BlockEnd,
-    /// How the transition to the next block is rounded, where it is (R11.21).
+    /// Rounding of the transition to the next block, where there is one (R11.21).
     pub contouring: Option<Contouring>,
     /// The profile of the acceleration, where the program selects one; else that of the channel.
     pub slope: Option<SlopeProfile>,
     /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
     pub end_feed_per_min: Option<f64>,
-    /// What the control does to the path or its velocity and a commanded trace does not.
+    /// Functions on the path or its velocity that a commanded trace does not follow.
     pub simplified: Simplifications,
 }
 
-/// What a motion follows.
+/// Shape of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Form {
@@ -76,7 +76,7 @@ pub struct Arc {
     pub axes: [AxisIndex; 2],
     /// The sense of rotation, seen against the third axis.
     pub turn: Turn,
-    /// Where the centre lies.
+    /// Position of the centre.
     pub centre: Centre,
 }
 
@@ -90,7 +90,7 @@ pub enum Turn {
     CounterClockwise,
 }
 
-/// How the centre of an arc is given.
+/// Form in which the centre of an arc is programmed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Centre {
@@ -100,7 +100,7 @@ pub enum Centre {
     Radius(f64),
 }
 
-/// How fast the path is followed.
+/// Feed of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PathFeed {
@@ -115,7 +115,7 @@ pub enum PathFeed {
     Unknown(&'static str),
 }
 
-/// What happens at the end of a block.
+/// Condition for the end of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BlockEnd {

@@ -1,4 +1,4 @@
-//! What moves an axis, in one table (R10.7): words, commands in the bracket of an axis, motion through
+//! The one table of causes of axis motion (R10.7): words, commands in the bracket of an axis, motion through
 //! another axis, frames.
 //!
 //! PM/n is page n of the TF5200 programming manual.
@@ -143,7 +143,7 @@ const fn possible(form: Form, kind: MotionKind, moves: Moves) -> Row {
     }
 }
 
-/// What moves an axis beside the words of G00 to G03; the first row that fits counts.
+/// Causes of axis motion besides the words of G00 to G03; the first row that fits counts.
 const TABLE: [Row; 46] = {
     use Form::{Bracket, Command, G};
     use MotionKind::{Coupled, Feed, Frame, Homing, Independent, Unknown};
@@ -231,14 +231,15 @@ const AT_REST: [&str; 14] = [
     "MC_CAMOUT",
 ];
 
-/// What axis words with a G function move; `None` where they move as its group says, or not at all.
+/// Returns the row of a G function for its axis words; `None` where they move as its group says, or
+/// not at all.
 pub(in crate::interpreter) fn of_g(number: u32) -> Option<Row> {
     let is = |row: &&Row| matches!(row.form, Form::G(it) if it == number);
     TABLE.iter().find(is).copied()
 }
 
-/// What a command in the bracket of an axis moves: `keyword` is its first word, `body` the whole of it,
-/// both in upper case.
+/// Returns the row of a command in the bracket of an axis: `keyword` is its first word, `body` the whole
+/// text, both in upper case.
 pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Row> {
     if AT_REST.iter().any(|word| keyword.starts_with(word)) {
         return None;
@@ -254,7 +255,7 @@ pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Ro
     (!has("DRY_RUN")).then_some(*row)
 }
 
-/// What a `#` command moves from here on.
+/// Returns the row of a `#` command that moves axes from here on.
 pub(in crate::interpreter) fn of_command(name: &str) -> Option<Row> {
     let begins = |words: &str| {
         name.strip_prefix(words)
@@ -264,7 +265,7 @@ pub(in crate::interpreter) fn of_command(name: &str) -> Option<Row> {
     TABLE.iter().find(is).copied()
 }
 
-/// What stands between the words of a bracket.
+/// Returns whether a character separates the words of a bracket.
 pub(in crate::interpreter) fn is_between(letter: char) -> bool {
     !(letter.is_ascii_alphanumeric() || letter == '_')
 }

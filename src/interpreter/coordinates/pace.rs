@@ -1,5 +1,5 @@
-//! What makes of a programmed F the velocity of the path: the unit, the main spindle, programmed
-//! overrides (R5.1).
+//! The way from a programmed F to the velocity of the path: the unit, the main spindle, programmed overrides
+//! (R5.1).
 
 use std::collections::BTreeMap;
 
@@ -17,8 +17,8 @@ pub struct ProgrammedFeed {
     pub unit_mm: Option<f64>,
 }
 
-/// What a command does to the speed of paths, in parts of the programmed one; `None` where that is
-/// not known.
+/// Effect of a command on the speed of paths, as shares of the programmed one; `None` where it is not
+/// known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Factors {
     /// With G01, G02, G03.
@@ -65,7 +65,7 @@ struct Overrides {
     rapid: Factors,
 }
 
-/// How fast the main spindle turns (PM/208046347).
+/// Speed of the main spindle (PM/208046347).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Spindle {
     /// The last S in 1/min, where it is known.
@@ -76,13 +76,13 @@ struct Spindle {
     stands: bool,
 }
 
-/// What makes of a programmed F the velocity of the path.
+/// State that turns a programmed F into the velocity of the path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Pace {
     /// The unit of F in mm/min (P-CHAN-00108), where it is known.
     feed_unit_mm: Option<f64>,
     spindle: Spindle,
-    /// Where there are any, or may be.
+    /// Overrides, where there are any or may be.
     overrides: Option<Box<Overrides>>,
 }
 
@@ -163,8 +163,8 @@ impl Pace {
         self.overrides.get_or_insert_default().rapid.rapid = weight;
     }
 
-    /// What the overrides leave of the velocity of a motion of some axes: that of the path times the
-    /// least of the axes; G166 makes it 1 elsewhere. `None` where it is not known.
+    /// Returns the share of the velocity that overrides leave to a motion of some axes: that of the path
+    /// times the least of the axes; G166 makes it 1. `None` where it is not known.
     pub(in crate::interpreter) fn share(
         &self,
         haste: Haste,
@@ -203,7 +203,7 @@ impl Pace {
         self.havoc_overrides();
     }
 
-    /// What may also have been another state becomes unknown.
+    /// Makes unknown what differs between two states.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         if self.spindle != other.spindle {
             self.havoc_spindle();

@@ -1,4 +1,4 @@
-//! What the end of a cycle brings back (P-CHAN-00210).
+//! The state that the end of a cycle restores (P-CHAN-00210).
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub(in crate::interpreter) struct Saved {
 }
 
 impl Saved {
-    /// What may also have been saved instead becomes unknown.
+    /// Makes unknown what differs between two saved states.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         if self == other {
             return;
@@ -34,7 +34,7 @@ impl Saved {
 }
 
 impl Modal {
-    /// What a cycle may change and its end brings back.
+    /// Saves the state that a cycle may change and its end restores.
     pub(in crate::interpreter) fn save(&self) -> Saved {
         Saved {
             functions: self.functions.clone(),

@@ -1,5 +1,5 @@
-//! What a control does to the path or its velocity and a commanded trace does not: it is followed
-//! in a simpler way, and that is said (R5.1).
+//! The functions of a control on the path or its velocity that a commanded trace follows in a simpler way,
+//! which is said (R5.1).
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
@@ -68,7 +68,7 @@ impl Simplification {
         Self::Coupling,
     ];
 
-    /// What puts it into force.
+    /// Returns the name of the word or command that switches it on.
     pub fn name(self) -> &'static str {
         match self {
             Self::Contouring => "G261",
@@ -91,7 +91,7 @@ impl Simplification {
         }
     }
 
-    /// What the control does and the trace does instead, after "the trace".
+    /// Returns the difference between control and trace, as a sentence after "the trace".
     pub fn instead(self) -> &'static str {
         match self {
             Self::Contouring => {
@@ -189,7 +189,7 @@ impl From<Simplifications> for Vec<Simplification> {
     }
 }
 
-/// How long something holds.
+/// Duration of a simplification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Holds {
     /// In its block.
@@ -200,7 +200,7 @@ pub(in crate::interpreter) enum Holds {
     Off,
 }
 
-/// What a G function simplifies.
+/// Returns the simplification of a G function.
 pub(in crate::interpreter) fn of_g(number: u32) -> Option<(Simplification, Holds)> {
     use Simplification as It;
     Some(match number {
@@ -238,7 +238,7 @@ const COMMANDS: [(&str, Simplification); 13] = [
     ("#GEO", Simplification::ForeignFeed),
 ];
 
-/// What a `#` command simplifies. `#CONTOUR MODE` without ON or OFF only sets parameters
+/// Returns the simplification of a `#` command. `#CONTOUR MODE` without ON or OFF only sets parameters
 /// (PM/475156491).
 pub(in crate::interpreter) fn of_command(name: &str) -> Option<(Simplification, Holds)> {
     let begins = |words: &str| {
@@ -254,7 +254,8 @@ pub(in crate::interpreter) fn of_command(name: &str) -> Option<(Simplification, 
     (!only_parameters).then_some((what, Holds::On))
 }
 
-/// What the command of an axis bracket simplifies, by its keyword and its whole text in upper case.
+/// Returns the simplification of a command in an axis bracket, from its keyword and its whole text in upper
+/// case.
 pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Simplification> {
     if keyword.starts_with("DYNAMIC") {
         return Some(Simplification::AxisDynamics);

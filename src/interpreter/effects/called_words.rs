@@ -1,4 +1,4 @@
-//! Which program a word calls, and what becomes unknown where that is open (R2.14, R2.75).
+//! Programs that words call, and the unknown state where the program is open (R2.14, R2.75).
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::CallScope;
 use crate::text::Span;
 
-/// What a word calls.
+/// Program configured for a word.
 pub(in crate::interpreter) enum Configured {
     /// Nothing.
     None,

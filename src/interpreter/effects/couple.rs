@@ -246,12 +246,12 @@ pub(in crate::interpreter) fn ends_following(keyword: &str) -> bool {
     keyword.starts_with("MC_GEAROUT") || keyword.starts_with("MC_STOP")
 }
 
-/// What the gear of an axis is called.
+/// Returns the name of the gear of an axis.
 pub(in crate::interpreter) fn gear_of(axis: AxisIndex) -> String {
     format!("gear {}", axis.get())
 }
 
-/// What the followers of other commands are called.
+/// Name of the followers of other commands.
 const GANTRY: &str = "#GANTRY";
 const CAXTRACK: &str = "#CAXTRACK";
 

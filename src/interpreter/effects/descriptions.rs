@@ -42,7 +42,7 @@ impl Interpreter {
     }
 }
 
-/// What ends the description that a command opens.
+/// Returns the command that ends the description which a command opens.
 pub(in crate::interpreter) fn description_end(opener: &str) -> Option<&'static str> {
     let row = DESCRIPTIONS.iter().find(|(begin, _)| *begin == opener);
     row.map(|(_, end)| *end)

@@ -19,7 +19,7 @@ use crate::text::Span;
 /// Different words that are counted as passed over, one by one.
 const MAX_OPAQUE: usize = 1000;
 
-/// What further ones are counted under.
+/// Name under which further words are counted.
 const OTHER_WORDS: &str = "other words";
 
 /// The widest step of something that only counts. It would take longer than any run to leave the
@@ -152,7 +152,7 @@ impl Interpreter {
         }
     }
 
-    /// What the dry run knows of the machine's own variables (R1.35, R2.36).
+    /// Returns the value of a variable of the machine itself that the dry run knows (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
         if let Some(index) = given_parameter(name) {
             return self.is_given(index);

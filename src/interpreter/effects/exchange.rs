@@ -18,7 +18,7 @@ use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
 
-/// What an exchange command does.
+/// Kind of an exchange command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Exchange {
     /// The named axes come.
@@ -152,7 +152,7 @@ impl Interpreter {
             .return_to(&start, (axis, kinds), changes);
     }
 
-    /// What a name means after a request with this logical axis number, if that is known. An axis
+    /// Returns the axis of a name after a request with this logical axis number, if it is known. An axis
     /// of the machine without a number is taken to be the one of its name.
     fn requested(&self, name: &str, number: Option<u32>) -> Option<Meaning> {
         let number = number?;

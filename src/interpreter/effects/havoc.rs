@@ -1,4 +1,4 @@
-//! What becomes unknown (R2.50, R2.70).
+//! Transitions to the unknown (R2.50, R2.70).
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::syntax::ast::Effect as Unread;
 use crate::text::Span;
 
 impl Interpreter {
-    /// What text could change that is not known here (R2.70).
+    /// Makes unknown what text of unknown meaning could change (R2.70).
     pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Arc<str>) {
         match effect {
             Unread::Everything => self.havoc_all(cause),

@@ -8,7 +8,7 @@ use crate::interpreter::values::value::rounded;
 use crate::machine::Machine;
 use crate::syntax::ast::Hash;
 
-/// What a command writes.
+/// Target of a write to the machine data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Written {
     /// A parameter of friction compensation.
@@ -30,7 +30,7 @@ pub(in crate::interpreter) fn is_machine_data(name: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
 }
 
-/// What the text of a command writes.
+/// Returns the target in the text of a command.
 pub(in crate::interpreter) fn written(text: &str) -> Written {
     let text = text.to_ascii_lowercase();
     let is_friction = text.contains("frict_comp") || text.contains("p-axis-00522");

@@ -1,4 +1,4 @@
-//! What a part of a block does to the run, and what it makes unknown.
+//! The effects of parts of a block on the run, and the unknown state that they leave.
 
 pub(super) mod called_words;
 pub(super) mod couple;

@@ -1,4 +1,4 @@
-//! Where unknown values come from, and what was said about them (R2.95).
+//! Origins of unknown values, and the messages on them (R2.95).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What a host may ask where a run stands between two blocks.
+//! Questions of a host to a run that has stopped between two blocks.
 
 use std::sync::Arc;
 

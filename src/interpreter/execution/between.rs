@@ -1,4 +1,4 @@
-//! What happens to the state between two programs: a reset of the channel, a restart of the control.
+//! The events between two programs: a reset of the channel, a restart of the control.
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -14,7 +14,7 @@ impl Interpreter {
         self.version += 1;
     }
 
-    /// What a reset does to friction compensation, where the machine is read so (R1.28).
+    /// Resets friction compensation, where the machine is read so (R1.28).
     pub(in crate::interpreter) fn reset_friction(&mut self) {
         if self.machine.readings.takes_second(Question::Reset) {
             for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {

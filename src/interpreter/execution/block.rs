@@ -22,7 +22,8 @@ use crate::syntax::ast::Item;
 use crate::text::Span;
 
 impl Interpreter {
-    /// What moves with the axis words of a block, and whether each axis may.
+    /// Checks the motion of the axes of a block: the axes that move with its words, and whether
+    /// each may.
     #[inline]
     fn look_at_motion(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         if self.scratch.again != 0 {
@@ -41,7 +42,7 @@ impl Interpreter {
         }
     }
 
-    /// What ways that meet here leave is said, and the block counted.
+    /// Begins a block: says what joining ways leave, and counts the block.
     #[inline]
     fn begin_block(&mut self, finder: &mut dyn Finder) {
         self.scratch.clear();
@@ -168,7 +169,7 @@ impl Interpreter {
         }
     }
 
-    /// What the block makes unknown, because it may call, or leave for, something else.
+    /// Makes unknown the effects of a block that may call, or leave for, something else.
     #[inline]
     fn havoc_ways(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) {
         if !self.pending.is_empty() {
@@ -183,8 +184,8 @@ impl Interpreter {
         }
     }
 
-    /// What a block that did more than move says at its end: how much it left unsaid, and which
-    /// budget it used up. Whether it used up one.
+    /// Finishes a block that did more than move: says the number of messages left out, and the
+    /// budget that is used up. Returns whether one is.
     #[inline(never)]
     fn settle(&mut self, at: &BlockContext<'_>) -> bool {
         if let Some((span, more)) = self.scratch.unsaid.take() {
@@ -204,7 +205,7 @@ impl Interpreter {
         true
     }
 
-    /// What the control does next, where that is not the next block.
+    /// Returns the next step of the control, where that is not the next block.
     #[inline(never)]
     fn step(
         &mut self,
@@ -256,7 +257,7 @@ impl Interpreter {
         (has_label || at.block.number.is_some()) && names_target(text, at.text)
     }
 
-    /// What the block changed is known by itself.
+    /// Drops the sets of states that a change by the block has decided.
     fn replace_possible(&mut self) {
         let possible = &mut self.state.control.possible;
         for change in &self.scratch.changes {

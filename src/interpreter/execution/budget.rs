@@ -1,4 +1,4 @@
-//! What a run may use up (R2.60).
+//! The budgets of a run (R2.60).
 
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
 use crate::interpreter::programs::index::EntryIndex;

@@ -1,4 +1,4 @@
-//! How programs are entered and left.
+//! Entry to and return from programs.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

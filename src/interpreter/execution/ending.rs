@@ -32,7 +32,7 @@ impl Interpreter {
         self.ended(ended_by(&refused.said), &refused, observer)
     }
 
-    /// What keeps the main program from running at all.
+    /// Returns the faults that keep the main program from running at all.
     pub(in crate::interpreter) fn refused(&self) -> Collected {
         let main = self.programs.units().first();
         main.map_or(Collected::default(), |unit| unit.index.refused.clone())

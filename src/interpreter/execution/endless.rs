@@ -26,7 +26,7 @@ use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::work_budget::ITEM;
 
-/// How many passes the state may take to come back to what it was.
+/// Greatest number of passes after which a repeated state is recognised.
 const LONGEST_PERIOD: u64 = 8;
 
 /// The weight of values beyond which nothing is compared.
@@ -35,8 +35,8 @@ const MAX_WEIGHT: usize = 10_000;
 /// The passes after which a loop is left that a value of the machine may end, whatever its state.
 const MOST_PASSES: u64 = 1 << 20;
 
-/// How often a loop is run until its state repeats. One that is left more often stands in another
-/// loop, and nested loops must not multiply their passes.
+/// Number of passes that a loop is run until its state repeats. A loop that is left more often
+/// stands in another loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
 
 /// Passes of a loop that is left on other ways and whose own condition is known.
@@ -177,7 +177,7 @@ impl Interpreter {
         }
     }
 
-    /// What only counts has any value where other ways have left a loop that is not run to its end.
+    /// Makes counters unknown where other ways have left a loop that is not run to its end.
     fn lose_counters(&mut self, counters: &[Target], since: u64) {
         let cause: Arc<str> = "a loop that is repeated".into();
         let ended = self.state.ended.iter_mut().map(|ended| &mut ended.path);
@@ -276,7 +276,7 @@ impl Interpreter {
         (found.times >= RUN_THROUGH).then(|| found.cause.clone())
     }
 
-    /// Where the innermost loop may be left.
+    /// Returns a place where the innermost loop may be left.
     fn way_out(&self) -> Option<WayOut> {
         let last = self.state.track.loops.last()?;
         self.state
@@ -376,7 +376,7 @@ impl Interpreter {
             .with_help(Advice::EndLoop)
     }
 
-    /// How often the loop that begins at a block was repeated.
+    /// Returns the number of repetitions of the loop that begins at a block.
     pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
         let loops = self.state.track.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
@@ -385,8 +385,8 @@ impl Interpreter {
     }
 }
 
-/// What differs from the state of the moment, where that only counts; `None` where anything
-/// else differs.
+/// Returns the differences from the present state if they are counters; `None` where anything else
+/// differs.
 fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
     if mark.occurred != state.occurred {
         return None;

@@ -1,4 +1,4 @@
-//! What one program leaves to the next (R2.34, R9.32).
+//! The state handed from one program to the next (R2.34, R9.32).
 
 use crate::comp::AxisIndex;
 use crate::interpreter::run::carried_ways::CarriedWays;
@@ -6,7 +6,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::carried::Carried;
 
 impl Interpreter {
-    /// What the next program finds.
+    /// Returns the state that the next program finds.
     pub fn carried(&self) -> Carried {
         let name = |axis: &AxisIndex| self.machine.axis(*axis).name.clone();
         let couplings = self.state.control.couplings.groups();

@@ -1,4 +1,4 @@
-//! Where the ways through the program end.
+//! The ends of the ways through the program.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::run::block_scratch::OwnEnd;

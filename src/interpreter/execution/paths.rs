@@ -131,7 +131,7 @@ impl Interpreter {
         deciding.max().or_else(|| both.iter().copied().max())
     }
 
-    /// What differs where two ways met becomes a message, once for each condition (FC901).
+    /// Says, once for each condition, what differs where two ways join (FC901).
     pub(in crate::interpreter) fn tell_join(
         &mut self,
         met: &[ControlState; 2],

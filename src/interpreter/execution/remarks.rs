@@ -10,8 +10,8 @@ use crate::syntax::{LostRemarks, Remark, allow};
 use crate::text::{Place, changed_direction};
 
 impl Interpreter {
-    /// What there is to say about the `%` lines of the main file; about such comments in all files,
-    /// or up to the last block of each that was reached where the rest is not checked.
+    /// Returns the messages on the `%` lines of the main file, and on comments for this tool in all
+    /// files, or up to the last block of each that was reached where the rest is not checked.
     pub(in crate::interpreter) fn beside_blocks(&mut self) -> Collected {
         let mut said = std::mem::take(&mut self.lost);
         if let Some(main) = self.programs.units().first() {

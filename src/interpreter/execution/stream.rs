@@ -22,7 +22,7 @@ use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{BlockReader, ControlBlock, RawBlock, Stretch};
 use crate::text::{LineSource, SourceFile};
 
-/// How far the program has come.
+/// Progress of the program.
 #[derive(Clone, Copy)]
 enum Stage {
     /// Nothing was read yet.
@@ -45,7 +45,7 @@ impl Stage {
     }
 }
 
-/// How far the program has come, and what there is to say about blocks after its end.
+/// Progress of the program, and the messages on blocks after its end.
 struct Progress {
     stage: Stage,
     notes: Collected,

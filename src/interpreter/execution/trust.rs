@@ -17,7 +17,7 @@ const MOST_COUNTED: u64 = 1 << 60;
 /// The line numbers of a text stay below this.
 const MOST_LINES: u32 = 1 << 31;
 
-/// What a state names that is not there.
+/// Verdict on a saved state, with the missing item that it names.
 type Doubt = Result<(), &'static str>;
 
 impl Interpreter {

@@ -1,4 +1,4 @@
-//! How the index of a program is made: control blocks are paired, labels and jumps noted.
+//! Construction of the index of a program: control blocks are paired, labels and jumps noted.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ struct Open {
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
-    /// How many are open up to the innermost one of each kind, so that nobody looks through all of them.
+    /// Number of open blocks up to the innermost one of each kind, so that none has to be searched.
     innermost: [usize; ControlBlock::ALL.len()],
 }
 
@@ -79,7 +79,7 @@ impl<'a> Statement<'a> {
         self.span.of(self.text)
     }
 
-    /// What it begins with, `$` or `#`.
+    /// Returns the sign of its statements, `$` or `#`.
     fn sign(self) -> char {
         self.word().chars().next().unwrap_or('$')
     }
@@ -214,7 +214,7 @@ impl Builder {
         }
     }
 
-    /// What is not closed, unless it is misspelt, which the block says itself.
+    /// Refuses an opener without an end, unless it is misspelt, which the block says itself.
     fn refuse_open(&mut self, open: &Open) {
         if let Some(fault) = not_closed(open) {
             self.refuse(open.opener, fault);

@@ -1,4 +1,4 @@
-//! Where called programs come from: the library opens no file itself.
+//! The source of called programs: the library opens no file itself.
 
 use crate::text::SourceFile;
 

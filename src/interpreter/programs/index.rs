@@ -49,7 +49,7 @@ pub(in crate::interpreter) struct Section {
     pub(in crate::interpreter) end: EntryIndex,
 }
 
-/// Which statements belong to one control block.
+/// Statements of one control block.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::interpreter) struct Links {
     /// The statement that opened the control block.
@@ -98,17 +98,17 @@ pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) remarks: HashMap<EntryIndex, Remark>,
     /// Comments that speak to this tool and stand above no block.
     pub(in crate::interpreter) lost: LostRemarks,
-    /// Where the branches of each `#IF` end.
+    /// Ends of the branches of each `#IF`.
     pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
     /// The blocks with a skip mark, with their levels.
     pub(in crate::interpreter) skips: BTreeMap<EntryIndex, u8>,
     /// The openers of control blocks of which another part has a skip mark, with its level.
     pub(in crate::interpreter) split: BTreeMap<EntryIndex, u8>,
-    /// What there is to say about the `%` lines.
+    /// Messages on the `%` lines.
     pub(in crate::interpreter) openings: Collected,
     /// The section that a run of the file executes.
     pub(in crate::interpreter) main: Option<usize>,
-    /// What keeps the program from running at all.
+    /// Faults that keep the program from running at all.
     pub(in crate::interpreter) refused: Collected,
 }
 
@@ -243,7 +243,7 @@ impl Index {
         self.loops.iter().filter(around).max().copied()
     }
 
-    /// Where the branches of an `#IF` end.
+    /// Returns the end of the branches of an `#IF`.
     pub(in crate::interpreter) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
         self.interpreted.get(&entry).copied()
     }

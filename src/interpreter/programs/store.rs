@@ -13,17 +13,17 @@ use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::syntax::ast::{Block, CallScope};
 use crate::syntax::{Comments, Fault, Stretch};
 
-/// How many names a run compares with those of calls that find nothing.
+/// Limit of the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
 
-/// How many parsed blocks a run keeps.
+/// Limit of the parsed blocks that a run keeps.
 pub(in crate::interpreter) const MAX_KEPT: usize = 100_000;
 
 /// Units of work that a byte of a program in memory brings with it: its regions may have to be
 /// looked through once.
 const PER_BYTE_HELD: u64 = 16;
 
-/// What calls a program.
+/// Caller of a program.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::interpreter) struct Caller<'a> {
     pub(in crate::interpreter) unit: usize,
@@ -35,17 +35,17 @@ pub(in crate::interpreter) struct Caller<'a> {
 #[derive(Clone, Default)]
 pub(in crate::interpreter) struct Programs {
     units: Vec<Unit>,
-    /// How deep control blocks may be nested.
+    /// Depth of nested control blocks.
     nesting: u32,
     /// The files by name.
     names: HashMap<Arc<str>, usize>,
-    /// Which file a call by name from a file meant.
+    /// File that a call by name from a file meant.
     found: BTreeMap<(String, String), usize>,
-    /// Which calls found none, and why.
+    /// Calls that found no file, with the reason.
     missing: BTreeMap<(String, String), NoProgram>,
     /// The blocks of sections by their numbers, where those were asked for.
     numbers: HashMap<ProgramId, HashMap<i64, EntryIndex>>,
-    /// How many parsed blocks are kept.
+    /// Number of parsed blocks kept.
     kept: usize,
     /// Bytes of the texts.
     held_text: u64,
@@ -306,7 +306,7 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
     })
 }
 
-/// How a program is passed over that only the machine has (R2.83).
+/// Returns the remark on a program that only the machine has and that is passed over (R2.83).
 fn on_machine_only(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     format!(

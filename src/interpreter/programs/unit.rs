@@ -15,7 +15,7 @@ pub(in crate::interpreter) struct Unit {
     pub(in crate::interpreter) kept: Vec<Option<Arc<Parsed>>>,
     /// Blocks below this one were executed before.
     pub(in crate::interpreter) high: EntryIndex,
-    /// Which blocks were executed, where that is asked for.
+    /// Executed blocks, where they are requested.
     pub(in crate::interpreter) executed: Vec<bool>,
     /// Control blocks whose branch is not known offline.
     pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
@@ -39,7 +39,7 @@ impl Unit {
 /// A parsed block with its text and its place.
 pub(in crate::interpreter) struct Parsed {
     pub(in crate::interpreter) block: Block,
-    /// What it takes to execute it again.
+    /// Work of executing it again.
     pub(in crate::interpreter) weight: u64,
     pub(in crate::interpreter) file: Arc<str>,
     pub(in crate::interpreter) line: u32,

@@ -1,4 +1,4 @@
-//! What a block asks for when it calls a program.
+//! The program that a block calls.
 
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ pub(in crate::interpreter) struct Wanted {
     pub(in crate::interpreter) name: String,
     pub(in crate::interpreter) own: BTreeMap<u32, Value>,
     pub(in crate::interpreter) span: Span,
-    /// Where its name stands, if the block itself has it.
+    /// Span of the name, if the block itself has it.
     pub(in crate::interpreter) named: Option<Span>,
     /// Whether it is a cycle.
     pub(in crate::interpreter) form: CallForm,
@@ -65,7 +65,7 @@ impl Wanted {
     }
 }
 
-/// What `L SEQUENCE` asks for.
+/// The part of a program that `L SEQUENCE` calls.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct Part {
     pub(in crate::interpreter) first: LabelName,

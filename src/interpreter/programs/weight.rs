@@ -1,4 +1,4 @@
-//! What it takes to execute a block again, so that loops end after about the same time whatever they
+//! The work of executing a block again, by which loops end after about the same time whatever they
 //! repeat (R9.91). A unit is about a nanosecond of a processor of this decade.
 
 use crate::syntax::allow::MARK;

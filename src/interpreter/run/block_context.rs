@@ -1,4 +1,4 @@
-//! Where a block stands, and the places in it that messages are about.
+//! The position of a block, and the places in it that messages are about.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -19,9 +19,9 @@ pub(in crate::interpreter) struct BlockContext<'a> {
     pub(in crate::interpreter) remark: Option<&'a Remark>,
     pub(in crate::interpreter) level: u32,
     pub(in crate::interpreter) called_from: Option<&'a Place>,
-    /// How many macros lie around the code.
+    /// Number of macros around the code.
     pub(in crate::interpreter) macro_depth: u32,
-    /// Where the outermost of them is used in the block.
+    /// Span of the use of the outermost of them in the block.
     pub(in crate::interpreter) used: Option<Span>,
     /// The lines of the text that messages showed last.
     pub(in crate::interpreter) shown: &'a Shown,
@@ -31,7 +31,7 @@ pub(in crate::interpreter) struct BlockContext<'a> {
 pub(in crate::interpreter) struct MacroCode<'a> {
     pub(in crate::interpreter) text: &'a str,
     pub(in crate::interpreter) block: &'a Block,
-    /// How many macros lie around it, its own included.
+    /// Number of macros around it, its own included.
     pub(in crate::interpreter) depth: u32,
 }
 
@@ -42,7 +42,7 @@ pub(in crate::interpreter) struct Shown(RefCell<Option<Lines>>);
 
 #[derive(Debug)]
 struct Lines {
-    /// Where they start in the block's text.
+    /// Offset of their start in the block's text.
     from: usize,
     to: usize,
     /// The number of the first of them.

@@ -1,4 +1,4 @@
-//! What the execution of one block needs and yields.
+//! The inputs and results of the execution of one block.
 
 use std::cell::{Cell, RefCell};
 
@@ -34,11 +34,11 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) block: Block,
     pub(in crate::interpreter) outcomes: Vec<Outcome>,
     pub(in crate::interpreter) changes: Vec<Change>,
-    /// What may or may not have been switched.
+    /// Kinds that may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
     /// The axes that it moves, or may, without a word of their own.
     pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
-    /// How its axis words move, where the G functions in force do not say it.
+    /// Motion of its axis words, where the G functions in force do not decide it.
     pub(in crate::interpreter) word_row: Option<Row>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
@@ -51,18 +51,18 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
     pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
-    /// What of the block may or may not be executed.
+    /// Parts of the block that may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
-    /// How many messages about the last block there were.
+    /// Number of messages on the last block.
     pub(in crate::interpreter) said: u64,
-    /// How many messages about the block are not said, and where the first of them belongs.
+    /// Number of messages on the block that are left out, and the place of the first of them.
     pub(in crate::interpreter) unsaid: Option<(Span, u64)>,
     pub(in crate::interpreter) stack: Vec<Result<Value, Box<Fault>>>,
     /// I, J, K, R and the like, where the block has any.
     pub(in crate::interpreter) geometry: Option<Geometry>,
     /// Whether the block is G04 or `#TIME`.
     pub(in crate::interpreter) dwells: bool,
-    /// What the block moves, where motions are taken.
+    /// Motion of the block, where motions are taken.
     pub(in crate::interpreter) motion: Option<Motion>,
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
     /// The states of compensation that its expressions read.
@@ -76,7 +76,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block that says that the program ends.
     pub(in crate::interpreter) end: Option<OwnEnd>,
-    /// What ended the run or a way through it: a budget, or the end of a file without M30.
+    /// Messages on the end of the run or of a way through it: a budget, or the end of a file
+    /// without M30.
     pub(in crate::interpreter) over: Vec<Diagnostic>,
     /// Whether another way does what this one would do from here on.
     pub(in crate::interpreter) covered: bool,
@@ -91,7 +92,7 @@ pub(in crate::interpreter) struct BlockScratch {
 }
 
 impl BlockScratch {
-    /// What there was to say about the block is said; what is left at program end belongs to no block.
+    /// Clears the messages on the block; those left at program end belong to no block.
     pub(in crate::interpreter) fn clear_said(&mut self) {
         self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
         self.diagnostics.clear();

@@ -1,4 +1,4 @@
-//! Which axes the channel has, and under which names.
+//! The axes of the channel and their names.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ impl ChannelAxes {
     }
 }
 
-/// What a name of an axis means.
+/// Meaning of an axis name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Meaning {
     /// This axis of the machine, whatever its own name is.
@@ -40,7 +40,7 @@ pub(in crate::interpreter) enum Meaning {
     Unknown,
 }
 
-/// Which axis a COMP command switches.
+/// Axis that a COMP command switches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Addressed {
     /// This one.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::text::Place;
 
-/// What asks.
+/// Kind of the asking statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum ConditionKind {
     /// `$IF`, `$ELSEIF`, `#IF`.
@@ -26,7 +26,7 @@ pub(in crate::interpreter) enum ConditionKind {
 pub(in crate::interpreter) struct Condition {
     pub(in crate::interpreter) kind: ConditionKind,
     pub(in crate::interpreter) place: Place,
-    /// What is asked: its text for each answer but the last, which is that none of them holds.
+    /// Text of the condition for each answer but the last, which is that none of them holds.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     /// The value that decides.
     pub(in crate::interpreter) cause: Arc<str>,

@@ -1,4 +1,4 @@
-//! What the control has at a moment, as far as the blocks of programs can see or change it.
+//! The state of the control at a moment, as far as blocks of programs can see or change it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -26,15 +26,15 @@ use crate::interpreter::values::value::Value;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) compensation: Compensation,
-    /// What of it is unknown because ways differ.
+    /// Kinds that are unknown because ways differ.
     pub(in crate::interpreter) possible: Possible,
-    /// What of it is as the program found it.
+    /// Kinds that are as the program found them.
     pub(in crate::interpreter) untouched: Untouched,
     pub(in crate::interpreter) memory: Memory,
     pub(in crate::interpreter) modal: Modal,
     pub(in crate::interpreter) frames: CallStack,
     pub(in crate::interpreter) couplings: Couplings,
-    /// What the names of axes mean, until the program ends.
+    /// Meanings of axis names, until the program ends.
     pub(in crate::interpreter) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
     pub(in crate::interpreter) cycles: ModalCycles,
@@ -42,7 +42,7 @@ pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) refused: BTreeSet<usize>,
     /// Set while the configured end program runs.
     pub(in crate::interpreter) ending: Option<EndedBy>,
-    /// What `#FILE NAME` says that a word calls, until the program ends.
+    /// Programs that `#FILE NAME` assigns to words, until the program ends.
     pub(in crate::interpreter) named: BTreeMap<String, Value>,
     /// G functions and positions before a contour description, inside it.
     pub(in crate::interpreter) described: Option<Box<Description>>,

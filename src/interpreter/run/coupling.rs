@@ -16,9 +16,9 @@ pub(in crate::interpreter) struct Couplings {
     groups: BTreeMap<String, Group>,
     /// The groups in force, in the order in which they were enabled.
     enabled: BTreeMap<u64, String>,
-    /// How many groups in force couple each axis.
+    /// Number of groups in force that couple each axis.
     holding: BTreeMap<AxisIndex, u32>,
-    /// How often a group was enabled.
+    /// Number of times a group was enabled.
     turns: u64,
     /// Every axis that a group ever named.
     named: BTreeSet<AxisIndex>,
@@ -71,7 +71,7 @@ impl Couplings {
             || !self.strays.is_empty()
     }
 
-    /// Which axes follow which.
+    /// Returns the followers of each axis.
     pub(in crate::interpreter) fn links(&self) -> Vec<Link> {
         let groups = self
             .enabled
@@ -135,7 +135,7 @@ impl Couplings {
         self.doubted || !self.enabled.is_empty()
     }
 
-    /// How many groups are defined.
+    /// Returns the number of defined groups.
     pub(in crate::interpreter) fn len(&self) -> usize {
         self.groups.len()
     }

@@ -22,7 +22,7 @@ pub(in crate::interpreter) struct Repeated {
     pub(in crate::interpreter) after_motion_only: bool,
 }
 
-/// What a modal cycle calls.
+/// Program that a modal cycle calls.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum RepeatedCall {
     /// A program that is at hand.
@@ -84,7 +84,7 @@ impl ModalCycles {
     }
 }
 
-/// What a call repeats after.
+/// Returns whether a call repeats after motion only.
 pub(in crate::interpreter) fn after_motion_only(call: &Call) -> Option<bool> {
     match call.repetition {
         Repetition::Once => None,

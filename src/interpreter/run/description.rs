@@ -8,9 +8,9 @@ use crate::text::Place;
 /// A description of geometry whose blocks do not move (R2.81).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Description {
-    /// What opened it, `#CONTOUR BEGIN`.
+    /// Command that opened it, `#CONTOUR BEGIN`.
     pub(in crate::interpreter) opener: String,
     pub(in crate::interpreter) place: Place,
-    /// What was in force before it.
+    /// State in force before it.
     pub(in crate::interpreter) before: Modal,
 }

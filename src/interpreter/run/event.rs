@@ -1,4 +1,4 @@
-//! What the interpreter tells while it runs.
+//! The events of a run.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -55,7 +55,7 @@ impl fmt::Display for EndedBy {
     }
 }
 
-/// What became of a COMP command.
+/// Result of a COMP command.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Outcome {
@@ -63,11 +63,11 @@ pub struct Outcome {
     pub command: CompCommand,
     /// The axis, or the control's refusal.
     pub result: Result<AxisIndex, CompensationError>,
-    /// How many of the block's changes it made.
+    /// Number of the block's changes that it made.
     pub changes: usize,
 }
 
-/// What a run came across that a user may want to look at.
+/// Finding of a run that a user may want to look at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Note {
@@ -75,7 +75,7 @@ pub struct Note {
     pub kind: NoteKind,
     /// The value's name, or the word that was passed over.
     pub name: String,
-    /// Where it stands.
+    /// Place of the finding.
     pub place: Place,
 }
 
@@ -99,7 +99,7 @@ pub enum Notes {
     Taken,
 }
 
-/// What is seldom asked about a block.
+/// Details of a block that are rarely requested.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Aside {
     /// The axis words of the last block that moved before it, unless the axes have come to rest since.
@@ -134,19 +134,19 @@ pub struct Executed<'a> {
     pub number: Option<i64>,
     /// The call depth, from 1; absent in the main program.
     pub level: Option<u32>,
-    /// What stands in it.
+    /// Tree of the block.
     pub block: &'a Block,
     /// Its COMP commands, from left to right, as far as it was executed.
     pub outcomes: &'a [Outcome],
-    /// What it changed.
+    /// Changes by the block.
     pub changes: &'a [Change],
-    /// What it leaves unknown, though no command of it names that (R2.51).
+    /// Kinds that the block leaves unknown though no command of it names them (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
     /// Its axis words, as far as they move; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
     /// The axes that have a word in it, a bit each by their positions modulo 64.
     pub(crate) named: u64,
-    /// What is seldom asked about it.
+    /// Details that are rarely requested.
     pub(crate) aside: &'a Aside,
     /// Whether the axes come to rest in it, or may.
     pub(crate) rests: bool,
@@ -154,21 +154,21 @@ pub struct Executed<'a> {
     /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
     /// here (R10.7, R2.51, R2.52).
     pub also_moved: &'a [MovedAxis],
-    /// How its axis words move, where the G functions in force do not say it.
+    /// Motion of its axis words, where the G functions in force do not decide it.
     pub word_motion: Option<MotionKind>,
-    /// What it makes the machine do, where motions are taken.
+    /// Motion of the block, where motions are taken.
     pub motion: Option<&'a Motion>,
     /// The notes on it, where they are taken.
     pub notes: &'a [Note],
-    /// What is to be said about it, in no order.
+    /// Messages on the block, in no order.
     pub diagnostics: &'a [Diagnostic],
     /// Whether an error stopped the program in this block.
     pub stopped: bool,
     /// The state after it.
     pub compensation: &'a Compensation,
-    /// What of it is unknown because ways differ, with the states that are possible.
+    /// Kinds that are unknown because ways differ, with their possible states.
     pub possible: &'a [PossibleStates],
-    /// Where the state is the one that the program found.
+    /// Kinds in the state that the program found.
     pub(crate) found: FoundStates<'a>,
     /// The answers of the machine that lead here, where the block is executed on some ways only.
     pub branch: Option<&'a [Vec<WayCondition>]>,
@@ -197,7 +197,7 @@ impl Executed<'_> {
         possible.find(|it| it.axis == axis && it.kind == kind)
     }
 
-    /// How its axis words move.
+    /// Returns the kind of motion of its axis words.
     #[inline]
     fn word_kind(&self) -> MotionKind {
         match self.word_motion {
@@ -213,13 +213,13 @@ impl Executed<'_> {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Joined<'a> {
-    /// How many blocks of the program were executed before.
+    /// Number of blocks of the program executed before.
     pub seq: u64,
     /// The block at which they meet.
     pub place: &'a Place,
     /// The state that all of them may leave.
     pub compensation: &'a Compensation,
-    /// What of it is unknown because ways differ, with the states that are possible.
+    /// Kinds that are unknown because ways differ, with their possible states.
     pub possible: &'a [PossibleStates],
     /// The axes that occurred so far.
     pub occurred: &'a [bool],
@@ -235,8 +235,8 @@ pub struct ProgramEnd {
     pub place: Place,
     /// Whether no jump goes to that block, so that what is written before it comes before the end.
     pub is_passed_into: bool,
-    /// What only the machine knows and decides whether the program ends there; `None` for the end of
-    /// the dry run.
+    /// Value that only the machine knows and that decides whether the program ends there; `None`
+    /// for the end of the dry run.
     pub cause: Option<Arc<str>>,
     /// The state that is left there.
     pub compensation: Compensation,
@@ -246,7 +246,7 @@ pub struct ProgramEnd {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Ended<'a> {
-    /// How many blocks were executed.
+    /// Number of executed blocks.
     pub seq: u64,
     /// Why.
     pub by: EndedBy,
@@ -256,15 +256,15 @@ pub struct Ended<'a> {
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
-    /// What program end changed itself.
+    /// Changes by the program end itself.
     pub changes: &'a [Change],
-    /// What is to be said about the program and belongs to no executed block.
+    /// Messages on the program that belong to no executed block.
     pub diagnostics: &'a [Diagnostic],
-    /// How many more messages of the kind there are, by code (R2.85).
+    /// Number of further messages by code (R2.85).
     pub unsaid: &'a BTreeMap<Code, u64>,
     /// The state that is left.
     pub compensation: &'a Compensation,
-    /// What of it is unknown because ways differ, with the states that are possible.
+    /// Kinds that are unknown because ways differ, with their possible states.
     pub possible: &'a [PossibleStates],
     /// The axes that occurred so far.
     pub occurred: &'a [bool],
@@ -272,7 +272,7 @@ pub struct Ended<'a> {
     pub version: u64,
 }
 
-/// What the interpreter tells.
+/// Event of a run.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Event<'a> {
@@ -282,7 +282,7 @@ pub enum Event<'a> {
         name: Option<&'a str>,
         /// The state that it starts with.
         compensation: &'a Compensation,
-        /// What of it is unknown because ways differ, with the states that are possible.
+        /// Kinds that are unknown because ways differ, with their possible states.
         possible: &'a [PossibleStates],
         /// The axes that occurred so far.
         occurred: &'a [bool],

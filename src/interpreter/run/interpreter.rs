@@ -63,22 +63,22 @@ pub struct Interpreter {
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: Programs,
-    /// Where a main program that is read line by line goes on.
+    /// Label at which a main program that is read line by line goes on.
     pub(in crate::interpreter) sought: Option<PendingLabel>,
     /// Calls in regions that may or may not be executed.
     pub(in crate::interpreter) pending: Vec<Scan>,
     /// Ways that leave at the block that is executed.
     pub(in crate::interpreter) departing: Vec<Branch>,
-    /// Where the answers to the condition of the block lead that is executed.
+    /// Targets of the answers to the condition of the current block.
     pub(in crate::interpreter) sides: Vec<BranchSide>,
     /// The states that are possible, as users see them, and where they count.
     pub(in crate::interpreter) shown: Shown,
-    /// What there is to say about ways that met before the block that is executed.
+    /// Messages on ways that joined before the current block.
     pub(in crate::interpreter) met: Vec<Diagnostic>,
     /// The same where it was said before, or where nothing differs.
     pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
     pub(in crate::interpreter) regions: Regions,
-    /// What there is to say about lines that are no blocks and not kept.
+    /// Messages on lines that are not blocks and not kept.
     pub(in crate::interpreter) lost: Collected,
     pub(in crate::interpreter) journal: Journal,
     pub(in crate::interpreter) state: State,
@@ -86,7 +86,7 @@ pub struct Interpreter {
     pub(in crate::interpreter) scratch: BlockScratch,
 }
 
-/// What is shown of the ways that lead to a block.
+/// Ways to a block, as far as they are shown.
 #[derive(Debug, Clone, Default)]
 pub(in crate::interpreter) struct Shown {
     version: u64,
@@ -255,7 +255,7 @@ impl Interpreter {
         self.state.blocks
     }
 
-    /// What was passed over, by word.
+    /// Returns the words passed over, with their number.
     pub fn opaque(&self) -> &BTreeMap<String, u64> {
         &self.state.opaque
     }
@@ -367,7 +367,7 @@ impl Interpreter {
         self.state.effort.spent()
     }
 
-    /// How high the level of work may rise.
+    /// Returns the limit of the level of work.
     pub(in crate::interpreter) fn work_bound(&self) -> u64 {
         let granted = self.programs.granted();
         self.options.limits.work.saturating_add(granted)

@@ -1,5 +1,5 @@
-//! What is kept about regions that were made unknown, so that a loop that comes back to one need not
-//! look at it again.
+//! Notes on regions that were made unknown, so that a loop that comes back to one does not examine
+//! it again.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,8 +21,8 @@ pub(in crate::interpreter) struct Scan {
     pub(in crate::interpreter) region: Option<RegionKey>,
 }
 
-/// What was written since regions were made unknown last: a loop that comes back to a region need
-/// only look at that.
+/// Writes since regions were last made unknown: a loop that comes back to a region examines only
+/// these.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Journal {
     written: Vec<Target>,
@@ -62,7 +62,7 @@ impl Journal {
         self.seen.clear();
     }
 
-    /// What was written since the region was made unknown last; `None` where that is not known.
+    /// Returns the writes since the region was last made unknown; `None` where they are not known.
     pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[Target]> {
         let &(epoch, from) = self.seen.get(&key)?;
         (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
@@ -76,7 +76,7 @@ impl Journal {
 /// A file and a range of its blocks.
 pub(in crate::interpreter) type RegionKey = (usize, EntryIndex, EntryIndex);
 
-/// How long the list may become.
+/// Limit of the list.
 const MAX_WRITTEN: usize = 4096;
 
 /// Regions that were looked through.

@@ -1,4 +1,4 @@
-//! What a run may use up (R2.60).
+//! The limits of a run (R2.60).
 
 /// Bounds on what a dry run may do (R2.60).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What a run consists of, as data, and what it tells.
+//! The parts of a run, as data, and its events.
 
 pub(super) mod block_context;
 pub(super) mod block_scratch;

@@ -1,11 +1,11 @@
-//! How programs are run, and how a run goes on.
+//! The options of a run, and its outcome.
 
 use super::event::{EndedBy, Notes};
 use super::limits::Limits;
 use crate::interpreter::coordinates::motion::Motions;
 use crate::syntax::{FastPath, SkipLevels};
 
-/// What happens at an error of the control (R9.20).
+/// Reaction to an error of the control (R9.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum StopPolicy {
@@ -18,7 +18,7 @@ pub enum StopPolicy {
     CheckAll,
 }
 
-/// What happens where a condition depends on what only the machine knows (R14.1).
+/// Treatment of a condition that depends on a value that only the machine knows (R14.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Branches {
@@ -30,11 +30,11 @@ pub enum Branches {
     Passed,
 }
 
-/// How programs are run.
+/// Options of a run.
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Options {
-    /// What happens at an error.
+    /// Reaction to an error.
     pub stop: StopPolicy,
     /// The skip levels that are on; without them those of the machine count. Where neither says
     /// them, it is unknown whether a block with a skip mark is executed (R2.90).
@@ -47,7 +47,7 @@ pub struct Options {
     pub notes: Notes,
     /// Whether blocks say what they move.
     pub motions: Motions,
-    /// What happens where a condition depends on what only the machine knows.
+    /// Treatment of a condition that depends on a value that only the machine knows.
     pub branches: Branches,
 }
 
@@ -95,7 +95,7 @@ impl Options {
     }
 }
 
-/// How a run goes on.
+/// Outcome of a call that runs a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RunOutcome {
@@ -107,7 +107,7 @@ pub enum RunOutcome {
     Stopped,
 }
 
-/// How the running program was handed over.
+/// Mode in which the running program is handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(in crate::interpreter) enum SourceMode {
     /// As a text in memory.

@@ -1,4 +1,4 @@
-//! What a block does after its words.
+//! The actions of a block after its words.
 
 use super::event::EndedBy;
 use super::step::Step;
@@ -17,7 +17,7 @@ pub(in crate::interpreter) enum Feed {
     Given(Option<f64>),
 }
 
-/// What a block does after its words.
+/// Actions of a block after its words.
 #[derive(Default)]
 pub(in crate::interpreter) struct BlockOutcome {
     /// M02, M30.
@@ -30,7 +30,7 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) calls: Vec<Wanted>,
     /// The G functions of the block, to find two of one group.
     pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
-    /// What axis words are: G04, G92 … make them something else than coordinates.
+    /// Meaning of the axis words: G04, G92 … make them something else than coordinates.
     pub(in crate::interpreter) axis_words: AxisWords,
     /// F, which may be unknown.
     pub(in crate::interpreter) feed: Feed,

@@ -19,14 +19,14 @@ use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
-/// How the run came to where it stands.
+/// The way of the run to its present block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Track {
     /// The loops that were repeated, the outermost first.
     pub(in crate::interpreter) loops: Vec<Loop>,
     /// The loops that were left where a value of the machine may end them.
     pub(in crate::interpreter) left_loops: Vec<LeftLoop>,
-    /// Where the control may have gone instead (R2.52).
+    /// Ways that the control may have taken instead (R2.52).
     pub(in crate::interpreter) ways: Ways,
     /// The answers of the machine that lead here.
     pub(in crate::interpreter) reach: WaySet,
@@ -100,7 +100,7 @@ impl Assumed {
         self.0.entry(target.clone()).or_insert(before);
     }
 
-    /// What was known without the conditions.
+    /// Withdraws the conclusions from conditions.
     pub(in crate::interpreter) fn undo(&mut self, memory: &mut Memory) {
         self.undo_but(&BTreeSet::new(), memory);
     }
@@ -237,7 +237,7 @@ impl Path {
         differing
     }
 
-    /// What only a condition says is not known where it does not say it on both ways.
+    /// Withdraws conclusions from a condition that does not hold on both ways.
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if mine != theirs {
@@ -280,7 +280,7 @@ pub(in crate::interpreter) enum Passed {
     Perhaps,
 }
 
-/// Where one answer of the machine leads.
+/// Target of one answer of the machine.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct BranchSide {
     /// The ways on which it is given.
@@ -309,8 +309,8 @@ impl BranchSide {
 }
 
 impl CallStack {
-    /// Which of two ways is executed first: the one that stands before the other in the text, a
-    /// called program before its caller goes on. `None` where they stand at the same block.
+    /// Returns whether a way is executed before another: the one that comes first in the text, a
+    /// called program before its caller goes on. `None` for two ways at the same block.
     pub(in crate::interpreter) fn comes_before(&self, other: &Self) -> Option<bool> {
         for (mine, theirs) in self.iter().zip(other.iter()) {
             match order(mine).cmp(&order(theirs)) {
@@ -333,7 +333,7 @@ impl CallStack {
     }
 }
 
-/// What orders two levels of call stacks.
+/// Returns the key that orders two levels of call stacks.
 fn order(frame: &Frame) -> impl Ord + use<> {
     let left = frame.passage.map_or(0, |passage| passage.left);
     let waiting = frame.waiting.len();
@@ -350,7 +350,7 @@ fn order(frame: &Frame) -> impl Ord + use<> {
 /// A loop that was repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Loop {
-    /// How many programs call each other down to the one that holds it.
+    /// Number of nested calls down to the program that holds it.
     pub(in crate::interpreter) depth: usize,
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) section: usize,
@@ -362,9 +362,10 @@ pub(in crate::interpreter) struct Loop {
     pub(in crate::interpreter) since: u64,
     /// The state at the start of an earlier pass.
     pub(in crate::interpreter) mark: Option<Box<Mark>>,
-    /// What only counts, once it is known that nothing else changes any more.
+    /// Counters, once it is known that nothing else changes any more.
     pub(in crate::interpreter) endless: Option<Vec<Target>>,
-    /// What all passes began with so far, where the loop is left on some ways (R14.3).
+    /// Join of the states at the beginnings of all passes, where the loop is left on some ways
+    /// (R14.3).
     pub(in crate::interpreter) covered: Option<Box<Path>>,
 }
 

@@ -88,7 +88,7 @@ impl Possible {
         self.0.get(&(axis, kind))
     }
 
-    /// What is known of kinds of an axis was replaced.
+    /// Replaces the possible states of kinds of an axis.
     pub(in crate::interpreter) fn replace(&mut self, axis: AxisIndex, kinds: KindSet) {
         if !self.is_empty() {
             self.0

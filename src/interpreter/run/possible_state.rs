@@ -34,7 +34,7 @@ pub struct PossibleState {
     /// The ways that lead to it, at most four, each a list of conditions that hold together; `None`
     /// for the state on all other ways.
     pub ways: Option<Vec<Vec<WayCondition>>>,
-    /// How many ways more lead to it.
+    /// Number of further ways to it.
     pub more: usize,
 }
 
@@ -73,7 +73,7 @@ pub enum WayCondition {
     },
 }
 
-/// What is asked in a block.
+/// Condition of a block.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub struct Asked {
@@ -132,8 +132,8 @@ impl PossibleStates {
         named.collect::<Vec<_>>().join(", ")
     }
 
-    /// When a state holds, as seen from a file: `if skip level 1 is on`, or `unless …` for the state on all
-    /// other ways.
+    /// Returns the condition for a state, as seen from a file: `if skip level 1 is on`, or `unless
+    /// …` for the state on all other ways.
     pub(crate) fn when(&self, is_it: impl Fn(State) -> bool, file: &str) -> Option<String> {
         let (those, others): (Vec<_>, Vec<_>) = self.states.iter().partition(|it| is_it(it.state));
         let those = those.first()?;

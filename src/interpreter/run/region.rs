@@ -1,4 +1,4 @@
-//! What a region of a program could change, and how it may be left (R2.51).
+//! The possible effects of a region of a program, and its exits (R2.51).
 
 use std::collections::HashSet;
 use std::hash::Hash;
@@ -31,7 +31,7 @@ pub(in crate::interpreter) enum Effect {
     Position(AxisIndex),
     /// The position of any axis.
     Positions,
-    /// What G92 set for an axis.
+    /// Offset of G92 for an axis.
     Reference(AxisIndex),
     /// A `#` command.
     Hash(String),
@@ -51,7 +51,7 @@ pub(in crate::interpreter) enum Effect {
     All,
 }
 
-/// How a region may be left other than at its end.
+/// Exit from a region other than its end.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(in crate::interpreter) enum Exit {
     /// A jump of the same program.
@@ -69,13 +69,13 @@ pub(in crate::interpreter) enum Exit {
 }
 
 impl Exit {
-    /// Where a jump to a label goes.
+    /// Returns the exit to a label.
     pub(in crate::interpreter) fn label(name: &str) -> Self {
         Self::Label(LabelName::Text(name.trim_matches(['[', ']']).to_owned()))
     }
 }
 
-/// What a region could change.
+/// Possible effects of a region.
 #[derive(Debug, Default)]
 pub(in crate::interpreter) struct Region {
     pub(in crate::interpreter) effects: Vec<Effect>,

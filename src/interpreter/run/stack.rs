@@ -30,9 +30,9 @@ pub(in crate::interpreter) struct Frame {
     pub(in crate::interpreter) own: BTreeMap<u32, Value>,
     /// Set between `$IF` or `$SWITCH` and the branch that is looked for.
     pub(in crate::interpreter) seeking: Option<Seeking>,
-    /// Where it was called.
+    /// Place of the call.
     pub(in crate::interpreter) called_from: Option<Place>,
-    /// What the end of a cycle brings back.
+    /// State that the end of a cycle restores.
     pub(in crate::interpreter) restores: Option<Box<saved::Saved>>,
     pub(in crate::interpreter) retains: Retains,
     /// Programs that are called before the next block, the first one last.
@@ -60,7 +60,7 @@ pub(in crate::interpreter) enum Retains {
     Perhaps,
 }
 
-/// What the next branch statement has to decide.
+/// Decision that the next branch statement has to make.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Seeking {
     /// A true condition.
@@ -170,7 +170,7 @@ impl CallStack {
         self.0.get_mut(depth.checked_sub(1)?)
     }
 
-    /// How many programs run.
+    /// Returns the number of nested programs.
     pub(in crate::interpreter) fn depth(&self) -> usize {
         self.0.len()
     }

@@ -16,9 +16,9 @@ use crate::interpreter::values::work_budget::WorkBudget;
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct State {
-    /// What the control has.
+    /// State of the control.
     pub(in crate::interpreter) control: ControlState,
-    /// How it came there.
+    /// The way to it.
     pub(in crate::interpreter) track: Track,
     /// The other ways that are still executed.
     pub(in crate::interpreter) pending: Vec<Path>,
@@ -42,7 +42,7 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) reads: RefCell<Reads>,
     /// The last executed block of the main program.
     pub(in crate::interpreter) last: Option<Last>,
-    /// What a paused run does first when it goes on.
+    /// First step of a paused run when it goes on.
     pub(in crate::interpreter) parked: Option<Step>,
     /// The unknown values that messages were about.
     pub(in crate::interpreter) told: Told,

@@ -1,4 +1,4 @@
-//! Where a block leads, where that is not to the next one.
+//! The step after a block, where that is not to the next one.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::interpreter::values::value::Value;
 use crate::syntax::ast::CallForm;
 use crate::text::Place;
 
-/// What the control does after a block, where that is not the next one.
+/// Step of the control after a block, where that is not the next one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Step {
     /// The program was announced and has not begun.
@@ -51,9 +51,9 @@ pub(in crate::interpreter) struct Request {
 pub(in crate::interpreter) struct Passage {
     pub(in crate::interpreter) first: EntryIndex,
     pub(in crate::interpreter) last: EntryIndex,
-    /// How often they are executed again.
+    /// Number of passes left.
     pub(in crate::interpreter) left: u64,
-    /// How many blocks had been executed when this pass began.
+    /// Number of blocks executed before this pass began.
     pub(in crate::interpreter) begun: u64,
 }
 
@@ -70,7 +70,7 @@ impl Passage {
     }
 }
 
-/// Where M17 returns to.
+/// Target of an M17.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Destination {
     pub(in crate::interpreter) level: u32,

@@ -1,4 +1,4 @@
-//! Which messages stop a program.
+//! The messages that stop a program.
 
 use super::event::EndedBy;
 use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
@@ -17,7 +17,7 @@ pub(in crate::interpreter) fn stops(diagnostic: &Diagnostic) -> bool {
     diagnostic.code.severity() == Severity::Error
 }
 
-/// What ends a program that one of these diagnostics keeps from going on.
+/// Returns the reason for the end of a program that one of these diagnostics stops.
 pub(in crate::interpreter) fn ended_by(said: &[Diagnostic]) -> EndedBy {
     let bound = |diagnostic: &Diagnostic| diagnostic.code.is_budget();
     match said.iter().find(|diagnostic| stops(diagnostic)) {

@@ -23,14 +23,14 @@ pub(in crate::interpreter) struct Undecided {
     pub(in crate::interpreter) differing: Differing,
 }
 
-/// What differs between the ways besides compensation states.
+/// Differences between the ways besides compensation states.
 #[derive(Debug, Clone, Default)]
 pub(in crate::interpreter) struct Differing {
     /// Whether anything does that a user may ask for.
     pub(in crate::interpreter) decides: bool,
     /// Its names in a message.
     pub(in crate::interpreter) named: BTreeSet<String>,
-    /// Where the control may go instead.
+    /// Alternative target of the control.
     pub(in crate::interpreter) leaves: Option<&'static str>,
 }
 
@@ -52,7 +52,7 @@ pub(in crate::interpreter) struct Told {
 struct Root {
     /// The block that brought the value in.
     place: Place,
-    /// What messages named as unknown because of it, with the line of the first that did.
+    /// Names that messages called unknown because of it, with the line of the first.
     named: BTreeMap<String, (Arc<str>, u32)>,
 }
 

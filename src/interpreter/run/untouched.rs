@@ -89,7 +89,7 @@ pub(crate) enum Found {
     If(String),
 }
 
-/// What a program has not yet switched at a block.
+/// Kinds that a program has not yet switched at a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FoundStates<'a> {
     pub(in crate::interpreter) untouched: &'a Untouched,

@@ -15,7 +15,7 @@ pub(in crate::interpreter) struct Answer {
     pub(in crate::interpreter) condition: u32,
     /// The answers that are possible, a bit each.
     pub(in crate::interpreter) sides: u64,
-    /// How many answers the condition has.
+    /// Number of answers to the condition.
     pub(in crate::interpreter) of: u8,
 }
 
@@ -110,7 +110,7 @@ impl WaySet {
         Self(ways.filter(agree).cloned().collect())
     }
 
-    /// What the ways say beyond what holds on all of others.
+    /// Returns the conditions of the ways beyond those that hold on all of others.
     pub(in crate::interpreter) fn beyond(mut self, others: &Self) -> Self {
         let holds = |answer: &Answer| {
             !others.is_never()

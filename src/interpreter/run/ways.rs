@@ -32,19 +32,19 @@ pub(in crate::interpreter) struct Ways {
     pub(in crate::interpreter) open: Vec<OpenPath>,
     /// The ways that ended the program, as one.
     pub(in crate::interpreter) end: Option<Box<OpenPath>>,
-    /// Where they ended it.
+    /// Ends of the program on these ways.
     #[serde(default)]
     pub(in crate::interpreter) ends: Vec<WayEnd>,
     /// The state at the end of the dry run, before the other ways made it unknown.
     #[serde(default)]
     pub(in crate::interpreter) own: Option<Vec<AxisKinds>>,
-    /// What was written since the first of them left, and after which block last.
+    /// Writes since the first of them left, and the block of the last write.
     pub(in crate::interpreter) written: Written,
     /// The block that may have written anything.
     pub(in crate::interpreter) everything: u64,
 }
 
-/// So many program ends that the dry run does not reach are kept.
+/// Limit of the program ends kept that the dry run does not reach.
 const MAX_ENDS: usize = 64;
 
 /// A program end that the dry run does not reach.
@@ -52,9 +52,9 @@ const MAX_ENDS: usize = 64;
 pub(in crate::interpreter) struct WayEnd {
     /// The block, and the unit that holds it.
     pub(in crate::interpreter) place: (usize, EntryIndex),
-    /// What decides whether the program ends there.
+    /// Value that decides whether the program ends there.
     pub(in crate::interpreter) cause: Arc<str>,
-    /// What may be selected there.
+    /// Selections that are possible there.
     pub(in crate::interpreter) kinds: Vec<AxisKinds>,
 }
 
@@ -78,7 +78,7 @@ impl From<Written> for Vec<(Target, u64)> {
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct OpenPath {
-    /// How many programs call each other where it goes on.
+    /// Number of nested calls at its target.
     pub(in crate::interpreter) depth: usize,
     /// The block where it goes on.
     pub(in crate::interpreter) target: EntryIndex,
@@ -88,14 +88,14 @@ pub(in crate::interpreter) struct OpenPath {
     pub(in crate::interpreter) latest: u64,
     pub(in crate::interpreter) cause: Arc<str>,
     pub(in crate::interpreter) standing: PathState,
-    /// What it executes on its way to the target.
+    /// Blocks that it executes on its way to the target.
     pub(in crate::interpreter) tails: Vec<Remainder>,
 }
 
 /// The part of a state that is kept for a way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct PathState {
-    /// What is selected and what is unknown, by axis.
+    /// Selected and unknown kinds, by axis.
     pub(in crate::interpreter) kinds: Vec<AxisKinds>,
     pub(in crate::interpreter) modal: Modal,
     pub(in crate::interpreter) cycles: ModalCycles,
@@ -107,7 +107,7 @@ pub(in crate::interpreter) struct PathState {
     pub(in crate::interpreter) macros: u64,
 }
 
-/// What is selected and what is unknown of an axis.
+/// Selected and unknown kinds of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct AxisKinds {
     pub(in crate::interpreter) selected: KindSet,
@@ -138,11 +138,11 @@ pub(in crate::interpreter) struct Branch {
     pub(in crate::interpreter) cause: Arc<str>,
     /// The block after what is passed over.
     pub(in crate::interpreter) here: EntryIndex,
-    /// What is shown, where it was not said yet.
+    /// Span for the message on it, while it is not said.
     pub(in crate::interpreter) say: Option<Span>,
 }
 
-/// Where a way goes.
+/// Target of a way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum JumpTarget {
     Block(EntryIndex),
@@ -152,7 +152,7 @@ pub(in crate::interpreter) enum JumpTarget {
     End,
 }
 
-/// How a way leads out of a loop.
+/// Exit of a way from a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Leaving {
     /// To a block of the same program.

@@ -1,4 +1,4 @@
-//! Where ways leave the one of the dry run (R2.51, R2.52).
+//! Ways that leave the one of the dry run (R2.51, R2.52).
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl Interpreter {
         }
     }
 
-    /// What is selected and what is unknown of each axis.
+    /// Returns the selected and unknown kinds of each axis.
     pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
         let compensation = &self.state.control.compensation;
         let axes = (0..compensation.len()).map(AxisIndex::new);

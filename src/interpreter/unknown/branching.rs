@@ -30,21 +30,21 @@ const MAX_ASKED: usize = 64;
 /// Answers of one condition.
 const MAX_ANSWERS: usize = 60;
 
-/// How often a place asks before its earlier answers are forgotten.
+/// Number of questions at a place before its earlier answers are dropped.
 const MAX_ROUNDS: u8 = 4;
 
 /// A question to the machine.
 pub(in crate::interpreter) struct Question {
     pub(in crate::interpreter) kind: ConditionKind,
     pub(in crate::interpreter) span: Span,
-    /// What is asked, for each answer but the last.
+    /// Text of the condition for each answer but the last.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     pub(in crate::interpreter) cause: Arc<str>,
-    /// What it reads, where nothing but the program writes that.
+    /// Values that it reads, where only the program writes them.
     pub(in crate::interpreter) reads: Option<Asking>,
 }
 
-/// Where a way goes on.
+/// Block at which a way goes on.
 pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,

@@ -1,4 +1,4 @@
-//! Where ways meet the one of the dry run again (R2.51, R2.52).
+//! Ways that join the one of the dry run again (R2.51, R2.52).
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -243,7 +243,7 @@ impl Interpreter {
         }
     }
 
-    /// What may differ between the way of the dry run and another that goes on here becomes unknown.
+    /// Makes unknown what may differ between the way of the dry run and another that goes on here.
     fn join(&mut self, way: OpenPath, tails: &mut HashSet<Remainder>) {
         let OpenPath {
             since,
@@ -284,7 +284,8 @@ impl Interpreter {
         }
     }
 
-    /// What a section could change from a block on, and what it jumps back to.
+    /// Makes unknown the possible effects of a section from a block on, and of the blocks that it
+    /// jumps back to.
     fn havoc_tail(&mut self, tail: Remainder, cause: &Arc<str>) {
         let Remainder {
             unit,
@@ -320,7 +321,7 @@ impl Interpreter {
     }
 }
 
-/// Which way is spoken of.
+/// Returns the rank of a target; the message names the way of the highest.
 fn rank(to: JumpTarget) -> u8 {
     match to {
         JumpTarget::Block(_) => 0,

@@ -348,7 +348,8 @@ impl MayEffects<'_> {
         }
     }
 
-    /// What an assignment could write. A place that has to be computed may be another one each time.
+    /// Returns the possible targets of an assignment. A place that has to be computed may be
+    /// another one each time.
     fn target(place: Expression, at: &BlockContext<'_>) -> Option<Target> {
         let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;
@@ -487,7 +488,7 @@ impl MayEffects<'_> {
 }
 
 impl Interpreter {
-    /// What a region could change.
+    /// Returns the possible effects of a region.
     pub(in crate::interpreter) fn region(
         &mut self,
         unit: usize,
@@ -528,7 +529,7 @@ impl Interpreter {
         }
     }
 
-    /// What one block could change, which may be of lines that are not kept.
+    /// Returns the possible effects of one block, which may be of lines that are not kept.
     pub(in crate::interpreter) fn region_of_block(
         &self,
         unit: usize,
@@ -546,7 +547,7 @@ impl Interpreter {
         may_effects.region
     }
 
-    /// What the blocks of a skip level could change in a file.
+    /// Returns the possible effects of the blocks of a skip level in a file.
     pub(in crate::interpreter) fn region_of_level(&self, unit: usize, level: u8) -> Region {
         let skips = &self.programs.index(unit).skips;
         let mut may_effects = self.may_effects((unit, 0));

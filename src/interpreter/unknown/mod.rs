@@ -1,4 +1,4 @@
-//! What cannot be known offline: regions that may or may not be executed, and the ways around them.
+//! Uncertainty offline: regions that may or may not be executed, and the ways around them.
 
 pub(super) mod branch;
 pub(super) mod branching;

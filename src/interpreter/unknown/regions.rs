@@ -1,5 +1,5 @@
-//! What cannot be known offline: a region that may or may not be executed makes unknown whatever
-//! it could change (R2.50, R2.51).
+//! Regions that may or may not be executed: they make unknown whatever they could change (R2.50,
+//! R2.51).
 
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
@@ -206,7 +206,7 @@ impl Interpreter {
         }
     }
 
-    /// What called programs of a region could change becomes unknown too (R2.51).
+    /// Makes unknown the possible effects of programs that a region calls (R2.51).
     pub(in crate::interpreter) fn havoc_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = HashSet::new();

@@ -1,5 +1,5 @@
-//! What is said about a part of the program that may or may not be executed: which value decides,
-//! where it comes from, and what it makes unknown (R2.95).
+//! Messages on parts of the program that may or may not be executed: the value that decides, its
+//! origin, and what becomes unknown (R2.95).
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -23,7 +23,7 @@ use crate::machine::Parameters;
 use crate::syntax::Fault;
 use crate::text::Span;
 
-/// How many axes a message names.
+/// Limit of the axes that a message names.
 const MAX_NAMED: usize = 8;
 
 impl Interpreter {
@@ -127,7 +127,7 @@ impl Interpreter {
         }
     }
 
-    /// What the blocks of a skip level switch in the file that runs: one message names them all.
+    /// Returns the switches of a skip level in the running file: one message names them all.
     fn switched_by_level(&mut self, level: u8) -> Vec<(AxisIndex, KindSet)> {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Vec::new();
@@ -271,7 +271,7 @@ impl Interpreter {
     }
 }
 
-/// How a message names a kind of several axes.
+/// Returns the name of a kind of several axes in a message.
 pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let shown: Vec<String> = axes
         .iter()

@@ -1,5 +1,5 @@
-//! What outlives programs beside the states of the axes, as data (R2.34, R9.32): variables, arrays,
-//! macros, kept parameters, coupling groups.
+//! State that outlives programs besides the states of the axes, as data (R2.34, R9.32): variables,
+//! arrays, macros, kept parameters, coupling groups.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,13 +14,13 @@ use crate::interpreter::run::carried_ways::CarriedWays;
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ArrayShape {
-    /// How many elements each dimension has; `None` where that is not known.
+    /// Number of elements of each dimension; `None` where it is not known.
     pub dimensions: Vec<Option<u32>>,
     /// The value of elements that were never written.
     pub default: Value,
 }
 
-/// What programs leave to the next one beside the states of the axes.
+/// State besides that of the axes that programs leave to the next one.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Carried {

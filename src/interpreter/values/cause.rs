@@ -1,4 +1,4 @@
-//! How messages name a value that is not known offline, and what they advise (R2.50).
+//! Names of values that are not known offline in messages, and the advice on them (R2.50).
 
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ fn is_settable(name: &str) -> bool {
         || matches!(name.as_bytes(), [b'A'..=b'Z'])
 }
 
-/// How a user makes a value known.
+/// Returns the advice by which a user makes a value known.
 pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
     if let Some(level) = decided_level(name) {
         return Advice::SetSkip(level);

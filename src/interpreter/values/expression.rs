@@ -22,15 +22,15 @@ use crate::text::Span;
 /// Macros that one block may expand, whatever their depth: each may use others several times.
 pub(in crate::interpreter) const MAX_EXPANSIONS: u32 = 4096;
 
-/// What an expression reads: the memory of the run and what the machine offers.
+/// Sources of an expression: the memory of the run and the variables of the machine.
 #[derive(Clone, Copy)]
 pub(in crate::interpreter) struct Scope<'a> {
     pub(in crate::interpreter) memory: &'a Memory,
-    /// Where what is read is noted, while that matters (R2.84).
+    /// Notes on the values read, while they matter (R2.84).
     pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
     /// Own parameters of the call.
     pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
-    /// Where those come from that it does not hold.
+    /// Source of the values that it does not hold.
     pub(in crate::interpreter) given: Given,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(in crate::interpreter) system: &'a dyn Fn(&str) -> Option<Value>,
@@ -42,7 +42,7 @@ pub(in crate::interpreter) struct Scope<'a> {
     pub(in crate::interpreter) waits: &'a Cell<bool>,
 }
 
-/// Where the own parameters of a program come from, `@P1` ….
+/// Source of the own parameters of a program, `@P1` ….
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Given {
     /// A call gave some, and no others.
@@ -51,12 +51,12 @@ pub(in crate::interpreter) enum Given {
     FromOutside,
 }
 
-/// How far macros have been expanded.
+/// Progress in the expansion of macros.
 #[derive(Clone, Copy)]
 pub(in crate::interpreter) struct Macros<'a> {
     pub(in crate::interpreter) depth: u32,
     pub(in crate::interpreter) limit: u32,
-    /// How many the block has expanded.
+    /// Number of expansions in the block.
     pub(in crate::interpreter) expansions: &'a Cell<u32>,
     /// The level of work up to which macros may expand.
     pub(in crate::interpreter) until: u64,
@@ -99,11 +99,11 @@ impl Macros<'_> {
 pub(in crate::interpreter) struct Evaluator<'a> {
     pub(in crate::interpreter) block: &'a Block,
     pub(in crate::interpreter) text: &'a str,
-    /// Where the macro stands whose code is evaluated.
+    /// Span of the macro whose code is evaluated.
     pub(in crate::interpreter) shown: Option<Span>,
     pub(in crate::interpreter) macros: Macros<'a>,
     pub(in crate::interpreter) scope: Scope<'a>,
-    /// Where work is counted.
+    /// Meter of the work.
     pub(in crate::interpreter) effort: &'a WorkBudget,
 }
 
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
             .ok_or_else(|| never_written(span, self.text))
     }
 
-    /// What only a call or the machine gives, unless the user says what it is.
+    /// Returns a value that only a call or the machine gives, unless the user has given it.
     fn outside(&self, name: &str, span: Span) -> Value {
         self.scope.memory.variable(name).unwrap_or_else(|| {
             (self.scope.unknown)(name, self.shown.unwrap_or(span));

@@ -23,7 +23,7 @@ pub(in crate::interpreter) struct Memory {
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: Names,
-    /// What the user said that parameters and variables hold which no program wrote.
+    /// Values given by the user for parameters and variables that no program wrote.
     given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
@@ -56,7 +56,7 @@ impl Memory {
         self.variables.weight = Weight(self.variables.weigh());
     }
 
-    /// How much is held, in values and shares of texts (R2.60).
+    /// Returns the amount held, in values and shares of texts (R2.60).
     pub(in crate::interpreter) fn weight(&self) -> usize {
         let levels = self.locals.iter().chain([&self.variables]);
         let weights = levels.map(|names| names.weight.0);
@@ -123,7 +123,7 @@ impl Memory {
         &mut self.locals[last]
     }
 
-    /// Where a declaration of the name goes.
+    /// Returns the names of the kind that a declaration of the name belongs to.
     fn declared(&mut self, name: &str) -> &mut Names {
         if name.starts_with("V.L.") {
             self.level()
@@ -244,7 +244,8 @@ impl Memory {
         Some(differing)
     }
 
-    /// What differs in another memory becomes unknown: two ways meet (R14.1). Returns how much does.
+    /// Makes unknown what differs in another memory where two ways join (R14.1). Returns the number
+    /// of differences.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
         let Self {
             parameters,
@@ -382,7 +383,7 @@ impl Memory {
         self.macros.get(name.trim())
     }
 
-    /// What a quoted name means: the code of its macro, or itself.
+    /// Returns the meaning of a quoted name: the code of its macro, or the text itself.
     pub(in crate::interpreter) fn macro_or_text(&self, name: &str) -> Value {
         let code = self.macro_code(name).cloned();
         code.unwrap_or_else(|| Value::Text(name.into()))
@@ -393,7 +394,7 @@ impl Memory {
         self.macro_version
     }
 
-    /// What a program start leaves (R9.32).
+    /// Returns the values that a program start leaves (R9.32).
     pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
         let mut carried = Carried::default();
         for (name, code) in self.macros.iter() {

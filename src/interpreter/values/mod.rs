@@ -1,4 +1,4 @@
-//! What programs compute with: values, names, memory, expressions.
+//! The values of programs: values, names, memory, expressions.
 
 pub(super) mod carried;
 pub(super) mod cause;

@@ -10,8 +10,8 @@ use super::persistent::PersistentMap;
 use super::target::Target;
 use super::value::Value;
 
-/// What a value weighs against the budget of values (R2.60): one for itself, one more for so many
-/// bytes of a text or a name.
+/// Number of bytes of a text or a name that count as one more value in the budget of values
+/// (R2.60).
 pub(in crate::interpreter) const WEIGHT: usize = 32;
 
 /// A sum of weights. A damaged snapshot may hold any, so nothing here overflows.
@@ -35,7 +35,7 @@ pub(in crate::interpreter) struct Names {
     pub(in crate::interpreter) weight: Weight,
 }
 
-/// What a name stands for.
+/// The thing that a name stands for.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Variable {
     pub(in crate::interpreter) scalar: Option<Value>,
@@ -120,7 +120,7 @@ impl Variable {
             .or(self.lost.take());
     }
 
-    /// What differs from another variable of the name becomes unknown.
+    /// Makes unknown what differs from another variable of the name.
     fn join(&mut self, other: &Self, cause: &Arc<str>, weight: &mut Weight) {
         join_value(&mut self.scalar, other.scalar.as_ref(), cause);
         if self.array != other.array {
@@ -146,7 +146,7 @@ impl Variable {
         }
     }
 
-    /// What its own value and the declaration of the array weigh.
+    /// Returns the weight of its own value and of the declaration of the array.
     fn own_weight(&self, name: &str) -> usize {
         let array = self.array.as_ref().map(|array| &array.default);
         let values = self.scalar.iter().chain(array);
@@ -298,7 +298,7 @@ impl Names {
         Some(())
     }
 
-    /// What differs in another memory becomes unknown; returns how many names do.
+    /// Makes unknown what differs in another memory; returns the number of names that do.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
         let differing = self.names.differing(&other.names);
         let nothing = Variable::default();
@@ -355,7 +355,7 @@ pub(in crate::interpreter) fn compare(
     }
 }
 
-/// What a value under a name weighs.
+/// Returns the weight of a value under a name.
 pub(in crate::interpreter) fn weight(name: &str, value: &Value) -> usize {
     let text = match value {
         Value::Text(text) => text.len(),

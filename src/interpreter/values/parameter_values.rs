@@ -20,7 +20,7 @@ type Page = [Option<Value>; PAGE];
 pub(in crate::interpreter) struct ParameterValues {
     pages: Vec<Shared<Page>>,
     further: PersistentMap<u32, Value>,
-    /// What the texts among the further ones weigh.
+    /// Weight of the texts among the further ones.
     texts: Weight,
 }
 

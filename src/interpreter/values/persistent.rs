@@ -36,7 +36,7 @@ struct Node<K, V> {
 }
 
 impl<K, V> Node<K, V> {
-    /// What decides which of two nodes stands above the other.
+    /// Returns the key that decides which of two nodes is above the other.
     fn place(&self) -> (u64, &K) {
         (self.rank, &self.key)
     }
@@ -267,7 +267,7 @@ impl<'a, K, V> Iterator for Entries<'a, K, V> {
     }
 }
 
-/// What is below and what is above a key that a tree does not hold.
+/// Splits a tree into the nodes below and above a key that it does not hold.
 fn split<K: Ord + Clone, V: Clone>(link: Link<K, V>, key: &K) -> (Link<K, V>, Link<K, V>) {
     let Some(mut shared) = link else {
         return (None, None);

@@ -1,4 +1,4 @@
-//! What conditions say about the values that they read, where they are plain (R14.1).
+//! Conclusions from plain conditions about the values that they read (R14.1).
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ pub(in crate::interpreter) enum Truth {
 }
 
 impl Truth {
-    /// What the number of a switch says: 1 is on, 0 is off.
+    /// Returns the position of a switch from its number: 1 is on, 0 is off.
     #[allow(clippy::float_cmp)] // Any other number says nothing.
     pub(in crate::interpreter) fn of_switch(number: f64) -> Option<Self> {
         match number {
@@ -148,7 +148,7 @@ fn operands_of(block: &Block, part: Expression) -> Option<Vec<Expression>> {
     Some(operands)
 }
 
-/// Where the expression begins that ends before a node.
+/// Returns the beginning of the expression that ends before a node.
 fn start_of(block: &Block, first: u32, end: u32) -> Option<u32> {
     let mut wanted = 1;
     let mut at = end;
@@ -160,7 +160,7 @@ fn start_of(block: &Block, first: u32, end: u32) -> Option<u32> {
     Some(at)
 }
 
-/// How many values a node takes from the stack.
+/// Returns the number of values that a node takes from the stack.
 fn popped(node: Node) -> usize {
     match node {
         Node::Number(_) | Node::Text | Node::Parameter { .. } | Node::Unread => 0,
@@ -172,13 +172,14 @@ fn popped(node: Node) -> usize {
     }
 }
 
-/// What an expression reads, and what it does with it, however it is written.
+/// Values that an expression reads and its operations on them, in a form independent of its text.
 pub(in crate::interpreter) struct Asking {
     pub(in crate::interpreter) reads: Vec<Target>,
     pub(in crate::interpreter) meaning: String,
 }
 
-/// What an expression reads, where nothing but the program writes all of it, or what is `stable`.
+/// Returns the values that an expression reads, where only the program writes all of them, or they
+/// are `stable`.
 pub(in crate::interpreter) fn reads(
     block: &Block,
     text: &str,

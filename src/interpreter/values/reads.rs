@@ -1,4 +1,4 @@
-//! What expressions read, while that matters (R2.84).
+//! Values that expressions read, while they matter (R2.84).
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use super::target::Target;
 /// Different values that are kept of what was read; with more, everything counts as read.
 const MAX_READS: usize = 256;
 
-/// What was read since a loop was looked at.
+/// Values read since a loop was examined.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Reads {
     targets: BTreeSet<Target>,

@@ -1,4 +1,4 @@
-//! What an assignment writes.
+//! The target of an assignment.
 
 use std::fmt;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ impl fmt::Display for Target {
     }
 }
 
-/// Where an assignment goes.
+/// Place that an assignment writes.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::interpreter) enum Place {
     Parameter(Owner, u32),

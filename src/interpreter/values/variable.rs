@@ -28,7 +28,7 @@ pub(crate) fn set_name(text: &str) -> String {
     canonical(text).replace(',', "][")
 }
 
-/// How many bytes stand before the name: `V.E.`, `P`, `@P`.
+/// Returns the number of bytes before the name: `V.E.`, `P`, `@P`.
 fn family_length(text: &str) -> usize {
     if text.starts_with(['V', 'v']) {
         let mut dots = text.match_indices('.');

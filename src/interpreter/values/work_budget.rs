@@ -28,9 +28,9 @@ const PER_WORK: u64 = 2;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct WorkBudget {
     spent: Cell<u64>,
-    /// What the executed blocks did not bring with them.
+    /// Work beyond the share that each executed block brings with it.
     level: Cell<u64>,
-    /// What blocks needed that were executed again.
+    /// Work of blocks that were executed again.
     repeated: u64,
 }
 
@@ -61,7 +61,7 @@ impl WorkBudget {
         self.repeated = self.repeated.saturating_add(units);
     }
 
-    /// What blocks needed that were executed again.
+    /// Returns the work of blocks that were executed again.
     #[inline]
     pub(in crate::interpreter) fn repeated(&self) -> u64 {
         self.repeated
@@ -72,7 +72,7 @@ impl WorkBudget {
         self.spent.get()
     }
 
-    /// How high the level of work is.
+    /// Returns the level of work.
     #[inline]
     pub(in crate::interpreter) fn level(&self) -> u64 {
         self.level.get()

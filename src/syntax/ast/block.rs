@@ -16,13 +16,13 @@ pub struct Block {
     pub number: Option<Number>,
     /// The words in front of everything else; most blocks have nothing else.
     pub words: Vec<Word>,
-    /// What follows them, from left to right.
+    /// Items after them, from left to right.
     pub items: Vec<Item>,
     /// The expressions of the block.
     pub nodes: Vec<Node>,
     /// The source of each node.
     pub spans: Vec<Span>,
-    /// What is wrong with its text, from left to right.
+    /// Faults of its text, from left to right.
     pub faults: Vec<Fault>,
 }
 
@@ -161,7 +161,7 @@ impl Item {
     }
 }
 
-/// What text that is not known here could change.
+/// Possible effect of text of unknown meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
     /// Whatever a program could: it may be a call.
@@ -175,7 +175,7 @@ pub enum Effect {
 /// `target = value`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Assignment {
-    /// What is written.
+    /// Target of the assignment.
     pub target: Target,
     /// The new value.
     pub value: Operand,
@@ -188,7 +188,7 @@ pub struct Assignment {
 pub struct Hash {
     /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
     pub name: String,
-    /// What follows the words.
+    /// Text after the words.
     pub rest: Span,
     /// The value of `#TIME`, the targets of `#DELETE`.
     pub arguments: Vec<Operand>,

@@ -9,9 +9,9 @@ use crate::text::Span;
 /// `LL NAME`, `L file.nc`, `L CYCLE [NAME=… @P1=…]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Call {
-    /// Where the program is looked for.
+    /// Search scope of the program.
     pub scope: CallScope,
-    /// How it is named.
+    /// Name of the program.
     pub name: CallName,
     /// Whether it is a cycle.
     pub form: CallForm,
@@ -25,7 +25,7 @@ pub struct Call {
     pub span: Span,
 }
 
-/// How a called program is named.
+/// Form of the name of a called program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CallName {
     /// As it stands.
@@ -36,7 +36,7 @@ pub enum CallName {
     Variable(Expression),
 }
 
-/// Where a called program is looked for.
+/// Search scope of a called program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CallScope {
     /// `LL`: in the same file.
@@ -55,7 +55,7 @@ pub enum CallForm {
     Cycle,
 }
 
-/// How a cycle is repeated.
+/// Form of the repetition of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Repetition {
     /// Not at all.
@@ -89,7 +89,7 @@ pub struct Sequence {
     pub last: Option<JumpTarget>,
     /// Whether the call itself ends the sequence, too.
     pub end_tag: bool,
-    /// How often it is executed; once where it is left out.
+    /// Number of passes; one where it is left out.
     pub passes: Option<Operand>,
     /// The whole.
     pub span: Span,
@@ -106,7 +106,7 @@ pub struct Return {
     pub span: Span,
 }
 
-/// How far a subprogram returns.
+/// Number of levels that a subprogram returns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Levels {
     /// To its caller.

@@ -40,21 +40,21 @@ pub enum Node {
     Text,
     /// `P10` or `@P10`.
     Parameter {
-        /// Whose parameter.
+        /// Owner of the parameter.
         owner: Owner,
         /// Its number.
         index: u32,
     },
     /// `PP10`, `P100[3]`: the number and the subscripts are popped.
     IndexedParameter {
-        /// Whose parameter.
+        /// Owner of the parameter.
         owner: Owner,
-        /// How many subscripts lie above the number.
+        /// Number of subscripts above the number on the stack.
         subscripts: u8,
     },
     /// `V.P.NAME`, `@X`; the node's span is its text, subscripts are popped.
     Variable {
-        /// How many subscripts it has.
+        /// Number of subscripts.
         subscripts: u8,
     },
     /// A value, or a place to write, whose text is not known here; what is said about it is a fault
@@ -68,12 +68,12 @@ pub enum Node {
     Call {
         /// The function.
         function: Function,
-        /// How many arguments.
+        /// Number of arguments.
         arguments: u8,
     },
 }
 
-/// Whose parameter.
+/// Owner of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Owner {
     /// `P`, shared with subprograms.

@@ -30,7 +30,7 @@ pub enum Flow {
         start: Operand,
         /// The value that ends the loop when it is passed.
         end: Operand,
-        /// What is added each time, 1 when left out.
+        /// Increment of each pass, 1 when left out.
         step: Operand,
     },
     /// `$ENDFOR`.
@@ -55,7 +55,7 @@ pub enum Flow {
     Goto(JumpTarget),
 }
 
-/// Where `$GOTO` goes.
+/// Target of `$GOTO`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JumpTarget {
     /// `N20`.

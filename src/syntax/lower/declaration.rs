@@ -80,8 +80,8 @@ impl Lowering<'_> {
     }
 }
 
-/// How long the first declaration of a region is: one line, or more where a bracket stays open, as the
-/// values of an array may. A bracket after the last `]` is never closed and ends with its line.
+/// Returns the length of the first declaration of a region: one line, or more where a bracket stays open, as
+/// the values of an array may. A bracket after the last `]` is never closed and ends with its line.
 fn declaration_end(text: &str, last_bracket: usize) -> usize {
     let mut depth = 0_usize;
     for (at, byte) in text.bytes().enumerate() {

@@ -90,7 +90,7 @@ impl Lowering<'_> {
     }
 }
 
-/// Where the next name begins that may be one of a parameter or variable.
+/// Returns the start of the next name that may be one of a parameter or variable.
 fn next_place(text: &str, from: usize) -> Option<usize> {
     let bytes = text.as_bytes();
     let begins = |at: &usize| {

@@ -7,7 +7,7 @@ use crate::syntax::ast::{Effect, Item, JumpTarget, Levels, Operand, Return, Sequ
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
-/// How a part of a program is called.
+/// Form of the call of a part of a program.
 const HOW: &str = "name the first and the last block: `L SEQUENCE [N10 N20]`";
 
 impl Lowering<'_> {

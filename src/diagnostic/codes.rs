@@ -183,6 +183,25 @@ impl Code {
         )
     }
 
+    /// Whether it is about a text as it is written, whichever way the control goes (R14.5).
+    pub(crate) fn is_about_text(self) -> bool {
+        matches!(
+            self,
+            Self::Fc101
+                | Self::Fc102
+                | Self::Fc210
+                | Self::Fc323
+                | Self::Fc324
+                | Self::Fc325
+                | Self::Fc326
+                | Self::Fc404
+                | Self::Fc406
+                | Self::Fc490
+                | Self::Fc491
+                | Self::Fc905
+        )
+    }
+
     /// Whether it is a number of the control; those cannot be silenced (R9.24).
     pub fn is_controller(self) -> bool {
         self.as_str().starts_with("P-ERR-")

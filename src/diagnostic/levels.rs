@@ -24,13 +24,16 @@ impl Levels {
     }
 
     /// Gives a diagnostic the severity that the user gave its code; any other, and one that is raised, keeps
-    /// its own. Returns whether it is said at all.
+    /// its own, and one that is lowered is not raised. Returns whether it is said at all.
     pub(crate) fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
         if diagnostic.is_raised() {
             return true;
         }
         match self.levels.get(&diagnostic.code) {
             Some(None) => return false,
+            Some(Some(severity)) if diagnostic.is_lowered() => {
+                diagnostic.severity = diagnostic.severity.min(*severity);
+            }
             Some(Some(severity)) => diagnostic.severity = *severity,
             None => {}
         }

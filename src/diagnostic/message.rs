@@ -73,6 +73,16 @@ impl Diagnostic {
         self
     }
 
+    /// Gives it a lower severity than that of its code, which no setting raises.
+    pub(crate) fn lower(&mut self, severity: Severity) {
+        self.severity = self.severity.min(severity);
+    }
+
+    /// Whether it is less severe than its code says, so that no setting raises it.
+    pub(crate) fn is_lowered(&self) -> bool {
+        self.severity < self.code.severity()
+    }
+
     /// Whether it is more severe than its code says, so that no setting lowers or silences it.
     pub fn is_raised(&self) -> bool {
         self.severity > self.code.severity()

@@ -39,9 +39,9 @@ pub use run::event::{
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub(crate) use run::possible_state::ways_in_words;
-pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayCondition};
-pub(crate) use run::untouched::Found;
+pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayChange, WayCondition};
+pub(crate) use run::possible_state::{limit_to, unless, ways_in_words};
+pub(crate) use run::untouched::{Found, FoundOn};
 pub use values::carried::{ArrayShape, Carried};
 pub use values::value::Value;
 pub(crate) use values::variable::set_name;

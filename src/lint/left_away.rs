@@ -2,10 +2,10 @@
 //! its second run differs from the first (R1.53).
 
 use super::linter::{EndNote, LeftAway, Linter};
-use super::memory::{Deed, Site};
+use super::memory::{Deed, MovedBefore, Site};
 use crate::comp::{AxisIndex, Kind, State};
-use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd};
+use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
+use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
@@ -36,7 +36,9 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();
             // Where ways differ, the command counts that leads away on some of them.
-            let parted = possible.and_then(|_| {
+            // FC902 has said what only a call decides.
+            let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
+            let parted = parted.and_then(|_| {
                 let [off, on] = &did.switched;
                 if is_on { off.as_ref() } else { on.as_ref() }
             });
@@ -114,7 +116,7 @@ impl Subject<'_> {
         };
         let away = away.as_str();
         let what = match self.ways_away(&site.place.file) {
-            Some(ways) => format!("is left {away} after {}{ways}", self.ending),
+            Some(ways) => format!("is left {away} after {} {ways}", self.ending),
             None => format!(
                 "may be left {away} after {}, which is not known offline",
                 self.ending
@@ -124,48 +126,68 @@ impl Subject<'_> {
             "`{keyword}` of axis `{name}` {what}; the control starts with it {}",
             start_up.as_str()
         );
-        Diagnostic::new(Code::Fc401, site.place.clone(), message)
+        let mut diagnostic = Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
             .with_help(format!(
                 "restore it before {}: `{}`",
                 self.place_of_end(&site.place),
                 self.way_home()
-            ))
+            ));
+        if self.needs_change() {
+            diagnostic.lower(Severity::Info);
+        }
+        diagnostic
     }
 
-    fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
+    fn second_run_differs(&self, site: &Site, moved: &MovedBefore) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let place = &site.place;
         let message = format!(
             "the second run differs from the first: {} moves axis `{name}` before the program sets \
              `{keyword}`, and line {} leaves it {}",
-            moved.seen_from(&place.file),
+            moved.site.seen_from(&place.file),
             place.start().line,
             self.end.as_str()
         );
-        Diagnostic::new(Code::Fc407, place.clone(), message)
+        let mut diagnostic = Diagnostic::new(Code::Fc407, place.clone(), message)
             .with_axis(name)
             .with_help(format!(
                 "set it before the first motion, and restore it before {}: `{}`",
                 self.place_of_end(place),
                 self.way_home()
             ))
-            .with_label(moved.place.clone(), "the axis moves here first")
+            .with_label(moved.site.place.clone(), "the axis moves here first");
+        if !moved.ways.is_empty() {
+            limit_to(&mut diagnostic, &moved.ways);
+        }
+        diagnostic
+    }
+
+    /// The state in which some ways leave it away.
+    fn state_away(&self) -> Option<(&PossibleStates, State)> {
+        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let possible = self.possible?;
+        let mut states = possible.states.iter().map(|it| it.state);
+        Some((possible, states.find(|state| *state != start_up)?))
+    }
+
+    /// Whether it is left away only if a value of the machine changes meanwhile (R14.1).
+    fn needs_change(&self) -> bool {
+        let away = self.state_away();
+        away.is_some_and(|(possible, away)| possible.needs_change(away))
     }
 
     /// On which ways it is left away (R14.5).
     fn ways_away(&self, file: &str) -> Option<String> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
-        let possible = self.possible?;
-        let mut states = possible.states.iter().map(|it| it.state);
-        let away = states.find(|state| *state != start_up)?;
+        let (possible, away) = self.state_away()?;
         if let Some(ways) = possible.ways_to(away, file) {
-            return Some(format!(" if {ways}"));
+            return Some(ways);
         }
         let ways = possible.ways_to(start_up, file)?;
-        Some(match ways.strip_prefix("not ") {
-            Some(condition) if possible.rests_on_one_condition() => format!(" if {condition}"),
-            _ => format!(" unless {ways}"),
+        Some(match ways.strip_prefix("if not ") {
+            Some(condition) if possible.rests_on_one_condition() => format!("if {condition}"),
+            _ => unless(&ways),
         })
     }
 

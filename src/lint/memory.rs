@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
-use crate::interpreter::{Certainty, Executed, MotionKind, MovedAxis, Outcome};
+use crate::interpreter::{
+    Certainty, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
+};
 use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
@@ -13,6 +15,8 @@ pub(super) struct Site {
     pub(super) seq: u64,
     /// The words that are meant.
     pub(super) place: Place,
+    /// The ways on which it was executed; none where that is all of them.
+    ways: Vec<Vec<WayCondition>>,
 }
 
 impl Site {
@@ -20,7 +24,18 @@ impl Site {
         Self {
             seq: executed.seq,
             place: place(executed, span),
+            ways: executed.branch.unwrap_or_default().to_vec(),
         }
+    }
+
+    /// Whether it was executed on every way that leads to a block (R14.5).
+    pub(super) fn leads_to(&self, executed: &Executed<'_>) -> bool {
+        let passes = |way: &Vec<WayCondition>| {
+            let mut mine = self.ways.iter();
+            mine.any(|mine| mine.iter().all(|condition| way.contains(condition)))
+        };
+        let ways = executed.branch.unwrap_or_default();
+        self.ways.is_empty() || (!ways.is_empty() && ways.iter().all(passes))
     }
 
     /// The block as a message names it, seen from a file: `line 4`, or `sub.nc:4`.
@@ -66,6 +81,16 @@ impl From<Selection> for Deed {
     }
 }
 
+/// A motion in the state that the program found.
+#[derive(Debug, Clone)]
+pub(super) struct MovedBefore {
+    pub(super) site: Arc<Site>,
+    /// The ways on which this motion or a later one is such.
+    on: FoundOn,
+    /// The same as data; none where it is on all ways.
+    pub(super) ways: Vec<Vec<WayCondition>>,
+}
+
 /// Effects of the program on one kind of one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KindMemory {
@@ -75,9 +100,25 @@ pub(super) struct KindMemory {
     pub(super) last: Option<(Deed, Arc<Site>)>,
     /// The first block that moved the axis for sure, homing apart, while it was as the program found
     /// it, or may have been.
-    pub(super) moved_before: Option<Arc<Site>>,
+    pub(super) moved_before: Option<MovedBefore>,
     /// The last command that switched it off, and the last that switched it on.
     pub(super) switched: [Option<Arc<Site>>; 2],
+}
+
+impl KindMemory {
+    fn move_found(&mut self, site: &Arc<Site>, of: (AxisIndex, Kind), executed: &Executed<'_>) {
+        if !executed.found.has(of.0, of.1) {
+            return;
+        }
+        let on = executed.found.on(of.0, of.1);
+        let before = self.moved_before.get_or_insert_with(|| MovedBefore {
+            site: Arc::clone(site),
+            on: on.clone(),
+            ways: Vec::new(),
+        });
+        before.on.or(&on);
+        before.ways = executed.found.ways_of(&before.on);
+    }
 }
 
 /// A motion of an axis in any way.
@@ -230,9 +271,7 @@ impl Memory {
         if counts(motion) && !memory.settled.sure {
             let site = Arc::new(site());
             for (kind, memory) in Kind::ALL.into_iter().zip(&mut memory.kinds) {
-                if memory.moved_before.is_none() && executed.found.has(motion.axis, kind) {
-                    memory.moved_before = Some(Arc::clone(&site));
-                }
+                memory.move_found(&site, (motion.axis, kind), executed);
             }
             memory.settled.sure = is_on_all_ways;
             if self.is_alone && is_on_all_ways {

@@ -27,7 +27,7 @@ pub(super) fn lint(
     let ways = match executed.found.of(axis, Kind::Frict, file) {
         Found::Never => return None,
         Found::Always => String::new(),
-        Found::If(ways) => format!(" if {ways}"),
+        Found::If(ways) => format!(" {ways}"),
     };
     let may = match touched.certainty {
         Certainty::Possible => "may move",

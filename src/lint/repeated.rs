@@ -33,7 +33,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     let mut repeated: Option<&Arc<Site>> = None;
     for kind in kinds.iter() {
         match &memory.kind(kind).last {
-            Some((earlier, site)) if *earlier == deed => {
+            Some((earlier, site)) if *earlier == deed && site.leads_to(taken.executed) => {
                 if repeated.is_none_or(|other| other.seq < site.seq) {
                     repeated = Some(site);
                 }

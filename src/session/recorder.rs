@@ -7,9 +7,7 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
-use crate::interpreter::{
-    Ended, Event, Executed, Note, NoteKind, Observer, WayCondition, ways_in_words,
-};
+use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
 use crate::syntax::Comments;
@@ -244,11 +242,15 @@ impl Recorder<'_> {
     fn judge(&mut self, executed: &Executed<'_>) {
         self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
-        if let Some(ways) = executed.branch {
-            self.limit_to(ways, executed.file);
-        }
         self.tally.note_footing(executed.diagnostics);
+        let before = self.said.len();
         self.linter.block(executed, &mut self.said);
+        if let Some(ways) = executed.branch {
+            // FC403 says by itself on which ways.
+            let lints = self.said.iter_mut().skip(before);
+            let lints = lints.filter(|said| said.code != Code::Fc403);
+            lints.for_each(|said| limit_to(said, ways));
+        }
         self.note_allows(executed);
         for withheld in &executed.aside.withheld {
             if !is_allowed(&mut self.allows, withheld, executed.line) {
@@ -267,16 +269,6 @@ impl Recorder<'_> {
         }
         for diagnostic in &self.said {
             self.tally.count(diagnostic);
-        }
-    }
-
-    /// Says of what stops the control on which ways it does (R14.5).
-    #[cold]
-    fn limit_to(&mut self, ways: &[Vec<WayCondition>], file: &str) {
-        let errors = self.said.iter_mut();
-        for error in errors.filter(|said| said.code.severity() == Severity::Error) {
-            let words = ways_in_words(ways, file);
-            error.message = format!("{}, if {words}", error.message);
         }
     }
 

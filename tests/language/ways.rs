@@ -187,12 +187,17 @@ fn a_control_block_names_what_it_makes_unknown() {
 
 #[test]
 fn a_required_compensation_that_is_unknown_is_said() {
-    // R1.36 R2.52
+    // R1.36 R2.51 R2.52: where ways are known, those without it end (R14.5).
     let machine = "[[axis]]\nname = \"X\"\nfrict_comp = true\nrequired = [\"FRICT\"]\n\
                    value = { mode = 3, table = [[0, 12], [1800, 10]] }\n";
     let program = "X1\n$IF V.E.A==1\nX[COMP OFF FRICT]\n$ENDIF\nX2\nM30";
-    let said = Bench::on(machine).said(program);
-    assert!(said.contains("FC902 5:1 whether axis `X` moves"), "{said}");
+    let passed = Bench::on(machine).passing_branches().said(program);
+    assert!(
+        passed.contains("FC902 5:1 whether axis `X` moves"),
+        "{passed}"
+    );
+    let followed = Bench::on(machine).said(program);
+    assert!(followed.contains("P-ERR-70435 5:1 "), "{followed}");
 }
 
 #[test]

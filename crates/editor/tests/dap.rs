@@ -1,5 +1,8 @@
 //! The debug adapter over its protocol: scripted sessions, and clients that keep to nothing.
 
+#[path = "dap/sides.rs"]
+mod sides;
+
 use std::fs;
 use std::io::{BufRead, BufReader, PipeReader, PipeWriter, Read, Write, pipe};
 use std::path::PathBuf;

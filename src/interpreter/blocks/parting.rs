@@ -9,12 +9,15 @@ use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::Marked;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::unknown::branching::{Goal, Question};
 use crate::interpreter::values::cause::{PROBE, skip_level};
-use crate::interpreter::values::plain::{Asking, Truth, conclusions, reads, text_of};
+use crate::interpreter::values::plain::{
+    Asking, Truth, Writer, conclusions, is_one_comparison, reads, text_of, variable,
+};
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::readings::Question as Open;
@@ -36,7 +39,9 @@ impl Interpreter {
             return false;
         };
         let [mut yes, mut no] = goals;
-        if let Some((of, truth)) = self.tested_state(condition, at) {
+        let tested = self.tested_state(condition, at);
+        let tested = tested.filter(|_| self.options.branches == Branches::Followed);
+        if let Some((of, truth)) = tested {
             let goals = match truth {
                 Truth::Holds => [yes, no],
                 Truth::Fails => [no, yes],
@@ -50,6 +55,10 @@ impl Interpreter {
                     .into_iter()
                     .filter(|(target, _)| self.may_conclude(target)),
             );
+        }
+        if is_one_comparison(at.block, at.text, expression) {
+            yes.ruled_out.clone_from(&no.values);
+            no.ruled_out.clone_from(&yes.values);
         }
         let (text, place) = text_of(at.block, at.text, expression);
         let question = Question {
@@ -195,27 +204,23 @@ impl Interpreter {
         let Operand::Expression(expression) = operand else {
             return false;
         };
-        let Some((cases, other)) = self.cases(at) else {
+        let Some((cases, mut other)) = self.cases(at) else {
             return false;
         };
         let (subject, place) = text_of(at.block, at.text, expression);
-        let subject_of = conclusions(at.block, at.text, expression, Truth::Holds);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
         let mut asking = reads(at.block, at.text, expression, &self.stable);
-        let variable = match asking.as_ref().map(|asking| asking.reads.as_slice()) {
-            Some([target]) if subject_of.is_empty() => Some(target.clone()),
-            _ => crate::interpreter::values::plain::variable(at.block, at.text, expression),
-        };
+        let subject_of = variable(at.block, at.text, expression);
+        let subject_of = subject_of.filter(|target| self.may_conclude(target));
         for (entry, value) in cases {
             texts.push(format!("{subject} == {}", shown(&value)).into());
-            let values = variable.iter().filter(|target| self.may_conclude(target));
+            let values: Vec<_> = subject_of.iter().cloned().zip([value.clone()]).collect();
+            other.ruled_out.extend(values.iter().cloned());
             goals.push(Goal {
-                values: values
-                    .map(|target| (target.clone(), value.clone()))
-                    .collect(),
-                to: entry,
+                values,
                 seeking: Some(Seeking::Case(value)),
+                ..Goal::block(entry)
             });
         }
         goals.push(other);
@@ -319,7 +324,12 @@ impl Interpreter {
             cause: cause.clone(),
             // The switch of blocks without a number is read when the main program begins, and the others
             // where the machine is read so (R2.90).
-            reads: (is_bare || at_start).then(|| Asking {
+            reads: Some(Asking {
+                writer: if is_bare || at_start {
+                    Writer::Nothing
+                } else {
+                    Writer::Machine
+                },
                 reads: Vec::new(),
                 meaning: cause.to_string(),
             }),
@@ -328,7 +338,8 @@ impl Interpreter {
         if !self.part(question, goals.into(), &at) {
             return false;
         }
-        if let [_, executed] = self.sides.as_mut_slice() {
+        let mut sides = self.sides.iter_mut();
+        if let Some(executed) = sides.find(|side| side.to == entry) {
             executed.marked = Some(marked);
         }
         true

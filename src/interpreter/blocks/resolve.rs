@@ -6,6 +6,7 @@ use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::LeftOpen;
 use crate::interpreter::run::cycles::{ModalCycles, Repeated, RepeatedCall};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -132,6 +133,12 @@ impl Interpreter {
         self.pass_over(&name, wanted.span, at);
         self.leave_to_machine(&name);
         let keeps = self.machine.programs.keeps(&name);
+        if !keeps.compensation && self.scratch.undecided.is_none() {
+            self.scratch.left_open = Some(LeftOpen {
+                program: name.as_str().into(),
+                place: at.place(wanted.span),
+            });
+        }
         if !keeps.compensation || !keeps.positions {
             let what = match keeps {
                 Keeps {

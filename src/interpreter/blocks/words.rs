@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, State};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::geometry::foreign;
@@ -16,7 +16,10 @@ use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::{Branches, StopPolicy};
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
+use crate::interpreter::run::possible::Split;
+use crate::interpreter::run::possible_state::{limit_to, ways_of};
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::readings::Question;
@@ -297,6 +300,9 @@ impl Interpreter {
             let name = &machine.axis(axis).name;
             let Some(kind) = missing else {
                 if let Some(kind) = required.iter().find(|kind| state(*kind) == State::Unknown) {
+                    if self.end_ways_without((axis, kind), span, at) {
+                        continue;
+                    }
                     let keyword = kind.as_str();
                     let message = format!(
                         "whether axis `{name}` moves with `{keyword}`, which P-AXIS-00465 requires, \
@@ -309,18 +315,39 @@ impl Interpreter {
                 }
                 continue;
             };
-            let keyword = kind.as_str();
-            let fault = Fault::new(
-                Code::PErr70435,
-                span,
-                format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
-            )
-            .with_help(format!(
-                "switch it on first, with `{name}[COMP ON {keyword}]`"
-            ));
-            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-            self.scratch.diagnostics.push(diagnostic);
+            let refused = moves_without(name, kind, span, at);
+            self.scratch.diagnostics.push(refused);
         }
+    }
+
+    /// P-ERR-70435 on some ways only: they end, and the others go on (R14.5). Whether that is so.
+    #[cold]
+    fn end_ways_without(
+        &mut self,
+        (axis, kind): (AxisIndex, Kind),
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        let mut changes = self.scratch.changes.iter();
+        let is_switched = changes.any(|change| (change.axis, change.kind) == (axis, kind));
+        let control = &mut self.state.control;
+        let reach = &mut self.state.track.reach;
+        let split = control.possible.of(axis, kind).filter(|_| !is_switched);
+        let Some(Split { on, off }) = split.map(|split| split.and(reach)) else {
+            return false;
+        };
+        if on.is_never() || off.is_never() || self.options.branches == Branches::Passed {
+            return false;
+        }
+        let mut refused = moves_without(&self.machine.axis(axis).name, kind, span, at);
+        limit_to(&mut refused, &ways_of(&off, &self.state.conditions));
+        self.scratch.of_some_ways.push(refused);
+        if self.options.stop == StopPolicy::FirstError {
+            *reach = on;
+            control.possible.narrow(reach, &mut control.compensation);
+            self.version += 1;
+        }
+        true
     }
 
     fn letter(
@@ -543,4 +570,18 @@ impl Interpreter {
             self.scratch.diagnostics.push(at.diagnostic(fault));
         }
     }
+}
+
+/// P-ERR-70435: an axis moves without a compensation that it requires.
+fn moves_without(name: &str, kind: Kind, span: Span, at: &BlockContext<'_>) -> Diagnostic {
+    let keyword = kind.as_str();
+    let fault = Fault::new(
+        Code::PErr70435,
+        span,
+        format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
+    )
+    .with_help(format!(
+        "switch it on first, with `{name}[COMP ON {keyword}]`"
+    ));
+    at.diagnostic(fault).with_axis(name)
 }

@@ -14,12 +14,21 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
+use crate::interpreter::run::possible_state::limit_to;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
 use crate::syntax::Fault;
-use crate::syntax::ast::Item;
+use crate::syntax::ast::{Block, Item};
 use crate::text::Span;
+
+/// Whether the control only computes, branches or switches.
+fn is_still(item: &Item) -> bool {
+    matches!(
+        item,
+        Item::Comp(_) | Item::Assign(_) | Item::Label(_) | Item::Flow(..)
+    )
+}
 
 impl Interpreter {
     /// Checks the motion of the axes of a block: the axes that move with its words, and whether
@@ -42,19 +51,22 @@ impl Interpreter {
         }
     }
 
-    /// Begins a block: says what joining ways leave, and counts the block.
+    /// Begins a block: says what joining ways leave, and counts the block. Returns the number of
+    /// messages.
     #[inline]
-    fn begin_block(&mut self, finder: &mut dyn Finder) {
+    fn begin_block(&mut self, finder: &mut dyn Finder) -> usize {
         self.scratch.clear();
         if !(self.met.is_empty() && self.met_withheld.is_empty()) {
             self.scratch.diagnostics.append(&mut self.met);
             self.scratch.aside.withheld.append(&mut self.met_withheld);
         }
+        let met = self.scratch.diagnostics.len();
         self.state.seq += 1;
         self.state.blocks += 1;
         if self.state.track.ways.has_targets() {
             self.arrive(finder);
         }
+        met
     }
 
     /// Executes a block and tells the observer. `Continue` where the next block follows.
@@ -64,7 +76,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> ControlFlow<Departure> {
-        self.begin_block(finder);
+        let met = self.begin_block(finder);
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
@@ -96,7 +108,10 @@ impl Interpreter {
             && self.scratch.unsaid.is_none()
             && self.state.effort.level() <= self.options.limits.work;
         let is_over = !is_plain && self.settle(at);
-        if !self.scratch.changes.is_empty() || self.scratch.new_axes {
+        if !self.scratch.changes.is_empty()
+            || self.scratch.new_axes
+            || self.scratch.left_open.is_some()
+        {
             self.version += 1;
             self.replace_possible();
         }
@@ -118,7 +133,7 @@ impl Interpreter {
                 step => step,
             }
         };
-        self.show_ways();
+        self.limit_said(met);
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
@@ -169,9 +184,37 @@ impl Interpreter {
         }
     }
 
+    /// Says of what the block says on which ways it holds, but for the first messages, which are about
+    /// ways that meet (R14.5).
+    #[inline]
+    fn limit_said(&mut self, met: usize) {
+        self.show_ways();
+        if let Some(ways) = &self.shown.branch {
+            let own = self.scratch.diagnostics.iter_mut().skip(met);
+            own.for_each(|said| limit_to(said, ways));
+        }
+        let work = &mut self.scratch;
+        work.diagnostics.append(&mut work.of_some_ways);
+    }
+
+    /// What the control does may change its values, and a `#` command may wait for any value (R14.1).
+    #[cold]
+    fn outdate_readings(&mut self, block: &Block) {
+        let readings = &mut self.state.track.readings;
+        let mut items = block.items.iter();
+        if items.clone().any(|item| matches!(item, Item::Hash(_))) {
+            readings.clear();
+        } else if !block.words.is_empty() || !items.all(is_still) {
+            readings.act();
+        }
+    }
+
     /// Makes unknown the effects of a block that may call, or leave for, something else.
     #[inline]
     fn havoc_ways(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) {
+        if !self.state.track.readings.is_empty() {
+            self.outdate_readings(at.block);
+        }
         if !self.pending.is_empty() {
             self.havoc_called(finder);
             self.move_followers(AxisWords::Other);
@@ -262,6 +305,9 @@ impl Interpreter {
         let possible = &mut self.state.control.possible;
         for change in &self.scratch.changes {
             possible.replace(change.axis, KindSet::of(change.kind));
+        }
+        if let Some(left) = self.scratch.left_open.take() {
+            self.leave_open(&left);
         }
     }
 

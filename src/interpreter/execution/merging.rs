@@ -29,7 +29,11 @@ impl Interpreter {
         let never_ends = std::mem::take(&mut self.scratch.endless);
         if !is_covered && !never_ends {
             if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-                self.scratch.over.extend(self.missing_end());
+                let missing = self.missing_end().map(|mut missing| {
+                    self.limit_to_reach(&mut missing, None);
+                    missing
+                });
+                self.scratch.over.extend(missing);
             }
             let ended = self.ended_path(by);
             self.state.ended.push(ended);

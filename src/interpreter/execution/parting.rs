@@ -4,6 +4,7 @@ use crate::comp::KindSet;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{BranchSide, Path};
 use crate::interpreter::run::step::Step;
 
@@ -28,8 +29,8 @@ impl Interpreter {
             self.state.track.reach = ways;
             let (to, is_back) = (side.to, side.to < here);
             self.apply_side(side);
-            // What leads back joins the loop's head.
-            let goes_on = if is_back {
+            // What leads back joins the loop's head, where other ways do.
+            let goes_on = if is_back && self.options.branches != Branches::Passed {
                 self.come_back(to, finder)
             } else {
                 Step::Jump(to)

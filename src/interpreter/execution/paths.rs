@@ -15,6 +15,7 @@ use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
+use crate::interpreter::run::possible_state::{limit_to, ways_of};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
@@ -183,11 +184,27 @@ impl Interpreter {
         let cause = &condition.cause;
         self.state.told.enter(cause, || place.clone());
         let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
-        let said = about(&condition, &shown);
+        let mut said = about(&condition, &shown);
+        self.limit_to_reach(&mut said, parted);
         if is_new {
             self.met.push(said);
         } else {
             self.met_withheld.push(said);
+        }
+    }
+
+    /// A condition that is asked on some ways only is said to be so, whatever its own answer.
+    pub(in crate::interpreter) fn limit_to_reach(
+        &self,
+        said: &mut Diagnostic,
+        condition: Option<u32>,
+    ) {
+        let mut reach = self.state.track.reach.clone();
+        if let Some(own) = condition {
+            reach.havoc(own);
+        }
+        if !reach.is_always() {
+            limit_to(said, &ways_of(&reach, &self.state.conditions));
         }
     }
 
@@ -223,6 +240,9 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
             "whether this jump is taken depends on {}",
             unknown_value(cause)
         ),
+        ConditionKind::Call(_) => {
+            format!("what this call leaves depends on {}", unknown_value(cause))
+        }
         ConditionKind::Branch | ConditionKind::Case | ConditionKind::Loop => {
             format!("this condition depends on {}", unknown_value(cause))
         }

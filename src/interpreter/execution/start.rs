@@ -82,6 +82,7 @@ impl Interpreter {
         if self.handed == SourceMode::LineByLine {
             return RunOutcome::Stopped;
         }
+        self.offered.clear();
         let outcome = match self.state.parked.take() {
             Some(Step::Begin) => {
                 return self.begin(finder, observer);

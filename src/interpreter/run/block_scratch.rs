@@ -1,6 +1,7 @@
 //! The inputs and results of the execution of one block.
 
 use std::cell::{Cell, RefCell};
+use std::sync::Arc;
 
 use super::event::{Aside, Note, Outcome};
 use super::undecided::Undecided;
@@ -23,6 +24,13 @@ pub(in crate::interpreter) struct OwnEnd {
     pub(in crate::interpreter) is_passed_into: bool,
 }
 
+/// A program that only the machine has, and its call: what it leaves is open.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct LeftOpen {
+    pub(in crate::interpreter) program: Arc<str>,
+    pub(in crate::interpreter) place: Place,
+}
+
 /// Buffers that are used again for each block.
 #[derive(Default)]
 #[allow(
@@ -34,6 +42,7 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) block: Block,
     pub(in crate::interpreter) outcomes: Vec<Outcome>,
     pub(in crate::interpreter) changes: Vec<Change>,
+    pub(in crate::interpreter) left_open: Option<LeftOpen>,
     /// Kinds that may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
     /// The axes that it moves, or may, without a word of their own.
@@ -51,6 +60,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
     pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
+    /// Errors that end some of the ways that lead to the block, and not the others.
+    pub(in crate::interpreter) of_some_ways: Vec<Diagnostic>,
     /// Parts of the block that may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
     /// Number of messages on the last block.
@@ -96,6 +107,7 @@ impl BlockScratch {
     pub(in crate::interpreter) fn clear_said(&mut self) {
         self.said = u64::try_from(self.diagnostics.len()).unwrap_or(u64::MAX);
         self.diagnostics.clear();
+        self.of_some_ways.clear();
         self.changes.clear();
     }
 
@@ -111,6 +123,7 @@ impl BlockScratch {
     pub(in crate::interpreter) fn clear(&mut self) {
         self.outcomes.clear();
         self.changes.clear();
+        self.left_open = None;
         self.doubted.clear();
         self.also_moved.clear();
         self.word_row = None;

@@ -33,15 +33,19 @@ impl CarriedWays {
         let mut named: Vec<u32> = possible.conditions().collect();
         named.sort_unstable();
         named.dedup();
-        let renumbered = |number: u32| named.binary_search(&number).map_or(0, |place| place);
+        let renumbered = |number: u32| {
+            let place = named.binary_search(&number).ok()?;
+            u32::try_from(place).ok()
+        };
         let found = named.iter().filter_map(|it| conditions.get(*it as usize));
+        let found = found.map(|condition| condition.renumbered(renumbered));
         let states = possible.iter().map(|((axis, kind), split)| CarriedState {
             axis: machine.axis(*axis).name.clone(),
             kind: *kind,
-            ways: split.renumbered(|number| u32::try_from(renumbered(number)).unwrap_or(0)),
+            ways: split.renumbered(|number| renumbered(number).unwrap_or(0)),
         });
         Self {
-            conditions: found.cloned().collect(),
+            conditions: found.collect(),
             states: states.collect(),
         }
     }

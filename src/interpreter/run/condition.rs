@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::clash::Clash;
+use crate::comp::Kind;
 use crate::text::Place;
 
 /// Kind of the asking statement.
@@ -19,6 +21,9 @@ pub(in crate::interpreter) enum ConditionKind {
     Skip(u8),
     /// The signal of a probe.
     Probe,
+    /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
+    /// names of the program and of the axis.
+    Call(Kind),
 }
 
 /// A condition that only the machine knows.
@@ -32,9 +37,26 @@ pub(in crate::interpreter) struct Condition {
     pub(in crate::interpreter) cause: Arc<str>,
     /// A place that is reached again asks again: which of its questions it is.
     pub(in crate::interpreter) round: u8,
+    /// How often its number was given to a question.
+    #[serde(default)]
+    pub(in crate::interpreter) time: u32,
+    /// The answers to earlier conditions that contradict answers to it, unless a value changes in between.
+    #[serde(default)]
+    pub(in crate::interpreter) clashes: Vec<Clash>,
 }
 
 impl Condition {
+    /// The same among conditions with other numbers; those without one are left out.
+    pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
+        let mut copy = self.clone();
+        copy.clashes.retain_mut(|clash| {
+            let earlier = number(clash.earlier);
+            clash.earlier = earlier.unwrap_or(clash.earlier);
+            earlier.is_some()
+        });
+        copy
+    }
+
     /// Whether it asks the same at the same place, whichever time.
     pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
         self.kind == other.kind

@@ -1,7 +1,7 @@
 //! The interpreter: a machine, the state of a run on it, and the files it consists of.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -77,6 +77,10 @@ pub struct Interpreter {
     pub(in crate::interpreter) met: Vec<Diagnostic>,
     /// The same where it was said before, or where nothing differs.
     pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
+    /// The answers among which somebody may choose where no way is followed.
+    pub(in crate::interpreter) offered: Vec<WayCondition>,
+    /// The places of the chosen answers to the next such conditions.
+    pub(in crate::interpreter) chosen: VecDeque<usize>,
     pub(in crate::interpreter) regions: Regions,
     /// Messages on lines that are not blocks and not kept.
     pub(in crate::interpreter) lost: Collected,
@@ -200,6 +204,8 @@ impl Interpreter {
             sides: Vec::new(),
             met: Vec::new(),
             met_withheld: Vec::new(),
+            offered: Vec::new(),
+            chosen: VecDeque::new(),
             shown: Shown::default(),
             regions: Regions::new(),
             lost: Collected::default(),

@@ -4,6 +4,7 @@ pub(super) mod block_context;
 pub(super) mod block_scratch;
 pub(super) mod carried_ways;
 pub(super) mod channel_axes;
+pub(super) mod clash;
 pub(super) mod condition;
 pub(super) mod control;
 pub(super) mod coupling;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::clash::Readings;
 use super::control::ControlState;
 use super::event::EndedBy;
 use super::stack::{CallStack, Frame, Seeking};
@@ -32,6 +33,8 @@ pub(in crate::interpreter) struct Track {
     pub(in crate::interpreter) reach: WaySet,
     /// Conditions whose values nothing has written since they were asked.
     pub(in crate::interpreter) asked: Vec<Asked>,
+    /// Conditions on values of the machine whose answers may contradict later ones.
+    pub(in crate::interpreter) readings: Readings,
     /// Values that follow from a condition on the way, with what they were before it.
     pub(in crate::interpreter) assumed: Assumed,
     /// The blocks with a skip mark that the way executes.
@@ -139,7 +142,8 @@ impl Track {
     /// A value is written: what was known of it from conditions is over.
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
-        if !self.asked.is_empty() || !self.assumed.is_empty() {
+        let is_plain = self.asked.is_empty() && self.readings.is_empty();
+        if !is_plain || !self.assumed.is_empty() {
             self.havoc_written(place, memory);
         }
     }
@@ -154,24 +158,25 @@ impl Track {
         };
         self.assumed.0.remove(&target);
         self.asked.retain(|asked| !asked.reads.contains(&target));
+        self.readings.write(&target);
     }
 
     /// Anything may be written.
     pub(in crate::interpreter) fn write_anything(&mut self, memory: &mut Memory) {
         self.assumed.undo(memory);
         self.asked.clear();
+        self.readings.clear();
     }
 
     /// Another program runs, with own parameters and variables of its own.
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
-        if !self.asked.is_empty() {
-            let is_own = |target: &Target| match target {
-                Target::Parameter(owner, _) => *owner == Owner::Call,
-                Target::Variable(name) => name.starts_with("V.L."),
-                Target::Elements(_) | Target::Parameters => true,
-            };
-            self.asked.retain(|asked| !asked.reads.iter().any(is_own));
-        }
+        let is_own = |target: &Target| match target {
+            Target::Parameter(owner, _) => *owner == Owner::Call,
+            Target::Variable(name) => name.starts_with("V.L."),
+            Target::Elements(_) | Target::Parameters => true,
+        };
+        self.asked.retain(|asked| !asked.reads.iter().any(is_own));
+        self.readings.havoc(is_own);
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
 
@@ -183,6 +188,8 @@ impl Track {
             ways,
             reach,
             asked,
+            // Joined before, by what both ways name.
+            readings: _,
             // Undone before.
             assumed: _,
             marked,
@@ -227,6 +234,7 @@ impl Path {
     /// Another way comes to the same block: what differs becomes unknown. Returns how many values do.
     pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
         self.undo_differing(&mut other);
+        self.join_readings(&other);
         let differing = self.control.join(
             &other.control,
             [&self.track.reach, &other.track.reach],
@@ -237,10 +245,28 @@ impl Path {
         differing
     }
 
+    fn join_readings(&mut self, other: &Self) {
+        if self.track.readings != other.track.readings {
+            let named = [&self.conditions(), &other.conditions()];
+            self.track.readings.join(&other.track.readings, named);
+        }
+    }
+
+    /// The conditions that its ways name.
+    fn conditions(&self) -> BTreeSet<u32> {
+        let ControlState {
+            possible,
+            untouched,
+            ..
+        } = &self.control;
+        let named = possible.conditions().chain(untouched.conditions());
+        named.chain(self.track.reach.conditions()).collect()
+    }
+
     /// Withdraws conclusions from a condition that does not hold on both ways.
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
-        if mine != theirs {
+        if !(mine.is_empty() && theirs.is_empty()) {
             let common = |(target, before): (&Target, &Option<Value>)| {
                 let same = theirs.0.get(target) == Some(before);
                 let now = [&self.control.memory, &other.control.memory];

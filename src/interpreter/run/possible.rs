@@ -96,6 +96,11 @@ impl Possible {
         }
     }
 
+    /// On which ways a kind of an axis is selected, and on which not.
+    pub(in crate::interpreter) fn insert(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
+        self.0.insert((axis, kind), split);
+    }
+
     /// The kinds that they are about.
     pub(in crate::interpreter) fn iter(
         &self,

@@ -5,10 +5,12 @@ use std::sync::Arc;
 use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
+use super::clash::clash;
 use super::condition::{Condition, ConditionKind};
 use super::possible::{Possible, Split};
-use super::way_set::{Answer, WaySet};
+use super::way_set::{Answer, Way, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
+use crate::diagnostic::{Diagnostic, Severity};
 
 /// Ways that are named for a state.
 const MAX_NAMED: usize = 4;
@@ -61,6 +63,26 @@ pub enum WayCondition {
         file: Arc<str>,
         /// The line of its first block.
         line: u32,
+        /// The change that the way needs.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        changed: Option<WayChange>,
+    },
+    /// What a program leaves that only the machine has (R2.83).
+    Call {
+        /// The file of the call.
+        file: Arc<str>,
+        /// The line of the call, from 1.
+        line: u32,
+        /// The program.
+        #[serde(serialize_with = "as_text")]
+        text: Arc<str>,
+        /// The name of the axis.
+        #[serde(serialize_with = "as_text")]
+        axis: Arc<str>,
+        /// The kind of compensation.
+        compensation: Kind,
+        /// Whether it is selected after the call.
+        on: bool,
     },
     /// The state in which an axis is found.
     Found {
@@ -86,6 +108,22 @@ pub struct Asked {
     pub text: Arc<str>,
     /// Whether it holds.
     pub holds: bool,
+    /// The change that the way needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changed: Option<WayChange>,
+}
+
+/// A change of a value of the machine, without which a way contradicts an earlier condition of it (R14.1).
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+#[non_exhaustive]
+pub struct WayChange {
+    /// What changes.
+    #[serde(serialize_with = "as_text")]
+    pub name: Arc<str>,
+    /// The file of the earlier condition.
+    pub file: Arc<str>,
+    /// The line of the earlier condition, from 1.
+    pub line: u32,
 }
 
 impl Serialize for PossibleState {
@@ -112,8 +150,9 @@ fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Er
 }
 
 impl PossibleStates {
-    /// The words of the ways to a state, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1
-    /// is on`; `None` where it is the state otherwise, or not possible.
+    /// The words of the ways to a state, as seen from a file: `if V.E.A == 2 (line 12), or if skip level 1
+    /// is on`, or `only if V.E.A changes between lines 1 and 9`; `None` where it is the state otherwise, or
+    /// not possible.
     pub fn ways_to(&self, state: State, file: &str) -> Option<String> {
         let found = self.states.iter().find(|it| it.state == state)?;
         found.words(file)
@@ -122,7 +161,7 @@ impl PossibleStates {
     /// The states in words, as seen from a file: `inactive if V.E.A == 2 (line 12), else active`.
     pub fn in_words(&self, file: &str) -> String {
         let named = self.states.iter().map(|state| match state.words(file) {
-            Some(words) => format!("{} if {words}", state.state),
+            Some(words) => format!("{} {words}", state.state),
             None => format!("else {}", state.state),
         });
         if self.states.iter().any(PossibleState::is_always) {
@@ -138,13 +177,26 @@ impl PossibleStates {
         let (those, others): (Vec<_>, Vec<_>) = self.states.iter().partition(|it| is_it(it.state));
         let those = those.first()?;
         if let Some(words) = those.words(file) {
-            return Some(format!("if {words}"));
+            return Some(words);
         }
         let others = others.first().and_then(|others| others.words(file));
         Some(match others {
-            Some(words) => format!("unless {}", words.replace(", or if ", ", or ")),
+            Some(words) => unless(&words),
             None => "on more ways than can be named".to_owned(),
         })
+    }
+
+    /// Whether nothing but what programs leave decides that only the machine has.
+    pub(crate) fn rests_on_calls(&self) -> bool {
+        let is_call = |condition: &WayCondition| matches!(condition, WayCondition::Call { .. });
+        let named = self.states.iter().flat_map(|state| &state.ways);
+        named.flatten().flatten().all(is_call)
+    }
+
+    /// Whether a state is possible only if a value of the machine changes between two conditions.
+    pub fn needs_change(&self, state: State) -> bool {
+        let found = self.states.iter().find(|it| it.state == state);
+        found.is_some_and(PossibleState::needs_change)
     }
 
     /// The ways to a state; `None` where it is the state otherwise.
@@ -162,8 +214,15 @@ impl PossibleStates {
                 WayCondition::Condition(asked)
                 | WayCondition::Case(asked)
                 | WayCondition::Loop(asked)
-                | WayCondition::Probe(asked) => asked.line = 0,
-                WayCondition::Skip { line, .. } => *line = 0,
+                | WayCondition::Probe(asked) => {
+                    asked.line = 0;
+                    asked.changed = None;
+                }
+                WayCondition::Call { line, .. } => *line = 0,
+                WayCondition::Skip { line, changed, .. } => {
+                    *line = 0;
+                    *changed = None;
+                }
                 WayCondition::Found { .. } => {}
             }
         }
@@ -185,7 +244,7 @@ impl PossibleStates {
 impl PossibleState {
     fn words(&self, file: &str) -> Option<String> {
         let ways = self.ways.as_ref().filter(|_| !self.is_always())?;
-        Some(in_words(ways, self.more, file))
+        Some(after_if(ways, self.more, file))
     }
 
     /// Whether there are so many ways that none is named.
@@ -193,19 +252,61 @@ impl PossibleState {
         let mut ways = self.ways.iter().flatten();
         ways.any(Vec::is_empty)
     }
+
+    fn needs_change(&self) -> bool {
+        self.ways.as_deref().is_some_and(all_need_change)
+    }
 }
 
-/// Ways as words after `if`, as seen from a file.
+/// Ways as words, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1 is on`.
 pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
     in_words(&ways[..named], ways.len() - named, file)
 }
 
+/// The same after `if`, or `only if` where a value of the machine must change on each of them.
+pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
+    let named = ways.len().min(MAX_NAMED);
+    after_if(&ways[..named], ways.len() - named, file)
+}
+
+/// Says of a message on which ways it holds (R14.5). What is no error and holds only if a value of the
+/// machine changes meanwhile is worth knowing, no more (R14.1).
+pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
+    if said.code.is_about_text() {
+        return;
+    }
+    let words = if_ways(ways, &said.place.file);
+    said.message = format!("{}, {words}", said.message);
+    if all_need_change(ways) && said.severity != Severity::Error {
+        said.lower(Severity::Info);
+    }
+}
+
+/// The words for all other ways: `unless …`.
+pub(crate) fn unless(if_words: &str) -> String {
+    let words = if_words.strip_prefix("only ").unwrap_or(if_words);
+    let words = words.strip_prefix("if ").unwrap_or(words);
+    format!("unless {}", words.replace(", or if ", ", or "))
+}
+
+/// Whether each of some ways needs a value of the machine to change between two conditions. The ways
+/// that need none stand before the others.
+pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
+    !ways.is_empty() && ways.iter().all(|way| needs_change(way))
+}
+
+fn needs_change(way: &[WayCondition]) -> bool {
+    way.iter().any(|condition| condition.changed().is_some())
+}
+
+fn after_if(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
+    let only = if all_need_change(ways) { "only " } else { "" };
+    format!("{only}if {}", in_words(ways, more, file))
+}
+
 fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
-    let named = ways.iter().map(|way| {
-        let conditions: Vec<String> = way.iter().map(|it| it.in_words(file)).collect();
-        conditions.join(" and ")
-    });
+    let named = ways.iter().map(|way| way_in_words(way, file));
     let mut words = named.collect::<Vec<_>>().join(", or if ");
     match more {
         0 => {}
@@ -215,9 +316,50 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     words
 }
 
+/// One way; two conditions between which a value changes are named as that.
+fn way_in_words(way: &[WayCondition], file: &str) -> String {
+    let changes = way.iter().filter_map(WayCondition::changed);
+    let is_earlier = |condition: &WayCondition| {
+        let place = condition.place();
+        let mut changes = changes.clone();
+        changes.any(|change| place == Some((&change.file, change.line)))
+    };
+    let named = way
+        .iter()
+        .filter(|it| it.changed().is_some() || !is_earlier(it));
+    let conditions: Vec<String> = named.map(|it| it.in_words(file)).collect();
+    conditions.join(" and ")
+}
+
+impl WayChange {
+    /// `V.E.A changes between lines 1 and 9`.
+    fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
+        let Self {
+            name, line: since, ..
+        } = self;
+        if *self.file == *file && of == file {
+            return format!("{name} changes between lines {since} and {line}");
+        }
+        let [earlier, later] =
+            [(&*self.file, *since), (of, line)].map(|place| seen_from(place, file));
+        format!("{name} changes between {earlier} and {later}")
+    }
+}
+
+fn seen_from((of, line): (&str, u32), file: &str) -> String {
+    if of == file {
+        format!("line {line}")
+    } else {
+        format!("{of}:{line}")
+    }
+}
+
 impl WayCondition {
     /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
     pub fn in_words(&self, file: &str) -> String {
+        if let Some((change, (of, line))) = self.changed().zip(self.place()) {
+            return change.in_words((of, line), file);
+        }
         match self {
             Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) => {
                 let not = if asked.holds { "" } else { "not " };
@@ -242,6 +384,21 @@ impl WayCondition {
                 let word = if *executed { "off" } else { "on" };
                 format!("skip level {level} is {word}")
             }
+            Self::Call {
+                file: of,
+                line,
+                text,
+                axis,
+                compensation,
+                on,
+            } => {
+                let word = if *on { "on" } else { "off" };
+                let place = seen_from((of, *line), file);
+                match compensation {
+                    Kind::Frict => format!("`{text}` leaves {axis} {word} ({place})"),
+                    kind => format!("`{text}` leaves {kind} of {axis} {word} ({place})"),
+                }
+            }
             Self::Found {
                 axis,
                 compensation: Kind::Frict,
@@ -256,13 +413,32 @@ impl WayCondition {
     }
 }
 
+impl WayCondition {
+    /// The change of a value without which it contradicts an earlier condition of its way.
+    fn changed(&self) -> Option<&WayChange> {
+        match self {
+            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
+                asked.changed.as_ref()
+            }
+            Self::Skip { changed, .. } => changed.as_ref(),
+            Self::Call { .. } | Self::Found { .. } => None,
+        }
+    }
+
+    fn place(&self) -> Option<(&Arc<str>, u32)> {
+        match self {
+            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
+                Some((&asked.file, asked.line))
+            }
+            Self::Skip { file, line, .. } | Self::Call { file, line, .. } => Some((file, *line)),
+            Self::Found { .. } => None,
+        }
+    }
+}
+
 impl Asked {
     fn seen_from(&self, file: &str) -> String {
-        if *self.file == *file {
-            format!("line {}", self.line)
-        } else {
-            format!("{}:{}", self.file, self.line)
-        }
+        seen_from((&self.file, self.line), file)
     }
 }
 
@@ -291,7 +467,11 @@ pub(in crate::interpreter) fn shown(
                 ways.within(reach).beyond(reach)
             }
         });
-        let size = |ways: &WaySet| ways.conditions().count();
+        // What is possible only if a value changes says so.
+        let size = |ways: &WaySet| {
+            let named = ways.conditions().count();
+            named * usize::from(!all_need_change(&ways_of(ways, conditions)))
+        };
         let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
         let states = if size(&off) <= size(&on) {
             vec![named(if_off, &off, conditions), otherwise(if_on)]
@@ -335,7 +515,8 @@ pub(in crate::interpreter) fn ways_of(
     for way in in_order {
         let asked = way.iter().filter_map(|answer| {
             let condition = conditions.get(answer.condition as usize)?;
-            Some(condition_of(condition, *answer))
+            let changed = change_of(answer, way, conditions);
+            Some(condition_of(condition, *answer, changed))
         });
         let mut named: Vec<WayCondition> = Vec::new();
         for condition in asked {
@@ -348,10 +529,21 @@ pub(in crate::interpreter) fn ways_of(
             all.push(named);
         }
     }
+    all.sort_by_key(|way| needs_change(way));
     all
 }
 
-fn condition_of(condition: &Condition, answer: Answer) -> WayCondition {
+fn change_of(answer: &Answer, way: &Way, conditions: &[Condition]) -> Option<WayChange> {
+    let found = clash(answer, way, conditions)?;
+    let earlier = &conditions.get(found.earlier as usize)?.place;
+    Some(WayChange {
+        name: found.name.clone(),
+        file: earlier.file.clone(),
+        line: earlier.start().line,
+    })
+}
+
+fn condition_of(condition: &Condition, answer: Answer, changed: Option<WayChange>) -> WayCondition {
     let (file, line) = (condition.place.file.clone(), condition.place.start().line);
     let of = |sides: u64| {
         let texts = condition.texts.iter().enumerate();
@@ -370,17 +562,30 @@ fn condition_of(condition: &Condition, answer: Answer) -> WayCondition {
             of(answer.sides)
         },
         holds: !is_else,
+        changed: changed.clone(),
     };
     match condition.kind {
         ConditionKind::Branch => WayCondition::Condition(asked),
         ConditionKind::Case => WayCondition::Case(asked),
         ConditionKind::Loop => WayCondition::Loop(asked),
         ConditionKind::Probe => WayCondition::Probe(asked),
+        ConditionKind::Call(compensation) => {
+            let text = |place: usize| condition.texts.get(place).cloned().unwrap_or_default();
+            WayCondition::Call {
+                file,
+                line,
+                text: text(0),
+                axis: text(1),
+                compensation,
+                on: answer.sides == 1,
+            }
+        }
         ConditionKind::Skip(level) => WayCondition::Skip {
             level,
             executed: is_else,
             file,
             line,
+            changed,
         },
     }
 }

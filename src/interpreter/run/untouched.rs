@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
-use super::possible_state::{WayCondition, ways_in_words, ways_of};
+use super::possible_state::{WayCondition, if_ways, ways_of};
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Kind, KindSet};
 
@@ -85,8 +85,19 @@ pub(crate) enum Found {
     Always,
     /// On none.
     Never,
-    /// On some, in words after `if`.
+    /// On some, in words: `if V.E.A == 2 (line 12)`.
     If(String),
+}
+
+/// The ways on which a state is the one that the program found.
+#[derive(Debug, Clone)]
+pub(crate) struct FoundOn(WaySet);
+
+impl FoundOn {
+    /// Adds the ways of another motion.
+    pub(crate) fn or(&mut self, other: &Self) {
+        self.0.or(&other.0);
+    }
 }
 
 /// Kinds that a program has not yet switched at a block.
@@ -112,14 +123,23 @@ impl FoundStates<'_> {
         self.reach.is_always() && untouched.is_none_or(WaySet::is_always)
     }
 
+    /// The ways on which a kind of an axis still is in that state.
+    pub(crate) fn on(self, axis: AxisIndex, kind: Kind) -> FoundOn {
+        FoundOn(self.untouched.of((axis, kind), self.reach))
+    }
+
+    /// Ways as lists of conditions that hold together; none where they are all.
+    pub(crate) fn ways_of(self, on: &FoundOn) -> Vec<Vec<WayCondition>> {
+        if on.0.is_always() {
+            return Vec::new();
+        }
+        ways_of(&on.0, self.conditions)
+    }
+
     /// The ways on which a kind of an axis still is in that state, each a list of conditions that hold
     /// together; none where it is on all of them, or on no way.
     pub(crate) fn ways(self, axis: AxisIndex, kind: Kind) -> Vec<Vec<WayCondition>> {
-        let ways = self.untouched.of((axis, kind), self.reach);
-        if ways.is_always() {
-            return Vec::new();
-        }
-        ways_of(&ways, self.conditions)
+        self.ways_of(&self.on(axis, kind))
     }
 
     /// The ways on which a kind of an axis still is in that state, as seen from a file.
@@ -130,7 +150,7 @@ impl FoundStates<'_> {
         } else if ways.is_always() {
             Found::Always
         } else {
-            Found::If(ways_in_words(&ways_of(&ways, self.conditions), file))
+            Found::If(if_ways(&ways_of(&ways, self.conditions), file))
         }
     }
 }

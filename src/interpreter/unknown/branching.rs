@@ -6,13 +6,16 @@ use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::clash::{Reading, Says, is_compared};
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{Asked, BranchSide};
+use crate::interpreter::run::possible_state::{WayCondition, ways_of};
 use crate::interpreter::run::stack::Seeking;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_set::{Answer, WaySet};
-use crate::interpreter::values::plain::Asking;
+use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
@@ -22,7 +25,7 @@ use crate::text::Span;
 const MAX_OPEN: usize = 40;
 
 /// Conditions that ways may name.
-const MAX_CONDITIONS: usize = 4096;
+pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
 
 /// Conditions on values of the program whose answers are remembered; older ones are asked anew.
 const MAX_ASKED: usize = 64;
@@ -40,29 +43,82 @@ pub(in crate::interpreter) struct Question {
     /// Text of the condition for each answer but the last.
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     pub(in crate::interpreter) cause: Arc<str>,
-    /// Values that it reads, where only the program writes them.
+    /// Values that it reads, where that is plain.
     pub(in crate::interpreter) reads: Option<Asking>,
+}
+
+impl Question {
+    /// The same question, where nothing but the program writes what it reads.
+    fn key(&self) -> Option<Arc<str>> {
+        let asking = self.reads.as_ref();
+        let asking = asking.filter(|asking| asking.writer == Writer::Nothing)?;
+        Some(Arc::from(&*asking.meaning))
+    }
 }
 
 /// Block at which a way goes on.
 pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
+    /// Values that follow from the answer.
     pub(in crate::interpreter) values: Vec<(Target, Value)>,
+    /// Values that the answer rules out.
+    pub(in crate::interpreter) ruled_out: Vec<(Target, Value)>,
 }
 
 impl Goal {
+    fn says(&self) -> Says {
+        Says {
+            is: self.values.clone(),
+            is_not: self.ruled_out.clone(),
+        }
+    }
+
+    fn side(self, answer: Answer) -> BranchSide {
+        BranchSide {
+            seeking: self.seeking,
+            values: self.values,
+            ..BranchSide::to(WaySet::of(answer), self.to)
+        }
+    }
+
     /// A block.
     pub(in crate::interpreter) fn block(to: EntryIndex) -> Self {
         Self {
             to,
             seeking: None,
             values: Vec::new(),
+            ruled_out: Vec::new(),
         }
     }
 }
 
+/// The answers to a condition, so many.
+pub(in crate::interpreter) fn answers(
+    condition: u32,
+    count: usize,
+) -> impl Iterator<Item = Answer> {
+    let of = u8::try_from(count).unwrap_or(u8::MAX);
+    (0..count).map(move |place| Answer {
+        condition,
+        sides: 1 << place,
+        of,
+    })
+}
+
 impl Interpreter {
+    /// The answers to the condition in the block that was executed last, where only the machine knows which
+    /// holds and no way was followed ([`Branches::Passed`]).
+    pub fn offered(&self) -> &[WayCondition] {
+        &self.offered
+    }
+
+    /// The next such condition has one of the answers that are [`offered`](Self::offered), by its place
+    /// among them; after a second call, so has the one after it.
+    pub fn choose(&mut self, place: usize) {
+        self.chosen.push_back(place);
+    }
+
     /// Whether the ways that part at the block can be followed, so many of them.
     pub(in crate::interpreter) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
         let Some(program) = self.state.control.frames.program() else {
@@ -94,27 +150,67 @@ impl Interpreter {
         goals: Vec<Goal>,
         at: &BlockContext<'_>,
     ) -> bool {
-        if self.scratch.unread.get() || !self.may_part(goals.len(), at) {
+        if self.scratch.unread.get() {
+            return false;
+        }
+        if self.options.branches == Branches::Passed {
+            return self.take_chosen(question, goals, at);
+        }
+        if !self.may_part(goals.len(), at) {
             return false;
         }
         if question.kind == ConditionKind::Loop {
             self.note_open_loop();
         }
-        let of = u8::try_from(goals.len()).unwrap_or(u8::MAX);
-        let condition = self.ask(question, at);
-        let sides = goals.into_iter().enumerate().map(|(place, goal)| {
-            let answer = Answer {
-                condition,
-                sides: 1 << place,
-                of,
-            };
-            BranchSide {
-                seeking: goal.seeking,
-                values: goal.values,
-                ..BranchSide::to(WaySet::of(answer), goal.to)
+        let condition = self.ask(question, goals.iter().map(Goal::says).collect(), at);
+        let answers = answers(condition, goals.len());
+        let sides = goals.into_iter().zip(answers);
+        self.sides = sides.map(|(goal, answer)| goal.side(answer)).collect();
+        true
+    }
+
+    /// The answer is taken that was chosen beforehand, or that an earlier one implies; without either the
+    /// answers are offered. Whether one is taken.
+    fn take_chosen(
+        &mut self,
+        question: Question,
+        mut goals: Vec<Goal>,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        let can = at.macro_depth == 0
+            && self.options.motions != Motions::Taken
+            && self.sides.is_empty()
+            && (2..=MAX_ANSWERS).contains(&goals.len())
+            && self.state.conditions.len() + 1 < MAX_CONDITIONS
+            && self.state.control.cycles.is_empty();
+        if !can {
+            return false;
+        }
+        if question.key().is_none() {
+            // The next block that reads the value asks anew.
+            for goal in &mut goals {
+                goal.values.clear();
             }
-        });
-        self.sides = sides.collect();
+        }
+        let condition = self.ask(question, Vec::new(), at);
+        let answers: Vec<Answer> = answers(condition, goals.len()).collect();
+        let reach = &self.state.track.reach;
+        let fits = |answer: &&Answer| !reach.and(&WaySet::of(**answer)).is_never();
+        let mut possible = answers.iter().filter(fits);
+        let only = possible.next().filter(|_| possible.next().is_none());
+        let answer = match only {
+            Some(only) => Some(only),
+            None => self.chosen.pop_front().and_then(|place| answers.get(place)),
+        };
+        let Some(answer) = answer else {
+            let ways = answers
+                .iter()
+                .map(|it| ways_of(&WaySet::of(*it), &self.state.conditions));
+            self.offered = ways.flatten().flatten().collect();
+            return false;
+        };
+        let place = answer.sides.trailing_zeros() as usize;
+        self.sides = vec![goals.swap_remove(place).side(*answer)];
         true
     }
 
@@ -130,45 +226,112 @@ impl Interpreter {
     }
 
     /// The number of the condition that a question asks for.
-    fn ask(&mut self, question: Question, at: &BlockContext<'_>) -> u32 {
-        let key = question
-            .reads
-            .as_ref()
-            .map(|asking| Arc::from(&*asking.meaning));
+    fn ask(&mut self, question: Question, answers: Vec<Says>, at: &BlockContext<'_>) -> u32 {
+        let key = question.key();
         if let Some(key) = &key {
             let mut asked = self.state.track.asked.iter();
             if let Some(asked) = asked.find(|asked| asked.key == *key) {
                 return asked.condition;
             }
-        }
-        let condition = self.condition_at(&question, at);
-        self.state.track.reach.havoc(condition);
-        self.state.control.possible.havoc(condition);
-        self.state.control.untouched.havoc(condition);
-        let track = &mut self.state.track;
-        track.asked.retain(|asked| asked.condition != condition);
-        if let Some((Asking { reads, .. }, key)) = question.reads.zip(key) {
-            if track.asked.len() >= MAX_ASKED {
-                track.asked.remove(0);
+            if let Some(asked) = self.asked_elsewhere(key) {
+                let condition = asked.condition;
+                self.state.track.asked.push(asked);
+                return condition;
             }
-            track.asked.push(Asked {
-                condition,
-                key,
-                reads,
-            });
         }
-        condition
-    }
-
-    /// The condition of a question: a new one, or one of this place that no way names any more.
-    fn condition_at(&mut self, question: &Question, at: &BlockContext<'_>) -> u32 {
-        let mut wanted = Condition {
+        let condition = self.ask_anew(Condition {
             kind: question.kind,
             place: at.place(question.span),
             texts: question.texts.clone(),
             cause: question.cause.clone(),
             round: 0,
+            time: 0,
+            clashes: Vec::new(),
+        });
+        let track = &mut self.state.track;
+        track.asked.retain(|asked| asked.condition != condition);
+        if let Some(key) = key {
+            if track.asked.len() >= MAX_ASKED {
+                track.asked.remove(0);
+            }
+            let reads = question.reads.map(|asking| asking.reads);
+            track.asked.push(Asked {
+                condition,
+                key,
+                reads: reads.unwrap_or_default(),
+            });
+        } else {
+            self.compare(condition, &question, answers);
+        }
+        condition
+    }
+
+    /// A question that reads no value, and so has one answer on all ways, as another way asked it.
+    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<Asked> {
+        let ended = self.state.ended.iter().map(|ended| &ended.path);
+        let paths = self.state.pending.iter().chain(ended);
+        let mut asked = paths.flat_map(|path| &path.track.asked);
+        let found = asked.find(|asked| asked.reads.is_empty() && asked.key == *key);
+        found.cloned()
+    }
+
+    /// The number of a condition of which no way knows the answer yet.
+    pub(in crate::interpreter) fn ask_anew(&mut self, wanted: Condition) -> u32 {
+        let condition = self.condition_at(wanted);
+        self.state.track.reach.havoc(condition);
+        self.state.control.possible.havoc(condition);
+        self.state.control.untouched.havoc(condition);
+        condition
+    }
+
+    /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
+    fn compare(&mut self, condition: u32, question: &Question, answers: Vec<Says>) {
+        let place = condition as usize;
+        let is_own =
+            |target: &Target| matches!(target, Target::Variable(name) if self.is_own(name));
+        let asking = question.reads.as_ref();
+        let asking = asking.filter(|asking| !asking.reads.iter().any(is_own));
+        let is_again = self.is_asked_again(place);
+        let State {
+            track,
+            conditions,
+            pending,
+            ended,
+            ..
+        } = &mut self.state;
+        let Some(known) = conditions.get_mut(place) else {
+            return;
         };
+        known.time += 1;
+        known.clashes.clear();
+        if is_again || !is_compared(question.kind) {
+            track.readings.wait_for(asking);
+        }
+        // Other ways may name the same condition as it was asked before.
+        let is_alone = known.time == 1 || (pending.is_empty() && ended.is_empty());
+        if let Some(asking) = asking.filter(|_| is_alone && is_compared(question.kind)) {
+            let reading = Reading::of((condition, known.time), asking, answers);
+            known.clashes = track.readings.ask(reading);
+        }
+    }
+
+    /// Whether the condition was asked before at the same place, and its value not written since.
+    fn is_asked_again(&self, place: usize) -> bool {
+        let State {
+            track, conditions, ..
+        } = &self.state;
+        let Some(condition) = conditions.get(place) else {
+            return false;
+        };
+        let mut asked = track.readings.conditions();
+        asked.any(|it| {
+            let other = conditions.get(it as usize);
+            other.is_some_and(|other| other.is_like(condition))
+        })
+    }
+
+    /// The condition of a question: a new one, or one of this place that no way names any more.
+    fn condition_at(&mut self, mut wanted: Condition) -> u32 {
         let mut last = None;
         for (number, known) in (0..).zip(&self.state.conditions) {
             if !known.is_like(&wanted) {

@@ -3,6 +3,7 @@
 pub(super) mod branch;
 pub(super) mod branching;
 pub(super) mod join;
+pub(super) mod leaving;
 pub(super) mod may_effects;
 pub(super) mod regions;
 pub(super) mod telling;

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use serde::{Deserialize, Serialize};
+
 use super::target::Target;
 use super::value::Value;
 use super::variable::canonical;
@@ -79,6 +81,31 @@ pub(in crate::interpreter) fn conclusions(
         }
     }
     found
+}
+
+/// Whether an expression compares one variable with one number and asks nothing else, so that either
+/// answer tells whether they are equal.
+pub(in crate::interpreter) fn is_one_comparison(
+    block: &Block,
+    text: &str,
+    expression: Expression,
+) -> bool {
+    let Some((node, operands)) = root(block, expression) else {
+        return false;
+    };
+    match (node, operands.as_slice()) {
+        (
+            Node::Call {
+                function: Function::Not,
+                ..
+            },
+            [inner],
+        ) => is_one_comparison(block, text, *inner),
+        (Node::Binary(BinaryOperator::Equal | BinaryOperator::NotEqual), [one, other]) => {
+            equal(block, text, [*one, *other]).is_some()
+        }
+        _ => false,
+    }
 }
 
 /// Whether a variable is 0 or 1 and nothing else.
@@ -172,14 +199,38 @@ fn popped(node: Node) -> usize {
     }
 }
 
+/// What writes a value besides the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Writer {
+    /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and what is `stable`.
+    Nothing,
+    /// The machine at any time: `V.E.`, skip levels.
+    Machine,
+    /// What the control does, motion for instance: `V.A.`, `V.G.`.
+    Control,
+}
+
+impl Writer {
+    fn of(name: &str) -> Self {
+        let is_of = |families: &[&str]| families.iter().any(|family| name.starts_with(family));
+        if is_of(&["V.P.", "V.L.", "V.S."]) {
+            Self::Nothing
+        } else if is_of(&["V.E."]) {
+            Self::Machine
+        } else {
+            Self::Control
+        }
+    }
+}
+
 /// Values that an expression reads and its operations on them, in a form independent of its text.
 pub(in crate::interpreter) struct Asking {
+    pub(in crate::interpreter) writer: Writer,
     pub(in crate::interpreter) reads: Vec<Target>,
     pub(in crate::interpreter) meaning: String,
 }
 
-/// Returns the values that an expression reads, where only the program writes all of them, or they
-/// are `stable`.
+/// Returns the values that an expression reads, where these are parameters and whole variables.
 pub(in crate::interpreter) fn reads(
     block: &Block,
     text: &str,
@@ -188,6 +239,7 @@ pub(in crate::interpreter) fn reads(
 ) -> Option<Asking> {
     let mut found = Vec::new();
     let mut meaning = String::new();
+    let mut writer = Writer::Nothing;
     for at in expression.start..expression.end {
         let at = at as usize;
         let node = *block.nodes.get(at)?;
@@ -201,20 +253,16 @@ pub(in crate::interpreter) fn reads(
             continue;
         };
         meaning = format!("{meaning} {read:?}");
-        let is_of_program = match &read {
-            Target::Parameter(Owner::Program | Owner::Call, _) => true,
-            Target::Variable(name) => {
-                let mut families = ["V.P.", "V.L.", "V.S."].iter();
-                families.any(|family| name.starts_with(family)) || stable.contains(name)
-            }
-            Target::Elements(_) | Target::Parameters => false,
-        };
-        if !is_of_program {
-            return None;
-        }
+        writer = writer.max(match &read {
+            Target::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
+            Target::Variable(name) if stable.contains(name) => Writer::Nothing,
+            Target::Variable(name) => Writer::of(name),
+            Target::Elements(_) | Target::Parameters => return None,
+        });
         found.push(read);
     }
     Some(Asking {
+        writer,
         reads: found,
         meaning,
     })

@@ -423,6 +423,7 @@ sent! {
     interpreter::Travel,
     interpreter::Turn,
     interpreter::Value,
+    interpreter::WayChange,
     interpreter::WayCondition,
     lists::AxisType,
     lists::AxisValues,

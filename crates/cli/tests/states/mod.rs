@@ -7,3 +7,6 @@ mod sessions;
 mod undescribed;
 mod unknown;
 mod versions;
+mod ways;
+mod ways_counted;
+mod ways_given;

@@ -77,6 +77,14 @@ pub(super) struct Variables {
     pub(super) variables_reference: i64,
 }
 
+/// `stepIn`.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct StepIn {
+    /// The place of the side that is taken.
+    pub(super) target_id: Option<usize>,
+}
+
 /// `setVariable`.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]

@@ -9,11 +9,11 @@ use std::thread;
 use serde_json::{Value, json};
 
 use super::arguments::{
-    Evaluate, Launch, SetBreakpoints, SetFilters, SetVariable, Variables, arguments,
+    Evaluate, Launch, SetBreakpoints, SetFilters, SetVariable, StepIn, Variables, arguments,
 };
 use super::breakpoints::{Breakpoints, STATE_CHANGES, UNKNOWN_VALUES};
 use super::paths::real;
-use super::stepper::{Halt, Position, Reach, Said, Stepper, in_words};
+use super::stepper::{Halt, Moved, Position, Reach, Said, Stepper, in_words};
 use super::transport::{self, Incoming, Outgoing, Request};
 use super::variables::{self, Scope};
 use frictcomp::diagnostic::{Diagnostic, Severity};
@@ -49,6 +49,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
         breakpoints: Breakpoints::default(),
         stepper: None,
         stop_on_entry: true,
+        moved: Moved::No,
         is_over: false,
     };
     while let Some(incoming) = server.client.next() {
@@ -131,6 +132,8 @@ struct Server<W> {
     breakpoints: Breakpoints,
     stepper: Option<Stepper>,
     stop_on_entry: bool,
+    /// Whether the request moved the run to another block by itself.
+    moved: Moved,
     /// Whether the client was told that the run has ended.
     is_over: bool,
 }
@@ -138,6 +141,7 @@ struct Server<W> {
 impl<W: Write> Server<W> {
     /// Answers a request, and does what comes after the answer.
     fn serve(&mut self, request: &Request) -> io::Result<()> {
+        self.moved = Moved::No;
         let answer = self.answer(request);
         let is_done = answer.is_ok();
         self.outgoing.respond(request, answer)?;
@@ -145,6 +149,8 @@ impl<W: Write> Server<W> {
             return Ok(());
         }
         match request.command.as_str() {
+            // A skipped block is passed over.
+            "stepIn" | "setVariable" if self.moved == Moved::Yes => self.stopped("step", ""),
             "launch" => self.outgoing.event("initialized", &json!({})),
             "configurationDone" => self.begin(),
             "continue" => self.go(Reach::Breakpoint),
@@ -188,9 +194,18 @@ impl<W: Write> Server<W> {
             "continue" => self
                 .stepper()
                 .map(|_| json!({ "allThreadsContinued": true })),
-            "configurationDone" | "next" | "stepIn" | "stepOut" => {
-                self.stepper().map(|_| json!({}))
+            "stepInTargets" => self
+                .stepper()
+                .map(|stepper| json!({ "targets": sides(stepper) })),
+            "stepIn" => {
+                self.stepper()?;
+                if !request.arguments.is_null() {
+                    let StepIn { target_id } = arguments(request)?;
+                    target_id.map_or(Ok(()), |place| self.choose(place))?;
+                }
+                Ok(json!({}))
             }
+            "configurationDone" | "next" | "stepOut" => self.stepper().map(|_| json!({})),
             "pause" | "disconnect" | "terminate" => Ok(json!({})),
             other => Err(format!("`{other}` is not supported")),
         }
@@ -267,7 +282,27 @@ impl<W: Write> Server<W> {
         Ok(json!({ "breakpoints": told }))
     }
 
+    /// Takes a side of the condition of the block that is shown.
+    fn choose(&mut self, place: usize) -> Result<(), String> {
+        let stepper = self.stepper.as_mut().ok_or("no program was launched")?;
+        self.moved = stepper.choose(place)?;
+        Ok(())
+    }
+
+    /// Takes the side that a variable names.
+    fn set_side(&mut self, wanted: &SetVariable) -> Result<Value, String> {
+        let place = self.stepper()?.answers().position(|it| it == wanted.name);
+        match (place, wanted.value.trim()) {
+            (Some(place), "1" | "true") => self.choose(place)?,
+            _ => return Err("a side is taken with the value 1".to_owned()),
+        }
+        Ok(json!({ "value": "taken" }))
+    }
+
     fn set_variable(&mut self, wanted: &SetVariable) -> Result<Value, String> {
+        if wanted.variables_reference == Scope::Sides as i64 {
+            return self.set_side(wanted);
+        }
         let stepper = self.stepper.as_mut().ok_or("no program was launched")?;
         if wanted.variables_reference != Scope::Unknown as i64 {
             return Err(
@@ -453,6 +488,7 @@ fn capabilities() -> Value {
         "supportsLogPoints": true,
         "supportsConfigurationDoneRequest": true,
         "supportsSetVariable": true,
+        "supportsStepInTargetsRequest": true,
         "supportsEvaluateForHovers": true,
         "supportsTerminateRequest": true,
         "supportsExceptionFilterOptions": true,
@@ -473,6 +509,13 @@ fn capabilities() -> Value {
             },
         ],
     })
+}
+
+/// The sides of the condition of the next block.
+fn sides(stepper: &Stepper) -> Vec<Value> {
+    let sides = stepper.answers().enumerate();
+    let sides = sides.map(|(id, words)| json!({ "id": id, "label": words }));
+    sides.collect()
 }
 
 /// The calls that led to the next block, the innermost first.

@@ -14,6 +14,7 @@ use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{
     Branches, Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
+    WayCondition,
 };
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::syntax::axis_uses;
@@ -229,6 +230,13 @@ impl Observer for Stride<'_> {
     }
 }
 
+/// Whether the run stands before another block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Moved {
+    Yes,
+    No,
+}
+
 /// The run of a program.
 pub(super) struct Stepper {
     machine: Arc<Machine>,
@@ -245,6 +253,8 @@ pub(super) struct Stepper {
     position: Position,
     /// What the block that is shown reads and only the machine knows.
     wanted: BTreeSet<String>,
+    /// The answers to its condition, where only the machine knows which holds.
+    answers: Vec<WayCondition>,
     /// The values that the run has stopped at already.
     asked: BTreeSet<String>,
     /// What was said by blocks that were executed since the client was told.
@@ -297,6 +307,7 @@ impl Stepper {
             trail,
             position: Position::Before(Vec::new()),
             wanted: BTreeSet::new(),
+            answers: Vec::new(),
             asked: BTreeSet::new(),
             said,
         };
@@ -335,6 +346,39 @@ impl Stepper {
     /// The names of the values that the block reads which is shown, and only the machine knows.
     pub(super) fn wanted(&self) -> &BTreeSet<String> {
         &self.wanted
+    }
+
+    /// The answers to the condition of the block that is shown, in words; none where nothing is to be chosen.
+    pub(super) fn answers(&self) -> impl Iterator<Item = String> {
+        let file = match &self.position {
+            Position::Before(sites) => sites.last().map(|site| &*site.file),
+            Position::Ended(_) => None,
+        };
+        let file = file.unwrap_or_default();
+        self.answers.iter().map(move |it| it.in_words(file))
+    }
+
+    /// Chooses an answer to the condition of the block that is shown, by its place among them. A later
+    /// condition on the same value is another one. Whether the run stands before another block then: a
+    /// block that is skipped is passed over.
+    ///
+    /// # Errors
+    /// There is no such answer; in words.
+    pub(super) fn choose(&mut self, place: usize) -> Result<Moved, String> {
+        if place >= self.answers.len() {
+            return Err("the block has no such side to choose".to_owned());
+        }
+        for name in &self.wanted {
+            self.asked.remove(name);
+        }
+        let before = self.position.clone();
+        self.here.choose(place);
+        self.look_ahead();
+        Ok(if self.position == before {
+            Moved::No
+        } else {
+            Moved::Yes
+        })
     }
 
     /// Gives a value that only the machine knows, from the block on that is shown.
@@ -444,6 +488,7 @@ impl Stepper {
     fn look_ahead(&mut self) {
         self.settled = self.here.settled();
         self.wanted.clear();
+        self.answers.clear();
         if let Some(by) = self.trail.ended {
             self.position = Position::Ended(by);
             return;
@@ -463,6 +508,7 @@ impl Stepper {
             ControlFlow::Break(())
         });
         self.wanted = wanted;
+        self.answers = copy.offered().to_vec();
         self.position = match ended {
             // What is left of the program is no block: it ends without a further stop.
             Some(by) => {

@@ -19,6 +19,8 @@ pub(super) enum Scope {
     Values = 3,
     /// G functions and the feed.
     Modal = 4,
+    /// The answers to the condition of the next block.
+    Sides = 5,
 }
 
 /// The handles from here on are those of single axes.
@@ -30,6 +32,9 @@ impl Scope {
         let mut scopes = vec![(Self::Axes, "Axes")];
         if !stepper.wanted().is_empty() {
             scopes.push((Self::Unknown, "Only the machine knows"));
+        }
+        if stepper.answers().next().is_some() {
+            scopes.push((Self::Sides, "Sides"));
         }
         scopes.push((Self::Values, "Parameters and variables"));
         scopes.push((Self::Modal, "G functions"));
@@ -47,6 +52,12 @@ pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
             let names = stepper.wanted().iter();
             names
                 .map(|name| line(name, "unknown; set a value here"))
+                .collect()
+        }
+        _ if handle == Scope::Sides as i64 => {
+            let answers = stepper.answers();
+            answers
+                .map(|words| line(&words, "open; set 1 to take this side"))
                 .collect()
         }
         _ if handle == Scope::Values as i64 => {

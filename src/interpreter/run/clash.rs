@@ -1,0 +1,237 @@
+//! Answers that contradict each other while a value of the machine stays as it is (R14.1).
+//!
+//! A value of the machine is asked for anew each time. A way that needs two answers which no single value
+//! gives is possible all the same, but only if the value changes in between.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::condition::{Condition, ConditionKind};
+use super::way_set::{Answer, Way};
+use crate::interpreter::values::plain::{Asking, Writer};
+use crate::interpreter::values::target::Target;
+use crate::interpreter::values::value::Value;
+
+/// Conditions on values of the machine that are remembered; older ones contradict nothing.
+const MAX_READINGS: usize = 16;
+
+/// Answers of a condition beyond which what they say of values is not compared.
+const MAX_COMPARED: usize = 8;
+
+/// What an answer says of values.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Says {
+    /// The values that follow from it.
+    pub(in crate::interpreter) is: Vec<(Target, Value)>,
+    /// The values that it rules out.
+    pub(in crate::interpreter) is_not: Vec<(Target, Value)>,
+}
+
+impl Says {
+    /// A variable for which no value gives both answers.
+    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Target> {
+        let differs = |(target, value): &&(Target, Value)| {
+            let mut known = other.is.iter();
+            known.any(|(of, other)| of == target && other != value)
+                || other.is_not.contains(&(target.clone(), value.clone()))
+        };
+        let is_ruled_out = |pair: &&(Target, Value)| other.is.contains(pair);
+        let found = self.is.iter().find(differs);
+        let found = found.or_else(|| self.is_not.iter().find(is_ruled_out));
+        found.map(|(target, _)| target)
+    }
+}
+
+/// A condition on values of the machine that the program has not written since.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Reading {
+    pub(in crate::interpreter) condition: u32,
+    /// Which of the times it is that the condition is asked.
+    time: u32,
+    meaning: Arc<str>,
+    writer: Writer,
+    reads: Vec<Target>,
+    answers: Vec<Says>,
+}
+
+impl Reading {
+    pub(in crate::interpreter) fn of(
+        (condition, time): (u32, u32),
+        asking: &Asking,
+        answers: Vec<Says>,
+    ) -> Self {
+        Self {
+            condition,
+            time,
+            meaning: Arc::from(&*asking.meaning),
+            writer: asking.writer,
+            reads: asking.reads.clone(),
+            answers,
+        }
+    }
+
+    /// The pairs of answers of this condition and a later one that no value gives.
+    fn clashes(&self, later: &Self) -> Vec<Clash> {
+        let named = |name: String, answers| Clash {
+            earlier: self.condition,
+            time: self.time,
+            name: name.into(),
+            answers,
+        };
+        let all = |reading: &Self| (1_u64 << reading.answers.len()) - 1;
+        if self.meaning == later.meaning {
+            let sides = (0..self.answers.len()).map(|place| 1_u64 << place);
+            let others = |side: u64| [side, all(later) & !side];
+            return sides
+                .map(|side| named(self.names(), others(side)))
+                .collect();
+        }
+        let mut found = Vec::new();
+        if self.answers.len().max(later.answers.len()) > MAX_COMPARED {
+            return found;
+        }
+        for (mine, says) in self.answers.iter().enumerate() {
+            for (theirs, other) in later.answers.iter().enumerate() {
+                let of = says.contradicts(other).and_then(name_of);
+                found.extend(of.map(|name| named(name, [1 << mine, 1 << theirs])));
+            }
+        }
+        found
+    }
+
+    /// The variables that it reads, or what it asks for.
+    fn names(&self) -> String {
+        let mut names: Vec<String> = self.reads.iter().filter_map(name_of).collect();
+        names.dedup();
+        if names.is_empty() {
+            return self.meaning.to_string();
+        }
+        names.join(" or ")
+    }
+}
+
+fn name_of(target: &Target) -> Option<String> {
+    match target {
+        Target::Variable(name) => Some(name.clone()),
+        Target::Parameter(..) | Target::Elements(_) | Target::Parameters => None,
+    }
+}
+
+/// The conditions on values of the machine that are remembered, the latest last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Readings(Vec<Reading>);
+
+impl Readings {
+    #[inline]
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A condition is asked: the answers that contradict earlier ones.
+    pub(in crate::interpreter) fn ask(&mut self, reading: Reading) -> Vec<Clash> {
+        let earlier = self.0.iter();
+        let clashes = earlier.flat_map(|it| it.clashes(&reading)).collect();
+        if self.0.len() >= MAX_READINGS {
+            self.0.remove(0);
+        }
+        self.0.push(reading);
+        clashes
+    }
+
+    /// The program waits for values to change, or may: it asks again in a loop.
+    pub(in crate::interpreter) fn wait_for(&mut self, asking: Option<&Asking>) {
+        match asking {
+            None => self.0.clear(),
+            Some(asking) => {
+                let is_read = |it: &Reading| it.reads.iter().any(|of| asking.reads.contains(of));
+                self.0
+                    .retain(|it| !is_read(it) && *it.meaning != *asking.meaning);
+            }
+        }
+    }
+
+    /// The program writes a value.
+    pub(in crate::interpreter) fn write(&mut self, target: &Target) {
+        self.0.retain(|it| !it.reads.contains(target));
+    }
+
+    /// The control does something: moves, changes tools.
+    pub(in crate::interpreter) fn act(&mut self) {
+        self.0.retain(|it| it.writer != Writer::Control);
+    }
+
+    /// Some values are others from here on.
+    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Target) -> bool) {
+        self.0.retain(|it| !it.reads.iter().any(&is_other));
+    }
+
+    pub(in crate::interpreter) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
+        self.0.iter().map(|it| it.condition)
+    }
+
+    /// Two ways meet: what only one of them asked counts where the other names no answer to it.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
+        let [mine, theirs] = named;
+        let is_only_mine = |it: &Reading| !theirs.contains(&it.condition);
+        self.0.retain(|it| other.0.contains(it) || is_only_mine(it));
+        for reading in &other.0 {
+            let is_known = self.conditions().any(|it| it == reading.condition);
+            let is_new = !is_known && !mine.contains(&reading.condition);
+            if is_new && self.0.len() < MAX_READINGS {
+                self.0.push(reading.clone());
+            }
+        }
+        self.0.sort_by_key(|it| it.condition);
+    }
+}
+
+/// Answers to an earlier condition and to a later one that no value gives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Clash {
+    pub(in crate::interpreter) earlier: u32,
+    /// Which of the times it is that the earlier one was asked.
+    time: u32,
+    /// What must change in between.
+    pub(in crate::interpreter) name: Arc<str>,
+    /// The answers to the earlier one, and those to the later one, a bit each.
+    answers: [u64; 2],
+}
+
+/// The clash of an answer with an earlier one of the same way, the nearest of them.
+pub(in crate::interpreter) fn clash<'a>(
+    answer: &Answer,
+    way: &Way,
+    conditions: &'a [Condition],
+) -> Option<&'a Clash> {
+    let clashes = &conditions.get(answer.condition as usize)?.clashes;
+    way.iter().rev().find_map(|earlier| {
+        let is_same_time = |it: &&Clash| {
+            let condition = conditions.get(it.earlier as usize);
+            condition.is_some_and(|condition| condition.time == it.time)
+        };
+        let mut of = clashes.iter().filter(|it| it.earlier == earlier.condition);
+        let is_all = (0..u64::BITS)
+            .filter(|place| answer.sides & (1 << place) != 0)
+            .all(|place| {
+                let of = of.clone().filter(is_same_time);
+                let of = of.filter(|it| it.answers[1] & (1 << place) != 0);
+                let ruled_out = of.fold(0, |sides, it| sides | it.answers[0]);
+                earlier.sides & !ruled_out == 0
+            });
+        of.next().filter(|_| is_all)
+    })
+}
+
+/// Whether a condition can contradict another one: a loop waits for its value to change.
+pub(in crate::interpreter) fn is_compared(kind: ConditionKind) -> bool {
+    matches!(
+        kind,
+        ConditionKind::Branch | ConditionKind::Case | ConditionKind::Skip(_)
+    )
+}

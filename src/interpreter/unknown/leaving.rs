@@ -1,0 +1,54 @@
+//! What a program leaves that only the machine has: either state of each kind, as a way of its own (R14.1).
+
+use std::sync::Arc;
+
+use super::branching::{MAX_CONDITIONS, answers};
+use crate::comp::{AxisIndex, Kind};
+use crate::interpreter::run::block_scratch::LeftOpen;
+use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::Branches;
+use crate::interpreter::run::possible::Split;
+use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::values::cause::program;
+use crate::interpreter::values::work_budget::ITEM;
+
+impl Interpreter {
+    /// Each configured kind of each axis is selected after the call, or is not.
+    #[cold]
+    pub(in crate::interpreter) fn leave_open(&mut self, left: &LeftOpen) {
+        if self.options.branches == Branches::Passed {
+            return;
+        }
+        for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
+            let unknown = self.state.control.compensation.unknown(axis);
+            let configured = self.machine.axis(axis).configured;
+            for kind in unknown.intersection(configured).iter() {
+                self.leave_kind_open((axis, kind), left);
+            }
+        }
+    }
+
+    fn leave_kind_open(&mut self, (axis, kind): (AxisIndex, Kind), left: &LeftOpen) {
+        if self.state.conditions.len() + 1 >= MAX_CONDITIONS {
+            return;
+        }
+        self.state.effort.charge(ITEM * 8);
+        let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
+        let condition = self.ask_anew(Condition {
+            kind: ConditionKind::Call(kind),
+            place: left.place.clone(),
+            texts: vec![left.program.clone(), name],
+            cause: program(&left.program),
+            round: 0,
+            time: 0,
+            clashes: Vec::new(),
+        });
+        let reach = &self.state.track.reach;
+        let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
+        if let (Some(on), Some(off)) = (sides.next(), sides.next()) {
+            let possible = &mut self.state.control.possible;
+            possible.insert(axis, kind, Split { on, off });
+        }
+    }
+}

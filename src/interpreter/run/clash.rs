@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::{Condition, ConditionKind};
+use super::condition::{Clash, Condition, ConditionKind};
 use super::way_set::{Answer, Way};
 use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::{Place, Target};
 use crate::interpreter::values::value::Value;
 
 /// Conditions on values of the machine that are remembered; older ones contradict nothing.
@@ -153,8 +153,16 @@ impl Readings {
     }
 
     /// The program writes a value.
-    pub(in crate::interpreter) fn write(&mut self, target: &Target) {
-        self.0.retain(|it| !it.reads.contains(target));
+    pub(in crate::interpreter) fn write(&mut self, place: &Place) {
+        let is_it = |target: &Target| match (target, place) {
+            (Target::Parameter(of, one), Place::Parameter(owner, other)) => {
+                (of, one) == (owner, other)
+            }
+            (Target::Variable(one), Place::Variable(other)) => one == other,
+            (_, Place::Elements(..) | Place::Parameters(_)) => true,
+            _ => false,
+        };
+        self.0.retain(|it| !it.reads.iter().any(is_it));
     }
 
     /// The control does something: moves, changes tools.
@@ -189,18 +197,6 @@ impl Readings {
         }
         self.0.sort_by_key(|it| it.condition);
     }
-}
-
-/// Answers to an earlier condition and to a later one that no value gives.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Clash {
-    pub(in crate::interpreter) earlier: u32,
-    /// Which of the times it is that the earlier one was asked.
-    time: u32,
-    /// What must change in between.
-    pub(in crate::interpreter) name: Arc<str>,
-    /// The answers to the earlier one, and those to the later one, a bit each.
-    answers: [u64; 2],
 }
 
 /// The clash of an answer with an earlier one of the same way, the nearest of them.

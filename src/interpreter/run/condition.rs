@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::clash::Clash;
 use crate::comp::Kind;
 use crate::text::Place;
 
@@ -24,6 +23,18 @@ pub(in crate::interpreter) enum ConditionKind {
     /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
     /// names of the program and of the axis.
     Call(Kind),
+}
+
+/// Answers to an earlier condition and to a later one that no value gives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Clash {
+    pub(in crate::interpreter) earlier: u32,
+    /// Which of the times it is that the earlier one was asked.
+    pub(in crate::interpreter) time: u32,
+    /// What must change in between.
+    pub(in crate::interpreter) name: Arc<str>,
+    /// The answers to the earlier one, and those to the later one, a bit each.
+    pub(in crate::interpreter) answers: [u64; 2],
 }
 
 /// A condition that only the machine knows.

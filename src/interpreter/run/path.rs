@@ -142,8 +142,10 @@ impl Track {
     /// A value is written: what was known of it from conditions is over.
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
-        let is_plain = self.asked.is_empty() && self.readings.is_empty();
-        if !is_plain || !self.assumed.is_empty() {
+        if !self.readings.is_empty() {
+            self.readings.write(place);
+        }
+        if !self.asked.is_empty() || !self.assumed.is_empty() {
             self.havoc_written(place, memory);
         }
     }
@@ -158,7 +160,6 @@ impl Track {
         };
         self.assumed.0.remove(&target);
         self.asked.retain(|asked| !asked.reads.contains(&target));
-        self.readings.write(&target);
     }
 
     /// Anything may be written.

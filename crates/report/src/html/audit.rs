@@ -166,7 +166,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
                 html! { (finding.unknown.len()) },
                 html! { (finding.hazards()) },
                 html! { (finding.possible_hazards()) },
-                html! { (cure(finding)) },
+                html! { span class="wide" { (cure(finding)) } },
             ];
             Row::new(&axis_name(&finding.axis, finding.kind), cells)
         });
@@ -295,7 +295,7 @@ fn cell(file: &str, axis: &AxisAudit, marks: &Marks) -> Markup {
     };
     let content = html! {
         (content)
-        @if let Some(when) = axis.leaves_away_when(file) { " (" (when) ")" }
+        @if let Some(when) = axis.leaves_away_when(file) { " " span class="when" { "(" (when) ")" } }
     };
     cell_word(word, &content)
 }

@@ -39,9 +39,11 @@ pub use run::event::{
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
-pub use run::possible_state::{Asked, PossibleState, PossibleStates, WayChange, WayCondition};
-pub(crate) use run::possible_state::{limit_to, unless, ways_in_words};
+pub use run::possible_state::{PossibleState, PossibleStates};
+pub use run::search::{NoSearchedBlock, SearchedBlock};
 pub(crate) use run::untouched::{Found, FoundOn};
+pub use run::way_condition::{Asked, WayChange, WayCondition};
+pub(crate) use run::way_condition::{limit_to, unless, ways_in_words};
 pub use values::carried::{ArrayShape, Carried};
 pub use values::value::Value;
 pub(crate) use values::variable::set_name;

@@ -144,6 +144,8 @@ pub(super) struct Jump {
 #[derive(Debug, Clone, Default)]
 pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
+    /// The ways that lead to its last motion that counts.
+    moved_on: Option<FoundOn>,
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
     /// A block that moved it in any way, or may have; what is not known at all apart. The first one, or
@@ -268,7 +270,13 @@ impl Memory {
             };
             Site::new(executed, span)
         };
-        if counts(motion) && !memory.settled.sure {
+        // On the same ways a later motion finds no state that the earlier one did not.
+        let is_known = memory
+            .moved_on
+            .as_ref()
+            .is_some_and(|on| on.is_all_of(executed.found));
+        if counts(motion) && !memory.settled.sure && !is_known {
+            memory.moved_on = Some(executed.found.on_all());
             let site = Arc::new(site());
             for (kind, memory) in Kind::ALL.into_iter().zip(&mut memory.kinds) {
                 memory.move_found(&site, (motion.axis, kind), executed);

@@ -250,7 +250,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         ],
         assumed: None,
         why: "the pages on block search do not name axis commands",
-        depends: "the state after a start in the middle of a program; the dry run begins at the first block",
+        depends: "the states after `run --from` (FC413)",
         way: Program,
         how: "`V.A.FRICT_COMP_ACTIVE` after a block search past a COMP command",
     },

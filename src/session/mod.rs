@@ -27,7 +27,8 @@ pub use undescribed::undescribed;
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, MAX_MESSAGES, Severity, Wording};
 pub use crate::interpreter::{
-    Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, Options, StopPolicy,
+    Finder, Limits, Motions, NoFiles, NoProgram, NoSearchedBlock, NoteKind, Notes, Options,
+    SearchedBlock, StopPolicy,
 };
 use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
 pub use crate::lint::Maker;

@@ -147,6 +147,16 @@ impl Observer for Recorder<'_> {
 
 impl Recorder<'_> {
     fn executed(&mut self, executed: &Executed<'_>) -> ControlFlow<()> {
+        if executed.passed
+            && !executed
+                .diagnostics
+                .iter()
+                .any(|said| said.severity == Severity::Error)
+        {
+            // A block search shows only what stops it (R2.96).
+            self.linter.block(executed, &mut Vec::new());
+            return ControlFlow::Continue(());
+        }
         self.tally.blocks += 1;
         self.tally.feed_moves.block(executed);
         if !executed.notes.is_empty() {

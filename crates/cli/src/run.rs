@@ -22,7 +22,7 @@ use super::values;
 use super::watch::FileWatch;
 use frictcomp::comp::KindSet;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
-use frictcomp::session::{Session, StopPolicy, undescribed};
+use frictcomp::session::{SearchedBlock, Session, StopPolicy, undescribed};
 use frictcomp_host::{
     ChangedPrograms, FileRegistry, Input, LoadedMachine, Naming, Programs, RunContext, RunSummary,
     StateFile, expect_axes, is_source, open_session, processors, run_programs, switched_axes,
@@ -46,6 +46,11 @@ pub(super) struct RunArgs {
     /// Start with the state saved in this file, and save the state to it at the end
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
+    /// Start the program at a block, by its number (`N100`) or its line (`12`), after a block search:
+    /// nothing moves before it, and whether the COMP commands before it act is not documented, so both
+    /// readings are shown
+    #[arg(long, value_name = "BLOCK")]
+    from: Option<SearchedBlock>,
     /// Treat a failing command as if it were not there, and continue
     #[arg(long)]
     keep_going: bool,
@@ -145,6 +150,12 @@ impl RunArgs {
             return Err(Failure::new("`--full` has no effect with this `--format`")
                 .with_help("only text folds blocks: leave `--full` out"));
         }
+        if self.from.is_some() && self.files.len() > 1 {
+            return Err(
+                Failure::new("`--from` starts one program, and several are named")
+                    .with_help("run the others without it; `--state` hands on what they leave"),
+            );
+        }
         Ok(())
     }
 
@@ -242,6 +253,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let mut options = args.execution.options(&loaded, args.stop_policy());
+    options.run = options.run.with_search(args.from);
     options.start = args.start.positions(&loaded.machine)?;
     if !loaded.machine.is_described() {
         options.switched = switched_axes(&inputs);

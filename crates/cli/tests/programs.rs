@@ -16,8 +16,12 @@ use workspace::root;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 27] = [
+const ELSEWHERE: [(&str, &str); 28] = [
     ("FC306", "depends on `[reading]`; tests/readings.rs has it"),
+    (
+        "FC413",
+        "said by `run --from`; crates/cli/tests/block_search.rs has it",
+    ),
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
     (
         "FC506",

@@ -14,10 +14,10 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::possible_state::limit_to;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
+use crate::interpreter::run::way_condition::limit_to;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Item};
 use crate::text::Span;
@@ -54,7 +54,7 @@ impl Interpreter {
     /// Begins a block: says what joining ways leave, and counts the block. Returns the number of
     /// messages.
     #[inline]
-    fn begin_block(&mut self, finder: &mut dyn Finder) -> usize {
+    fn begin_block(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> usize {
         self.scratch.clear();
         if !(self.met.is_empty() && self.met_withheld.is_empty()) {
             self.scratch.diagnostics.append(&mut self.met);
@@ -66,7 +66,32 @@ impl Interpreter {
         if self.state.track.ways.has_targets() {
             self.arrive(finder);
         }
+        if self.state.track.searching.is_some() {
+            self.search(at);
+        }
         met
+    }
+
+    /// Finds the programs that a block calls.
+    #[inline]
+    fn take_calls(
+        &mut self,
+        outcome: &mut BlockOutcome,
+        at: &BlockContext<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        if outcome.calls.is_empty() {
+            return Vec::new();
+        }
+        self.resolve_all(std::mem::take(&mut outcome.calls), at, finder)
+    }
+
+    /// Returns whether a block did no more than move.
+    #[inline]
+    fn is_plain(&self) -> bool {
+        !self.scratch.wrote
+            && self.scratch.unsaid.is_none()
+            && self.state.effort.level() <= self.options.limits.work
     }
 
     /// Executes a block and tells the observer. `Continue` where the next block follows.
@@ -76,7 +101,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> ControlFlow<Departure> {
-        let met = self.begin_block(finder);
+        let met = self.begin_block(at, finder);
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
@@ -88,11 +113,7 @@ impl Interpreter {
         }
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
-        let calls = if outcome.calls.is_empty() {
-            Vec::new()
-        } else {
-            self.resolve_all(std::mem::take(&mut outcome.calls), at, finder)
-        };
+        let calls = self.take_calls(&mut outcome, at, finder);
         let refused = self.scratch.diagnostics.iter().any(stops);
         let stopped = undecided.is_none()
             && self.options.stop == StopPolicy::FirstError
@@ -104,10 +125,7 @@ impl Interpreter {
             self.move_axes(&outcome, at);
         }
         self.state.effort.grant(at.text);
-        let is_plain = !self.scratch.wrote
-            && self.scratch.unsaid.is_none()
-            && self.state.effort.level() <= self.options.limits.work;
-        let is_over = !is_plain && self.settle(at);
+        let is_over = !self.is_plain() && self.settle(at);
         if !self.scratch.changes.is_empty()
             || self.scratch.new_axes
             || self.scratch.left_open.is_some()
@@ -161,6 +179,7 @@ impl Interpreter {
             notes: &self.scratch.notes.borrow(),
             diagnostics: &self.scratch.diagnostics,
             stopped,
+            passed: self.is_searching(),
             compensation: &self.state.control.compensation,
             possible: &self.shown.possible,
             found: FoundStates {
@@ -197,7 +216,8 @@ impl Interpreter {
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
-    /// What the control does may change its values, and a `#` command may wait for any value (R14.1).
+    /// Drops readings that an action of the control may change; a `#` command may wait for any
+    /// value (R14.1).
     #[cold]
     fn outdate_readings(&mut self, block: &Block) {
         let readings = &mut self.state.track.readings;

@@ -15,7 +15,8 @@ use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
-use crate::interpreter::run::possible_state::{limit_to, ways_of};
+use crate::interpreter::run::possible_state::ways_of;
+use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
@@ -243,7 +244,10 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
         ConditionKind::Call(_) => {
             format!("what this call leaves depends on {}", unknown_value(cause))
         }
-        ConditionKind::Branch | ConditionKind::Case | ConditionKind::Loop => {
+        ConditionKind::Branch
+        | ConditionKind::Case
+        | ConditionKind::Loop
+        | ConditionKind::Search => {
             format!("this condition depends on {}", unknown_value(cause))
         }
     };

@@ -117,6 +117,7 @@ impl Interpreter {
         self.state.control.channel_axes = ChannelAxes::default();
         self.state.control.described = None;
         self.state.track = Track::default();
+        self.begin_search();
         self.state.pending.clear();
         self.state.ended.clear();
         self.sides.clear();

@@ -20,7 +20,7 @@ const MAX_READINGS: usize = 16;
 /// Answers of a condition beyond which what they say of values is not compared.
 const MAX_COMPARED: usize = 8;
 
-/// What an answer says of values.
+/// Values that follow from an answer.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Says {
     /// The values that follow from it.
@@ -48,7 +48,7 @@ impl Says {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Reading {
     pub(in crate::interpreter) condition: u32,
-    /// Which of the times it is that the condition is asked.
+    /// Number of the time that the condition is asked.
     time: u32,
     meaning: Arc<str>,
     writer: Writer,
@@ -121,7 +121,7 @@ fn name_of(target: &Target) -> Option<String> {
 
 /// The conditions on values of the machine that are remembered, the latest last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Readings(Vec<Reading>);
+pub(in crate::interpreter) struct Readings(Vec<Arc<Reading>>);
 
 impl Readings {
     #[inline]
@@ -136,7 +136,7 @@ impl Readings {
         if self.0.len() >= MAX_READINGS {
             self.0.remove(0);
         }
-        self.0.push(reading);
+        self.0.push(Arc::new(reading));
         clashes
     }
 
@@ -145,7 +145,8 @@ impl Readings {
         match asking {
             None => self.0.clear(),
             Some(asking) => {
-                let is_read = |it: &Reading| it.reads.iter().any(|of| asking.reads.contains(of));
+                let is_read =
+                    |it: &Arc<Reading>| it.reads.iter().any(|of| asking.reads.contains(of));
                 self.0
                     .retain(|it| !is_read(it) && *it.meaning != *asking.meaning);
             }
@@ -186,13 +187,13 @@ impl Readings {
     /// Two ways meet: what only one of them asked counts where the other names no answer to it.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
-        let is_only_mine = |it: &Reading| !theirs.contains(&it.condition);
+        let is_only_mine = |it: &Arc<Reading>| !theirs.contains(&it.condition);
         self.0.retain(|it| other.0.contains(it) || is_only_mine(it));
         for reading in &other.0 {
             let is_known = self.conditions().any(|it| it == reading.condition);
             let is_new = !is_known && !mine.contains(&reading.condition);
             if is_new && self.0.len() < MAX_READINGS {
-                self.0.push(reading.clone());
+                self.0.push(Arc::clone(reading));
             }
         }
         self.0.sort_by_key(|it| it.condition);

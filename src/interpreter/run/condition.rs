@@ -23,15 +23,17 @@ pub(in crate::interpreter) enum ConditionKind {
     /// Whether a program that only the machine has leaves a kind selected on an axis; the texts are the
     /// names of the program and of the axis.
     Call(Kind),
+    /// Whether a block search executes the commands that it passes.
+    Search,
 }
 
 /// Answers to an earlier condition and to a later one that no value gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Clash {
     pub(in crate::interpreter) earlier: u32,
-    /// Which of the times it is that the earlier one was asked.
+    /// Number of the time that the earlier one was asked.
     pub(in crate::interpreter) time: u32,
-    /// What must change in between.
+    /// Value that must change in between.
     pub(in crate::interpreter) name: Arc<str>,
     /// The answers to the earlier one, and those to the later one, a bit each.
     pub(in crate::interpreter) answers: [u64; 2],
@@ -48,7 +50,7 @@ pub(in crate::interpreter) struct Condition {
     pub(in crate::interpreter) cause: Arc<str>,
     /// A place that is reached again asks again: which of its questions it is.
     pub(in crate::interpreter) round: u8,
-    /// How often its number was given to a question.
+    /// Number of times that its number was given to a question.
     #[serde(default)]
     pub(in crate::interpreter) time: u32,
     /// The answers to earlier conditions that contradict answers to it, unless a value changes in between.

@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::possible_state::{PossibleStates, WayCondition};
+use super::possible_state::PossibleStates;
 use super::untouched::FoundStates;
+use super::way_condition::WayCondition;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -164,6 +165,8 @@ pub struct Executed<'a> {
     pub diagnostics: &'a [Diagnostic],
     /// Whether an error stopped the program in this block.
     pub stopped: bool,
+    /// Whether a block search passes the block: nothing moves in it (R2.96).
+    pub passed: bool,
     /// The state after it.
     pub compensation: &'a Compensation,
     /// Kinds that are unknown because ways differ, with their possible states.

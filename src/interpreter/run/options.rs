@@ -2,6 +2,7 @@
 
 use super::event::{EndedBy, Notes};
 use super::limits::Limits;
+use super::search::SearchedBlock;
 use crate::interpreter::coordinates::motion::Motions;
 use crate::syntax::{FastPath, SkipLevels};
 
@@ -49,6 +50,8 @@ pub struct Options {
     pub motions: Motions,
     /// Treatment of a condition that depends on a value that only the machine knows.
     pub branches: Branches,
+    /// The block of the main program at which it is started by a block search (R2.96).
+    pub search: Option<SearchedBlock>,
 }
 
 impl Options {
@@ -85,6 +88,12 @@ impl Options {
     /// The same with another value of [`branches`](Self::branches).
     pub fn with_branches(mut self, branches: Branches) -> Self {
         self.branches = branches;
+        self
+    }
+
+    /// The same with another value of [`search`](Self::search).
+    pub fn with_search(mut self, search: impl Into<Option<SearchedBlock>>) -> Self {
+        self.search = search.into();
         self
     }
 

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::clash::Readings;
 use super::control::ControlState;
 use super::event::EndedBy;
+use super::search::BeforeSearch;
 use super::stack::{CallStack, Frame, Seeking};
 use super::way_set::WaySet;
 use super::ways::Ways;
@@ -41,6 +42,8 @@ pub(in crate::interpreter) struct Track {
     pub(in crate::interpreter) marked: Option<Marked>,
     /// The loops whose condition was not known, by depth, file and opener.
     pub(in crate::interpreter) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
+    /// States before the program, until its searched block is reached.
+    pub(in crate::interpreter) searching: Option<Box<BeforeSearch>>,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
@@ -195,6 +198,7 @@ impl Track {
             assumed: _,
             marked,
             open_loops,
+            searching,
         } = other;
         if self.loops.len() < loops.len() {
             self.loops.clone_from(loops);
@@ -219,6 +223,9 @@ impl Track {
             self.marked = None;
         }
         self.open_loops.extend(open_loops);
+        if searching.is_none() {
+            self.searching = None;
+        }
     }
 }
 

@@ -8,12 +8,11 @@ use serde::{Serialize, Serializer};
 use super::clash::clash;
 use super::condition::{Condition, ConditionKind};
 use super::possible::{Possible, Split};
+use super::way_condition::{
+    Asked, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change, unless,
+};
 use super::way_set::{Answer, Way, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
-use crate::diagnostic::{Diagnostic, Severity};
-
-/// Ways that are named for a state.
-const MAX_NAMED: usize = 4;
 
 /// The states of a kind on an axis that is unknown, each with the ways that lead to it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -40,92 +39,6 @@ pub struct PossibleState {
     pub more: usize,
 }
 
-/// A condition of a way.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum WayCondition {
-    /// A condition of a control block.
-    Condition(Asked),
-    /// A case of a `$SWITCH`.
-    Case(Asked),
-    /// Whether a loop is repeated.
-    Loop(Asked),
-    /// Whether a probe answers.
-    Probe(Asked),
-    /// The switch of a skip level.
-    Skip {
-        /// The level.
-        level: u8,
-        /// Whether its blocks are executed.
-        executed: bool,
-        /// The file of its first block.
-        file: Arc<str>,
-        /// The line of its first block.
-        line: u32,
-        /// The change that the way needs.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        changed: Option<WayChange>,
-    },
-    /// What a program leaves that only the machine has (R2.83).
-    Call {
-        /// The file of the call.
-        file: Arc<str>,
-        /// The line of the call, from 1.
-        line: u32,
-        /// The program.
-        #[serde(serialize_with = "as_text")]
-        text: Arc<str>,
-        /// The name of the axis.
-        #[serde(serialize_with = "as_text")]
-        axis: Arc<str>,
-        /// The kind of compensation.
-        compensation: Kind,
-        /// Whether it is selected after the call.
-        on: bool,
-    },
-    /// The state in which an axis is found.
-    Found {
-        /// The name of the axis.
-        axis: String,
-        /// The kind of compensation.
-        compensation: Kind,
-        /// The state.
-        state: State,
-    },
-}
-
-/// Condition of a block.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
-#[non_exhaustive]
-pub struct Asked {
-    /// The file.
-    pub file: Arc<str>,
-    /// The line, from 1.
-    pub line: u32,
-    /// The text of the condition.
-    #[serde(serialize_with = "as_text")]
-    pub text: Arc<str>,
-    /// Whether it holds.
-    pub holds: bool,
-    /// The change that the way needs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub changed: Option<WayChange>,
-}
-
-/// A change of a value of the machine, without which a way contradicts an earlier condition of it (R14.1).
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
-#[non_exhaustive]
-pub struct WayChange {
-    /// What changes.
-    #[serde(serialize_with = "as_text")]
-    pub name: Arc<str>,
-    /// The file of the earlier condition.
-    pub file: Arc<str>,
-    /// The line of the earlier condition, from 1.
-    pub line: u32,
-}
-
 impl Serialize for PossibleState {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
@@ -143,10 +56,6 @@ impl Serialize for PossibleStates {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.states.serialize(serializer)
     }
-}
-
-fn as_text<S: Serializer>(text: &Arc<str>, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(text)
 }
 
 impl PossibleStates {
@@ -218,7 +127,7 @@ impl PossibleStates {
                     asked.line = 0;
                     asked.changed = None;
                 }
-                WayCondition::Call { line, .. } => *line = 0,
+                WayCondition::Call { line, .. } | WayCondition::Search { line, .. } => *line = 0,
                 WayCondition::Skip { line, changed, .. } => {
                     *line = 0;
                     *changed = None;
@@ -255,190 +164,6 @@ impl PossibleState {
 
     fn needs_change(&self) -> bool {
         self.ways.as_deref().is_some_and(all_need_change)
-    }
-}
-
-/// Ways as words, as seen from a file: `V.E.A == 2 (line 12), or if skip level 1 is on`.
-pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
-    let named = ways.len().min(MAX_NAMED);
-    in_words(&ways[..named], ways.len() - named, file)
-}
-
-/// The same after `if`, or `only if` where a value of the machine must change on each of them.
-pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
-    let named = ways.len().min(MAX_NAMED);
-    after_if(&ways[..named], ways.len() - named, file)
-}
-
-/// Says of a message on which ways it holds (R14.5). What is no error and holds only if a value of the
-/// machine changes meanwhile is worth knowing, no more (R14.1).
-pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
-    if said.code.is_about_text() {
-        return;
-    }
-    let words = if_ways(ways, &said.place.file);
-    said.message = format!("{}, {words}", said.message);
-    if all_need_change(ways) && said.severity != Severity::Error {
-        said.lower(Severity::Info);
-    }
-}
-
-/// The words for all other ways: `unless …`.
-pub(crate) fn unless(if_words: &str) -> String {
-    let words = if_words.strip_prefix("only ").unwrap_or(if_words);
-    let words = words.strip_prefix("if ").unwrap_or(words);
-    format!("unless {}", words.replace(", or if ", ", or "))
-}
-
-/// Whether each of some ways needs a value of the machine to change between two conditions. The ways
-/// that need none stand before the others.
-pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
-    !ways.is_empty() && ways.iter().all(|way| needs_change(way))
-}
-
-fn needs_change(way: &[WayCondition]) -> bool {
-    way.iter().any(|condition| condition.changed().is_some())
-}
-
-fn after_if(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
-    let only = if all_need_change(ways) { "only " } else { "" };
-    format!("{only}if {}", in_words(ways, more, file))
-}
-
-fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
-    let named = ways.iter().map(|way| way_in_words(way, file));
-    let mut words = named.collect::<Vec<_>>().join(", or if ");
-    match more {
-        0 => {}
-        1 => words.push_str(", and on 1 more way"),
-        more => words = format!("{words}, and on {more} more ways"),
-    }
-    words
-}
-
-/// One way; two conditions between which a value changes are named as that.
-fn way_in_words(way: &[WayCondition], file: &str) -> String {
-    let changes = way.iter().filter_map(WayCondition::changed);
-    let is_earlier = |condition: &WayCondition| {
-        let place = condition.place();
-        let mut changes = changes.clone();
-        changes.any(|change| place == Some((&change.file, change.line)))
-    };
-    let named = way
-        .iter()
-        .filter(|it| it.changed().is_some() || !is_earlier(it));
-    let conditions: Vec<String> = named.map(|it| it.in_words(file)).collect();
-    conditions.join(" and ")
-}
-
-impl WayChange {
-    /// `V.E.A changes between lines 1 and 9`.
-    fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
-        let Self {
-            name, line: since, ..
-        } = self;
-        if *self.file == *file && of == file {
-            return format!("{name} changes between lines {since} and {line}");
-        }
-        let [earlier, later] =
-            [(&*self.file, *since), (of, line)].map(|place| seen_from(place, file));
-        format!("{name} changes between {earlier} and {later}")
-    }
-}
-
-fn seen_from((of, line): (&str, u32), file: &str) -> String {
-    if of == file {
-        format!("line {line}")
-    } else {
-        format!("{of}:{line}")
-    }
-}
-
-impl WayCondition {
-    /// The condition in words, as seen from a file: `V.E.A == 2 (line 12)`, or `(sub.nc:12)`.
-    pub fn in_words(&self, file: &str) -> String {
-        if let Some((change, (of, line))) = self.changed().zip(self.place()) {
-            return change.in_words((of, line), file);
-        }
-        match self {
-            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) => {
-                let not = if asked.holds { "" } else { "not " };
-                let place = asked.seen_from(file);
-                if asked.text.contains("||") || asked.text.contains("&&") {
-                    format!("{not}[{}] ({place})", asked.text)
-                } else {
-                    format!("{not}{} ({place})", asked.text)
-                }
-            }
-            Self::Probe(asked) => {
-                let word = if asked.holds {
-                    "answers"
-                } else {
-                    "does not answer"
-                };
-                format!("the probe {word} ({})", asked.seen_from(file))
-            }
-            Self::Skip {
-                level, executed, ..
-            } => {
-                let word = if *executed { "off" } else { "on" };
-                format!("skip level {level} is {word}")
-            }
-            Self::Call {
-                file: of,
-                line,
-                text,
-                axis,
-                compensation,
-                on,
-            } => {
-                let word = if *on { "on" } else { "off" };
-                let place = seen_from((of, *line), file);
-                match compensation {
-                    Kind::Frict => format!("`{text}` leaves {axis} {word} ({place})"),
-                    kind => format!("`{text}` leaves {kind} of {axis} {word} ({place})"),
-                }
-            }
-            Self::Found {
-                axis,
-                compensation: Kind::Frict,
-                state,
-            } => format!("{axis} is {state} at the start"),
-            Self::Found {
-                axis,
-                compensation,
-                state,
-            } => format!("{compensation} of {axis} is {state} at the start"),
-        }
-    }
-}
-
-impl WayCondition {
-    /// The change of a value without which it contradicts an earlier condition of its way.
-    fn changed(&self) -> Option<&WayChange> {
-        match self {
-            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
-                asked.changed.as_ref()
-            }
-            Self::Skip { changed, .. } => changed.as_ref(),
-            Self::Call { .. } | Self::Found { .. } => None,
-        }
-    }
-
-    fn place(&self) -> Option<(&Arc<str>, u32)> {
-        match self {
-            Self::Condition(asked) | Self::Case(asked) | Self::Loop(asked) | Self::Probe(asked) => {
-                Some((&asked.file, asked.line))
-            }
-            Self::Skip { file, line, .. } | Self::Call { file, line, .. } => Some((file, *line)),
-            Self::Found { .. } => None,
-        }
-    }
-}
-
-impl Asked {
-    fn seen_from(&self, file: &str) -> String {
-        seen_from((&self.file, self.line), file)
     }
 }
 
@@ -580,6 +305,11 @@ fn condition_of(condition: &Condition, answer: Answer, changed: Option<WayChange
                 on: answer.sides == 1,
             }
         }
+        ConditionKind::Search => WayCondition::Search {
+            file,
+            line,
+            executed: !is_else,
+        },
         ConditionKind::Skip(level) => WayCondition::Skip {
             level,
             executed: is_else,

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
-use super::possible_state::{WayCondition, if_ways, ways_of};
+use super::possible_state::ways_of;
+use super::way_condition::{WayCondition, if_ways};
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Kind, KindSet};
 
@@ -94,6 +95,11 @@ pub(crate) enum Found {
 pub(crate) struct FoundOn(WaySet);
 
 impl FoundOn {
+    /// Returns whether it is all ways that lead to a block.
+    pub(crate) fn is_all_of(&self, found: FoundStates<'_>) -> bool {
+        self.0 == *found.reach
+    }
+
     /// Adds the ways of another motion.
     pub(crate) fn or(&mut self, other: &Self) {
         self.0.or(&other.0);
@@ -121,6 +127,11 @@ impl FoundStates<'_> {
     pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
         let untouched = self.untouched.0.get(&(axis, kind));
         self.reach.is_always() && untouched.is_none_or(WaySet::is_always)
+    }
+
+    /// All ways that lead to the block.
+    pub(crate) fn on_all(self) -> FoundOn {
+        FoundOn(self.reach.clone())
     }
 
     /// The ways on which a kind of an axis still is in that state.

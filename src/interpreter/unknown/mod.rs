@@ -6,4 +6,5 @@ pub(super) mod join;
 pub(super) mod leaving;
 pub(super) mod may_effects;
 pub(super) mod regions;
+pub(super) mod search;
 pub(super) mod telling;

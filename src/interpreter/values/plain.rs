@@ -199,14 +199,14 @@ fn popped(node: Node) -> usize {
     }
 }
 
-/// What writes a value besides the program.
+/// Writer of a value besides the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Writer {
     /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and what is `stable`.
     Nothing,
     /// The machine at any time: `V.E.`, skip levels.
     Machine,
-    /// What the control does, motion for instance: `V.A.`, `V.G.`.
+    /// The control itself, by motion for instance: `V.A.`, `V.G.`.
     Control,
 }
 

@@ -45,7 +45,7 @@ fn run(program: &Path, branches: Branches) -> Found {
     let loaded = machines.for_folder(input.folder()).expect("a machine");
     let LoadedMachine {
         machine,
-        reach,
+        search_path,
         disk,
         ..
     } = &*loaded;
@@ -54,7 +54,7 @@ fn run(program: &Path, branches: Branches) -> Found {
     for (name, setting) in &loaded.settings {
         run.set(name, setting);
     }
-    let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven, disk);
+    let mut finder = ProgramFinder::new(&input, search_path, Naming::AsGiven, disk);
     let source = SourceFile::new(
         input.name(Naming::AsGiven),
         read_text(program).expect("text"),

@@ -1,4 +1,4 @@
-//! What the requests bring with them.
+//! The arguments of requests.
 
 use std::path::PathBuf;
 
@@ -44,9 +44,9 @@ pub(super) struct Source {
 #[serde(rename_all = "camelCase")]
 pub(super) struct SourceBreakpoint {
     pub(super) line: u32,
-    /// What must be true.
+    /// Condition of the breakpoint.
     pub(super) condition: Option<String>,
-    /// Which of the times count.
+    /// Hits that count.
     pub(super) hit_condition: Option<String>,
     /// The text that is printed in place of a stop.
     pub(super) log_message: Option<String>,

@@ -1,4 +1,4 @@
-//! Where a run stops: at lines, where a state changes, where a value is not known.
+//! The stops of a run: at lines, at changes of a state, at values that are not known.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use frictcomp::syntax::ast::Block;
 use frictcomp::syntax::{BlockReader, FastPath};
 use frictcomp::text::TextLines;
 
-/// Where the client wants a run to stop.
+/// Stops requested by the client.
 #[derive(Debug, Default)]
 pub(super) struct Breakpoints {
     lines: HashMap<PathBuf, BTreeMap<u32, Vec<Breakpoint>>>,
@@ -22,17 +22,17 @@ pub(super) struct Breakpoints {
     paths: RealPaths,
 }
 
-/// What is wanted at a line.
+/// Breakpoint at a line.
 #[derive(Debug, Clone, PartialEq)]
 struct Breakpoint {
     wanted: SourceBreakpoint,
     condition: Option<Condition>,
     hits: Option<HitCount>,
-    /// How often its block was about to be executed while its condition held.
+    /// Number of times that its block was about to be executed while its condition held.
     met: u64,
 }
 
-/// What the breakpoints on a line do when a run comes to it.
+/// Effect of the breakpoints on a line when a run reaches it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Met {
     /// The run stops; what is to be said about that.
@@ -124,7 +124,7 @@ impl Breakpoints {
         lines.is_some_and(|lines| lines.contains_key(&block.line))
     }
 
-    /// What the breakpoints on a line do, before which a run stands.
+    /// Returns the effect of the breakpoints on the line at which a run stands.
     pub(super) fn meet(&mut self, (file, line): (&str, u32), here: &Interpreter) -> Met {
         let mut met = Met::default();
         let lines = self.lines.get_mut(self.paths.of(file));

@@ -1,4 +1,4 @@
-//! What a breakpoint may ask of a run before it stops it.
+//! The conditions of breakpoints.
 
 use frictcomp::interpreter::{Interpreter, Value};
 use frictcomp::syntax::ast::Block;
@@ -44,7 +44,7 @@ impl Condition {
     }
 }
 
-/// Which of the times that a run comes to a breakpoint count.
+/// Selection of the hits of a breakpoint that count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum HitCount {
     /// `5`, `= 5`: that one.

@@ -75,7 +75,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
 /// The client's end: what it sent, in order.
 struct Client {
     receiver: Receiver<Incoming>,
-    /// What was taken from the receiver ahead of its turn.
+    /// Messages taken from the receiver ahead of their turn.
     waiting: Vec<Incoming>,
 }
 

@@ -37,7 +37,7 @@ pub(super) struct Site {
     pub(super) text: String,
 }
 
-/// Where the run stands.
+/// Position of the run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Position {
     /// Before a block; the last site is that block, those before it the calls that led there.
@@ -46,7 +46,7 @@ pub(super) enum Position {
     Ended(EndedBy),
 }
 
-/// How far the run is to go.
+/// Target of the next part of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
     /// To the next block.
@@ -76,7 +76,7 @@ pub(super) enum Halt {
     Ended(EndedBy),
 }
 
-/// What is known of the blocks up to the next one.
+/// State of the run at the next stop.
 #[derive(Debug, Clone, Default)]
 struct Trail {
     /// The last executed block of each call depth.
@@ -105,7 +105,7 @@ pub(super) enum Said {
     },
 }
 
-/// Where a stride ends before its last block.
+/// Reason for the end of a stride before its last block.
 enum Stop {
     /// Before the block of the moment.
     Before(Halt),
@@ -251,13 +251,13 @@ pub(super) struct Stepper {
     is_shown: bool,
     trail: Trail,
     position: Position,
-    /// What the block that is shown reads and only the machine knows.
+    /// Values that the shown block reads and only the machine knows.
     wanted: BTreeSet<String>,
     /// The answers to its condition, where only the machine knows which holds.
     answers: Vec<WayCondition>,
     /// The values that the run has stopped at already.
     asked: BTreeSet<String>,
-    /// What was said by blocks that were executed since the client was told.
+    /// Messages of blocks executed since the last report to the client.
     said: Vec<Said>,
 }
 
@@ -315,12 +315,12 @@ impl Stepper {
         Ok(stepper)
     }
 
-    /// Where the run stands.
+    /// Returns the position of the run.
     pub(super) fn position(&self) -> &Position {
         &self.position
     }
 
-    /// How many calls deep the block stands that is shown.
+    /// Returns the call depth of the shown block.
     pub(super) fn depth(&self) -> usize {
         match &self.position {
             Position::Before(sites) => sites.len().saturating_sub(1),
@@ -531,7 +531,7 @@ impl Stepper {
     }
 }
 
-/// How many calls deep a block stands; 0 in the main program.
+/// Returns the call depth of a block; 0 in the main program.
 fn depth(block: &Executed<'_>) -> usize {
     block
         .level

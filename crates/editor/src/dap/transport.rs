@@ -11,7 +11,7 @@ const LONGEST: u64 = 64 << 20;
 /// The longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
 
-/// What a client asks for.
+/// Request of a client.
 #[derive(Debug, Deserialize)]
 pub(super) struct Request {
     pub(super) seq: i64,
@@ -20,7 +20,7 @@ pub(super) struct Request {
     pub(super) arguments: Value,
 }
 
-/// What came from the client.
+/// Message from the client.
 #[derive(Debug)]
 pub(super) enum Incoming {
     Request(Request),

@@ -1,4 +1,4 @@
-//! What can be looked at where a run stands.
+//! The values that a client can inspect while a run stands.
 
 use serde_json::{Value as Json, json};
 
@@ -8,12 +8,12 @@ use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::interpreter::{AxisPosition, Group, Interpreter, PositionFrame};
 use frictcomp::machine::Setting;
 
-/// What is shown together; the number is the client's handle of it.
+/// Group of values; the number is the client's handle of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scope {
     /// The axes with their states and positions.
     Axes = 1,
-    /// What the next block reads and only the machine knows.
+    /// Values that the next block reads and only the machine knows.
     Unknown = 2,
     /// Parameters and variables.
     Values = 3,
@@ -43,7 +43,7 @@ impl Scope {
     }
 }
 
-/// What a handle stands for.
+/// Returns the values behind a handle.
 pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
     let here = stepper.interpreter();
     match handle {
@@ -103,7 +103,7 @@ pub(super) fn states(stepper: &Stepper) -> String {
     states.join(", ")
 }
 
-/// What a user typed as a value: a number, or a text in quotes.
+/// Reads a value as typed: a number, or a text in quotes.
 pub(super) fn setting(typed: &str) -> Option<Setting> {
     let typed = typed.trim();
     let quoted = typed

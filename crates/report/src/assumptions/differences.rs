@@ -85,14 +85,6 @@ pub const DIFFERENCES: &[Difference] = &[
         ],
     ),
     not_modelled(
-        "block search",
-        [
-            "starts in the middle of a program",
-            "begins at the first block",
-            "R2.96",
-        ],
-    ),
-    not_modelled(
         "switching from outside",
         [
             "the PLC and objects of the control may switch",

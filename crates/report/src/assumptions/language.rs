@@ -227,10 +227,9 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R2.96",
-        sentence: "a program begins at its first block; what a block search does to the COMP commands that \
-            it passes is open",
-        changes: "every state after a start in the middle of a program",
-        shows: "nothing; a dry run begins at the first block",
+        sentence: "a block search moves nothing; whether it executes the COMP commands that it passes is open",
+        changes: "the states after `run --from`",
+        shows: "FC413",
         when: &[],
     },
     Assumption {

@@ -1,0 +1,163 @@
+//! Block search: the states at the block at which a program is started (R2.96).
+
+use std::sync::Arc;
+
+use super::branching::{MAX_CONDITIONS, answers};
+use crate::comp::{AxisIndex, Kind, KindSet, State};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::coordinates::motion::Motions;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::Branches;
+use crate::interpreter::run::possible::{Side, join};
+use crate::interpreter::run::search::BeforeSearch;
+use crate::interpreter::run::way_set::WaySet;
+use crate::readings::{Alternative, Question};
+use crate::text::Span;
+
+impl Interpreter {
+    /// Returns whether the block at which the program is to be started was not reached yet.
+    pub fn is_searching(&self) -> bool {
+        self.state.track.searching.is_some()
+    }
+
+    /// FC413: the program ended before the block at which it was to be started.
+    pub(in crate::interpreter) fn missed_search(&self) -> Option<Diagnostic> {
+        let wanted = self.options.search.filter(|_| self.is_searching())?;
+        let place = self.state.last.as_ref()?.place();
+        let message = format!(
+            "the program ends here and never comes to {wanted}, at which it is to be started"
+        );
+        let said = Diagnostic::new(Code::Fc413, place, message).raised(Severity::Error);
+        Some(said.with_help(
+            "name a block that the main program executes, by its number or by its first line",
+        ))
+    }
+
+    pub(in crate::interpreter) fn begin_search(&mut self) {
+        if self.options.search.is_some() {
+            let control = &self.state.control;
+            self.state.track.searching = Some(Box::new(BeforeSearch {
+                compensation: control.compensation.clone(),
+                possible: control.possible.clone(),
+                untouched: control.untouched.clone(),
+            }));
+        }
+    }
+
+    /// Ends the search if the block is the searched one.
+    #[cold]
+    pub(in crate::interpreter) fn search(&mut self, at: &BlockContext<'_>) {
+        if !self.options.search.is_some_and(|wanted| wanted.is(at)) {
+            return;
+        }
+        let Some(before) = self.state.track.searching.take() else {
+            return;
+        };
+        match self.machine.readings.of(Question::BlockSearch) {
+            Some(Alternative::First) => {}
+            Some(Alternative::Second) => {
+                let control = &mut self.state.control;
+                control.compensation = before.compensation;
+                control.possible = before.possible;
+                control.untouched = before.untouched;
+                self.version += 1;
+            }
+            None => self.search_either_way(&before, at),
+        }
+    }
+
+    /// Goes on with both readings of a block search.
+    fn search_either_way(&mut self, before: &BeforeSearch, at: &BlockContext<'_>) {
+        let differing = self.differing_since(before);
+        if differing.is_empty() {
+            return;
+        }
+        for (axis, kind) in &differing {
+            let said = self.open_search((*axis, *kind), before, at);
+            self.scratch.diagnostics.push(said);
+        }
+        self.version += 1;
+        let can_part = self.options.branches == Branches::Followed
+            && self.options.motions != Motions::Taken
+            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
+        if !can_part {
+            for (axis, kind) in differing {
+                self.havoc(axis, KindSet::of(kind));
+            }
+            return;
+        }
+        let condition = self.ask_anew(Condition {
+            kind: ConditionKind::Search,
+            place: at.place(Span::new(0, at.text.trim_end().len())),
+            texts: vec![Arc::from("executed")],
+            cause: Arc::from("the block search"),
+            round: 0,
+            time: 0,
+            clashes: Vec::new(),
+        });
+        let reach = &self.state.track.reach;
+        let sides: Vec<WaySet> = answers(condition, 2)
+            .map(|answer| reach.and(&WaySet::of(answer)))
+            .collect();
+        let [executed, decoded] = sides.as_slice() else {
+            return;
+        };
+        let control = &mut self.state.control;
+        let mine = Side {
+            compensation: &control.compensation,
+            possible: &control.possible,
+            reach: executed,
+        };
+        let theirs = Side {
+            compensation: &before.compensation,
+            possible: &before.possible,
+            reach: decoded,
+        };
+        let joined = join(&mine, &theirs);
+        (control.compensation, control.possible) = joined;
+        control
+            .untouched
+            .join(&before.untouched, [executed, decoded]);
+    }
+
+    fn differing_since(&self, before: &BeforeSearch) -> Vec<(AxisIndex, Kind)> {
+        let now = &self.state.control.compensation;
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        let of_axis = |axis: AxisIndex| {
+            let kinds = now.differing(&before.compensation, axis);
+            let kinds = kinds.intersection(self.machine.axis(axis).configured);
+            kinds
+                .iter()
+                .map(move |kind| (axis, kind))
+                .collect::<Vec<_>>()
+        };
+        axes.flat_map(of_axis).collect()
+    }
+
+    /// FC413: a state that depends on what the block search does.
+    fn open_search(
+        &self,
+        (axis, kind): (AxisIndex, Kind),
+        before: &BeforeSearch,
+        at: &BlockContext<'_>,
+    ) -> Diagnostic {
+        let name = &self.machine.axis(axis).name;
+        let states = [&self.state.control.compensation, &before.compensation];
+        let [executed, decoded]: [State; 2] = states.map(|it| it.state(axis, kind));
+        let message = format!(
+            "`{kind}` of axis `{name}` is {executed} here if the block search executes the COMP commands \
+             that it passes, and {decoded} if it only decodes them"
+        );
+        let to = if before.compensation.state(axis, kind) == State::Active {
+            "ON"
+        } else {
+            "OFF"
+        };
+        Diagnostic::new(Code::Fc413, at.place(Span::new(0, at.text.trim_end().len())), message).with_help(format!(
+            "the control's documents leave this open; write `{name}[COMP {to} {kind}]` after this block, or \
+             look at `V.A.{kind}_COMP_ACTIVE.{name}` before the start"
+        ))
+    }
+}

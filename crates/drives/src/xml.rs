@@ -34,7 +34,7 @@ pub struct XmlError {
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,
-    /// What is wrong.
+    /// The fault.
     pub reason: String,
 }
 
@@ -65,7 +65,7 @@ pub fn read_devices(source: &SourceFile) -> Result<Vec<Device>, XmlError> {
     Ok(devices)
 }
 
-/// Where devices stand in the two kinds of files.
+/// Paths of devices in the two kinds of files.
 const ITEMS: [&[&str]; 3] = [
     &["EtherCATConfig", "Config", "Slave"],
     &["EtherCATInfo", "Descriptions", "Devices", "Device"],
@@ -141,7 +141,7 @@ impl Item {
         mapped
     }
 
-    /// How many axes the device drives, by what it exchanges.
+    /// Returns the number of axes of the device, by its process data.
     fn axes(&self) -> u8 {
         let in_use = |pdo: &&Pdo| !self.assigns() || self.is_assigned(pdo);
         let pdos = self.pdos.iter().filter(in_use);
@@ -281,7 +281,7 @@ impl Path {
     }
 }
 
-/// What follows the path of a device, where one is open.
+/// Returns the rest of the path below a device, where one is open.
 fn below<'a>(names: &'a [&'a str]) -> Option<&'a [&'a str]> {
     ITEMS.iter().find_map(|item| names.strip_prefix(*item))
 }
@@ -316,7 +316,7 @@ fn read(source: &SourceFile, root: &str, found: &mut dyn FnMut(Item)) -> Result<
     }
 }
 
-/// What a reference to a character or an entity of XML stands for.
+/// Returns the text of a character reference or an entity of XML.
 fn expanded(reference: &BytesRef<'_>) -> Result<String, String> {
     if let Ok(Some(character)) = reference.resolve_char_ref() {
         return Ok(character.to_string());
@@ -412,7 +412,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// What to say of a file whose outermost element is another one.
+/// Returns the message on a file with another outermost element.
 fn other_root(name: &str, wanted: &str) -> String {
     let what = match name {
         "EtherCATConfig" => "network information (ENI)",

@@ -1,9 +1,9 @@
-//! What a region of a program could change, found by looking through it without executing it
+//! The possible effects of a region of a program, found by reading it without executing it
 //! (R2.51).
 //!
-//! What a region could change depends on its text and on the macros, not on the state: an
+//! They depend on its text and on the macros, not on the state: an
 //! assignment whose target has to be computed could go anywhere in its array. So a region is
-//! looked through once, however often a loop comes back to it.
+//! read once, however often a loop comes back to it.
 
 use std::collections::HashSet;
 use std::ops::Range;

@@ -32,7 +32,7 @@ impl PathCentre {
         }
     }
 
-    /// What it is, in words.
+    /// Returns the meaning in words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Common => "the mean of both least-squares centres",

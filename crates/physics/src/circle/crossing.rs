@@ -1,4 +1,4 @@
-//! Where a circle crosses an axis.
+//! The crossings of a circle and the axes.
 
 use std::fmt;
 

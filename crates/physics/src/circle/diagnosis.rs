@@ -30,7 +30,7 @@ const STEP_PART: f64 = 0.1;
 /// over: a drift leaves an eighth of what it puts into a step.
 const UNKNOWN: f64 = 8.0;
 
-/// What a shape suggests.
+/// Cause suggested by a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -71,7 +71,7 @@ pub enum Finding {
     OtherShape,
 }
 
-/// Where a finding was made.
+/// Place of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(untagged)]
 #[non_exhaustive]
@@ -91,17 +91,17 @@ pub struct Diagnosis {
     pub place: FoundAt,
     /// The direction of travel; `None` for what concerns both.
     pub direction: Option<Direction>,
-    /// What the shape suggests.
+    /// Suggested cause.
     pub finding: Finding,
-    /// How large it is.
+    /// Size in µm.
     #[serde(rename = "size")]
     pub size_um: f64,
-    /// What it rests on, of recorded paths.
+    /// Grounds, for recorded paths.
     #[serde(flatten)]
     pub grounds: DiagnosisGrounds,
 }
 
-/// What a piece of advice about a recording rests on, and what speaks against it.
+/// Grounds of a piece of advice about a recording, with the evidence against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct DiagnosisGrounds {
     /// Standard error of the size.
@@ -113,7 +113,7 @@ pub struct DiagnosisGrounds {
     /// Frequency in Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hertz: Option<f64>,
-    /// What no shape and no noise explains, root mean square.
+    /// Residual that neither shapes nor noise explain, root mean square.
     #[serde(rename = "unexplained", skip_serializing_if = "Option::is_none")]
     pub unexplained_um: Option<f64>,
 }
@@ -157,7 +157,7 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
     advice
 }
 
-/// How far noise alone bulges out of a path, in µm: the greatest of many samples.
+/// Returns the bulge of noise alone in µm: the greatest of many samples.
 fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
     const GREATEST: f64 = 4.0;
     GREATEST * evidence.noise_um
@@ -305,7 +305,7 @@ fn sticking(evidence: &CircleEvidence) -> impl Iterator<Item = Diagnosis> + '_ {
     })
 }
 
-/// What no shape explains.
+/// Returns the finding on the residual that no shape explains.
 fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
     let rest = DiagnosisGrounds {
         unexplained_um: Some(evidence.rest_um),
@@ -348,7 +348,7 @@ fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
     })
 }
 
-/// What a test with compensation suggests, given the one without.
+/// Returns the causes that a test with compensation suggests, given the one without.
 pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
     let mut advice = diagnose(&comparison.on.figures, Some(Switched::On));
     let height = |figures: &Figures, it: &Diagnosis| {
@@ -367,7 +367,7 @@ pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
     advice
 }
 
-/// What decays at a crossing.
+/// Returns the finding on the decaying peak of a crossing.
 fn peak(glitch: &Glitch, compensation: Option<Switched>) -> Option<Finding> {
     let (outward, inward) = (glitch.outward_um, -glitch.inward_um);
     if outward.max(inward) < NOTICEABLE_UM {
@@ -392,8 +392,8 @@ fn peak(glitch: &Glitch, compensation: Option<Switched>) -> Option<Finding> {
     })
 }
 
-/// What stays after the reversals of an axis, in the mean of its paths: an error of the geometry,
-/// which turns the other way in the other direction, falls out of it.
+/// Returns the step that remains after the reversals of an axis, in the mean of its paths: an error
+/// of the geometry, which turns the other way in the other direction, falls out of it.
 fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     #[allow(clippy::cast_precision_loss)] // two at most
     let count = paths.len() as f64;

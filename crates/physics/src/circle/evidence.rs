@@ -1,4 +1,4 @@
-//! What a recorded path carries: its noise, shapes with their standard errors, and what is left over
+//! The evidence in a recorded path: its noise, shapes with their standard errors, and the residual
 //! (R5.28).
 
 use serde::Serialize;
@@ -19,7 +19,7 @@ const SIGNIFICANT: f64 = 3.0;
 /// … and from this size on, in µm.
 const LEAST_TERM_UM: f64 = 0.5;
 
-/// What is left over is a shape from this size on, in µm …
+/// Least residual in µm that counts as a shape …
 const LEAST_REST_UM: f64 = 0.15;
 
 /// … and from this part of the noise on …
@@ -31,14 +31,14 @@ const REST_OF_STEP: f64 = 0.5;
 /// Rounds in which shapes and a periodic error are told apart.
 const ROUNDS: usize = 3;
 
-/// What a recording carries, and what speaks against reading more into it.
+/// Evidence in a recording, with its limits.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CircleEvidence {
     /// Standard deviation of the noise of single samples.
     pub noise_um: f64,
     /// The shapes that were fitted, named or not.
     pub terms: Vec<Term>,
-    /// What is left over beyond the noise, root mean square.
+    /// Residual beyond the noise, root mean square.
     pub rest_um: f64,
     /// The shape of what is left over, where it is one.
     pub other: Option<OtherShape>,

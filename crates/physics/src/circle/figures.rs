@@ -27,7 +27,7 @@ pub struct PathFigures {
     /// Mean radial deviation of this path: its least-squares radius less the commanded one.
     #[serde(rename = "D")]
     pub d_um: Option<f64>,
-    /// What the path does at its crossings; `None` where the windows of the glitches reach the next
+    /// Shape of the path at its crossings; `None` where the windows of the glitches reach the next
     /// crossing.
     pub shape: Option<PathShape>,
 }
@@ -41,7 +41,7 @@ pub struct Figures {
     pub cw: Option<PathFigures>,
     /// About which centre G(b) and H are meant.
     pub centre: PathCentre,
-    /// How far the least-squares centres of both paths are apart.
+    /// Distance between the least-squares centres of both paths.
     #[serde(rename = "centre_distance")]
     pub centre_distance_um: Option<f64>,
     /// Bidirectional circular deviation G(b): from the innermost to the outermost point of both
@@ -54,7 +54,7 @@ pub struct Figures {
     /// Mean bidirectional radial deviation D.
     #[serde(rename = "d")]
     pub d_um: Option<f64>,
-    /// What a recording carries beyond these figures; `None` of simulated paths.
+    /// Evidence in a recording beyond these figures; `None` for simulated paths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<CircleEvidence>,
 }
@@ -110,9 +110,9 @@ impl Paths {
 /// Against which radius the radial deviations F and D are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Nominal {
-    /// That of the profiles is the commanded one.
+    /// The commanded centre.
     Commanded,
-    /// That of the profiles was fitted; F and D have no meaning.
+    /// A fitted centre; F and D have no meaning.
     Fitted,
 }
 
@@ -183,7 +183,7 @@ impl PathFigures {
     }
 }
 
-/// What both paths are to each other (R5.21), in m.
+/// Bidirectional figures of both paths (R5.21), in m.
 #[derive(Debug, Clone, Copy)]
 struct Bidirectional {
     /// Between the least-squares centres.

@@ -1,4 +1,4 @@
-//! What a path does at its crossings, and what of it stays (R5.22, R5.24).
+//! The shape of a path at its crossings, and the part that remains (R5.22, R5.24).
 
 use serde::Serialize;
 
@@ -12,19 +12,19 @@ use super::window::Window;
 /// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Glitch {
-    /// Where it is.
+    /// The crossing.
     pub crossing: Crossing,
     /// Peak to peak within the window, less a straight line through both sides.
     #[serde(rename = "height")]
     pub height_um: f64,
-    /// How far the path bulges out of the band between the paths before and after the crossing,
+    /// Height of the bulge out of the band between the paths before and after the crossing,
     /// outwards; at least 0.
     #[serde(rename = "outward")]
     pub outward_um: f64,
     /// The same inwards; at most 0.
     #[serde(rename = "inward")]
     pub inward_um: f64,
-    /// Which of both comes first.
+    /// The first of both.
     pub first: Bulge,
 }
 
@@ -50,10 +50,10 @@ pub enum Bulge {
     Inward,
 }
 
-/// What an axis does where it turns round (R5.24).
+/// Shape of the path where an axis reverses (R5.24).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AxisShape {
-    /// How far the path steps outwards and stays there: the backlash of the axis, negative if it is
+    /// Permanent step of the path outwards: the backlash of the axis, negative if it is
     /// over-compensated.
     #[serde(rename = "step")]
     pub step_um: f64,
@@ -64,14 +64,14 @@ pub struct AxisShape {
     pub is_settled: bool,
 }
 
-/// What a path does at its crossings, and the ellipse that remains without that.
+/// Shape of a path at its crossings, and the ellipse that remains without it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PathShape {
-    /// How wide the window is after a crossing.
+    /// Width of the window after a crossing.
     pub window_deg: f64,
     /// The glitches, counter-clockwise from X+.
     pub glitches: [Glitch; 4],
-    /// What X and Y do.
+    /// Shapes of X and Y.
     pub axes: [AxisShape; 2],
     /// The amplitude of the ellipse along the axes, and at 45°.
     #[serde(rename = "ellipse")]
@@ -118,7 +118,7 @@ impl PathShape {
         })
     }
 
-    /// What an axis does.
+    /// Returns the shape of an axis.
     pub fn axis(&self, axis: PlaneAxis) -> &AxisShape {
         let [x, y] = &self.axes;
         match axis {
@@ -179,7 +179,7 @@ impl Seen<'_> {
         normal.solve().unwrap_or_default()
     }
 
-    /// What is left of the peaks of an axis half-way to where the step is looked for.
+    /// Returns the rest of the peaks of an axis half-way to the place of the step.
     fn rest(&self, axis: PlaneAxis) -> f64 {
         let crossings = Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
         let rests = crossings.map(|crossing| {
@@ -195,7 +195,7 @@ impl Seen<'_> {
         rests.fold(0.0, f64::max)
     }
 
-    /// How far the path before a crossing runs from the undisturbed one there: its higher
+    /// Returns the distance of the path before a crossing from the undisturbed one: its higher
     /// harmonics. After the crossing the peak may not have decayed yet.
     fn offset(&self, crossing: Crossing) -> f64 {
         let mut mean = Normal::<1>::new();

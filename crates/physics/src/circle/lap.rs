@@ -14,7 +14,7 @@ use crate::current::Switched;
 /// of a second the loops still settle.
 const WIDEST_GAP: f64 = 60.0;
 
-/// So much longer is a path followed that has not closed by then, in turns.
+/// Additional length in turns for a path that has not closed.
 const LATER: f64 = 0.5;
 
 /// One run of a test: half a turn of run-in, and a turn.
@@ -26,10 +26,10 @@ pub struct Job {
     pub direction: Direction,
 }
 
-/// What a run gave.
+/// Result of a run.
 #[derive(Debug, Clone)]
 pub struct Lap {
-    /// Which run it was.
+    /// Job of the run.
     pub job: Job,
     /// The turn.
     pub profile: RadialProfile,

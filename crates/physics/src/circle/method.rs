@@ -1,4 +1,4 @@
-//! What a control does about friction on an axis.
+//! The compensation of friction on an axis by a control.
 
 use crate::simulation::{DriveParameters, Plant, plant_list};
 use crate::stiction::StictionParameters;
@@ -15,8 +15,8 @@ pub enum Method {
 }
 
 impl Method {
-    /// What the control of a plant does by itself on X and Y: stiction compensation where the plant
-    /// has that on any axis, or else the value lists that are their friction curves.
+    /// Returns the compensation of X and Y by the control of a plant itself: stiction compensation
+    /// where the plant has it on any axis, or else the value lists that are their friction curves.
     pub fn of_plant(plant: &Plant) -> [Option<Self>; 2] {
         let drives = [&plant.x, &plant.y];
         if drives.iter().any(|drive| drive.stiction.is_some()) {

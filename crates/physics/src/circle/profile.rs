@@ -78,9 +78,9 @@ pub struct RadialProfile {
     fixed: Vec<f64>,
     outer: Vec<Option<Point>>,
     inner: Vec<Option<Point>>,
-    /// How long the turn took in s, where that is known.
+    /// Duration of the turn in s, where it is known.
     turn_s: Option<f64>,
-    /// Where the centre of the angles and deviations lies, in m.
+    /// Centre of the angles and deviations, in m.
     origin: [f64; 2],
     /// Of recorded points.
     quality: Option<Quality>,
@@ -301,12 +301,12 @@ impl RadialProfile {
         self.quality
     }
 
-    /// Where the centre of the angles and deviations lies, in m.
+    /// Returns the centre of the angles and deviations, in m.
     pub(super) fn origin(&self) -> [f64; 2] {
         self.origin
     }
 
-    /// How long the turn took in s, where that is known.
+    /// Returns the duration of the turn in s, where it is known.
     pub(super) fn turn_s(&self) -> Option<f64> {
         self.turn_s
     }

@@ -5,7 +5,7 @@ use super::profile::{Quality, UM_PER_M};
 /// Noise of single samples from their third differences, and the smallest step of the coordinates, of
 /// points in mm around a centre.
 pub(super) fn quality(points: &[[f64; 2]], centre: [f64; 2]) -> Quality {
-    /// What makes a standard deviation of the median of deviations.
+    /// Factor from the median of deviations to a standard deviation.
     const NORMAL: f64 = 1.4826;
     const UM_PER_MM: f64 = UM_PER_M / 1000.0;
     let radii: Vec<f64> = points

@@ -21,7 +21,7 @@ pub(super) struct QuietPath {
     shift: [f64; 2],
     /// The amplitude of the ellipse along the axes and at 45°.
     pub(super) ellipse: [f64; 2],
-    /// How far the path steps outwards at the crossings of X and Y.
+    /// Steps of the path outwards at the crossings of X and Y.
     pub(super) steps: [f64; 2],
 }
 
@@ -33,8 +33,7 @@ pub(super) enum Beside {
 }
 
 impl QuietPath {
-    /// What the path of a profile has between its windows; `None` where that does not determine
-    /// it.
+    /// Fits the path between the windows of a profile; `None` where they do not determine it.
     pub(super) fn of(
         profile: &RadialProfile,
         direction: Direction,
@@ -98,8 +97,8 @@ fn second_harmonic(Point { cos, sin, .. }: Point) -> [f64; 2] {
     [cos * cos - sin * sin, 2.0 * cos * sin]
 }
 
-/// How far outwards an axis with a backlash of 1 moves the path: by half of it against the
-/// direction of the axis.
+/// Returns the displacement of the path outwards by an axis with a backlash of 1: half of it
+/// against the direction of the axis.
 fn lag(axis: PlaneAxis, Point { cos, sin, .. }: Point, direction: Direction) -> f64 {
     let turning = direction.sign();
     match axis {

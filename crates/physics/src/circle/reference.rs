@@ -122,7 +122,7 @@ pub enum CircleError {
         /// Cycles of the speed loop in which a force was limited, of both axes together.
         saturated_cycles: u64,
     },
-    /// Who watches has stopped the simulation.
+    /// The watcher has stopped the simulation.
     #[error("the simulation was stopped")]
     Stopped,
 }

@@ -1,5 +1,5 @@
-//! What shapes leave of a path: an error that repeats along an axis, an oscillation in time, or
-//! neither (R5.28).
+//! The residual of a path beyond its shapes: an error that repeats along an axis, an oscillation in
+//! time, or neither (R5.28).
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ const ANGLES: usize = 3600;
 /// Fixed angles of a profile in one of them.
 const FINER: usize = 10;
 
-/// So much of a turn after every crossing is masked: degrees, or seconds if that is more.
+/// Masked part of a turn after every crossing: degrees, or seconds if that is more.
 const MASKED_DEG: f64 = 14.0;
 const MASKED_S: f64 = 0.3;
 
@@ -44,7 +44,7 @@ pub(super) struct Series {
     pub(super) direction: Direction,
     /// Noise of a step as a part of that of a sample.
     pub(super) noise_share: f64,
-    /// What is not masked.
+    /// Samples outside the mask.
     places: Vec<(Turning, f64)>,
     values: Vec<Option<f64>>,
     radius_mm: f64,
@@ -285,7 +285,7 @@ impl Oscillation {
     }
 }
 
-/// What is left over, as far as it is known.
+/// The residual, as far as it is known.
 pub(super) struct LeftOver {
     pub(super) periodic: Option<Periodic>,
     oscillation: Option<Oscillation>,

@@ -10,7 +10,7 @@ use crate::simulation::{Drive, DriveParameters, Drives, FrictionModel, Setpoint}
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
 
-/// What a simulation has to say besides its points.
+/// Remarks of a simulation besides its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Remarks {
     /// Cycles of the speed loop in which a force was limited.
@@ -25,11 +25,11 @@ const MM_PER_M: f64 = 1000.0;
 pub(super) struct AxisRun<'a> {
     pub(super) axis: PlaneAxis,
     pub(super) drive: &'a DriveParameters,
-    /// What compensates friction, where that is on.
+    /// Compensation of friction, where it is on.
     pub(super) compensation: Option<&'a Method>,
 }
 
-/// What is simulated, of `N` axes.
+/// Simulation of `N` axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Run<'a, const N: usize> {
     pub(super) circle: Circle,

@@ -1,4 +1,4 @@
-//! What a simulated circular test depends on.
+//! The conditions of a simulated circular test.
 
 use super::crossing::PlaneAxis;
 use super::method::Method;
@@ -13,16 +13,16 @@ pub struct CircularTest {
     pub circle: Circle,
     /// The machine.
     pub plant: Plant,
-    /// How its friction is computed.
+    /// Friction model.
     pub model: FrictionModel,
-    /// What compensates friction on X and Y, where that is on.
+    /// Compensation of friction on X and Y, where it is on.
     pub compensation: [Option<Method>; 2],
-    /// How the documents are read.
+    /// Reading of the documents.
     pub reading: Reading,
 }
 
 impl CircularTest {
-    /// What compensates friction on an axis.
+    /// Returns the compensation of friction on an axis.
     pub(super) fn of(&self, axis: PlaneAxis) -> Option<&Method> {
         let [x, y] = &self.compensation;
         match axis {

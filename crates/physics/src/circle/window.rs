@@ -1,4 +1,4 @@
-//! How far around a crossing a disturbance is looked for (R5.22).
+//! The windows of disturbances around a crossing (R5.22).
 
 use std::ops::RangeInclusive;
 
@@ -43,7 +43,7 @@ impl Window {
         Some(Self { after })
     }
 
-    /// Where the disturbance is.
+    /// Returns the window of the disturbance.
     pub(super) fn inside(self) -> RangeInclusive<i32> {
         -BEFORE_DEG * PER_DEGREE..=self.after
     }
@@ -58,7 +58,8 @@ impl Window {
         self.after..=(2 * self.after).max(SIDE_DEG * PER_DEGREE)
     }
 
-    /// Where nothing is left of a peak: the second half of the way to the next crossing.
+    /// Returns the window in which no peak is left: the second half of the way to the next
+    /// crossing.
     pub(super) fn quiet(self) -> RangeInclusive<i32> {
         let half = QUARTER_DEG * PER_DEGREE / 2;
         self.after.max(half)..=(QUARTER_DEG - BEFORE_DEG) * PER_DEGREE
@@ -71,7 +72,7 @@ impl Window {
         half - PER_DEGREE..=half + PER_DEGREE
     }
 
-    /// How wide the window is after a crossing, in degrees.
+    /// Returns the width of the window after a crossing, in degrees.
     pub(super) fn degrees(self) -> f64 {
         f64::from(self.after) / f64::from(PER_DEGREE)
     }

@@ -1,4 +1,4 @@
-//! Which block of the old version is which one of the new version.
+//! The assignment of blocks of the old version to blocks of the new version.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -8,11 +8,11 @@ use crate::contour::BlockDeviation;
 /// A block of each version; `None` where it is in the other one only.
 pub(super) type Aligned = (Option<usize>, Option<usize>);
 
-/// What makes two blocks the same: the file, unless it is that of the program, and the number, or
-/// without one the text. The line is not part of it.
+/// Key by which two blocks are the same: the file, unless it is that of the program, and the
+/// number, or without one the text. The line is not part of it.
 type Identity<'a> = (Option<&'a str>, Result<i64, &'a str>);
 
-/// Where a block is the same in both versions.
+/// Positions of a block that is the same in both versions.
 type Anchor = (usize, usize);
 
 /// Aligns the blocks of two versions in the order of the new one. Blocks that are only once in
@@ -62,7 +62,7 @@ fn anchors(old: &[Identity<'_>], new: &[Identity<'_>]) -> Vec<Anchor> {
     longest_in_order(&pairs.collect::<Vec<Anchor>>())
 }
 
-/// Where each identity is, `None` if it is there several times.
+/// Returns the position of each identity, `None` for one with several.
 fn once<'a, 'b>(all: &'b [Identity<'a>]) -> HashMap<&'b Identity<'a>, Option<usize>> {
     let mut places = HashMap::new();
     for (at, identity) in all.iter().enumerate() {

@@ -39,7 +39,7 @@ pub enum Paired {
     One(Which, Switch),
 }
 
-/// What a comparison comes to.
+/// Result of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Agreement {
     /// Both versions switch the same.
@@ -90,18 +90,18 @@ impl VersionComparison {
         })
     }
 
-    /// How many switches both versions have.
+    /// Returns the number of switches that both versions have.
     pub fn common(&self) -> usize {
         self.pairs.len() - self.differences().count()
     }
 
-    /// What keeps the versions from being compared as a whole.
+    /// Returns the obstacles to a comparison of the whole versions.
     pub fn obstacles(&self) -> impl Iterator<Item = (Which, &Obstacle)> {
         let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
         both.filter_map(|(which, obstacle)| Some((which, obstacle.as_ref()?)))
     }
 
-    /// What the comparison comes to.
+    /// Returns the result of the comparison.
     pub fn agreement(&self) -> Agreement {
         if self.obstacles().next().is_some() {
             Agreement::NotComparable

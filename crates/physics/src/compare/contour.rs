@@ -1,4 +1,5 @@
-//! Where the contour of one version of a program deviates more than that of the other.
+//! The places at which the contour of one version of a program deviates more than that of the
+//! other.
 
 use super::alignment::align;
 use super::comparison::Which;
@@ -42,7 +43,7 @@ impl BlockChange {
         self.new.deviation_um - self.old.map_or(0.0, |(_, um)| um)
     }
 
-    /// Where a block deviates most beyond what it did there in the old version.
+    /// Finds the place of a block with the largest deviation beyond that of the old version.
     fn of(old: Option<&BlockDeviation>, new: &BlockDeviation) -> Option<Self> {
         let mut stretches = new.stretches.iter().enumerate();
         let first = stretches.next()?;
@@ -66,8 +67,8 @@ impl BlockChange {
     }
 }
 
-/// How far the old version deviates at a stretch of a block, or next to it. Where the block is as
-/// long in both versions, its stretches are.
+/// Returns the deviation of the old version at a stretch of a block, or next to it. Where the block
+/// is as long in both versions, its stretches are.
 fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
     #[allow(clippy::float_cmp)] // powers of two
     let is_as_long = old.stretch_mm == new.stretch_mm;
@@ -79,7 +80,7 @@ fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
     near.map(|it| it.deviation_um).fold(0.0, f64::max)
 }
 
-/// What a comparison of contours comes to.
+/// Result of a comparison of contours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContourAgreement {
     /// No block of the new version deviates more than the tolerance allows.
@@ -139,7 +140,7 @@ impl ContourComparison {
         }
     }
 
-    /// How far a version is from its path.
+    /// Returns the deviations of a version from its path.
     pub fn deviations(&self, which: Which) -> &Deviations {
         match which {
             Which::Old => &self.deviations[0],
@@ -152,23 +153,23 @@ impl ContourComparison {
         &self.more
     }
 
-    /// How many blocks of the new version deviate less.
+    /// Returns the number of blocks of the new version that deviate less.
     pub fn less(&self) -> usize {
         self.less
     }
 
-    /// What a block may deviate more in µm.
+    /// Returns the permitted additional deviation of a block in µm.
     pub fn tolerance_um(&self) -> f64 {
         self.tolerance_um
     }
 
-    /// What keeps the contours from being compared as a whole.
+    /// Returns the obstacles to a comparison of the whole contours.
     pub fn obstacles(&self) -> impl Iterator<Item = (Which, ContourObstacle)> {
         let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
         both.flat_map(|(which, all)| all.iter().map(move |obstacle| (which, *obstacle)))
     }
 
-    /// What the comparison comes to.
+    /// Returns the result of the comparison.
     pub fn agreement(&self) -> ContourAgreement {
         if self.obstacles().next().is_some() {
             ContourAgreement::NotComparable

@@ -1,18 +1,18 @@
-//! What keeps a version from being compared as a whole.
+//! The obstacles to a comparison of whole versions.
 
 use std::fmt;
 
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 
-/// What keeps a version from being compared as a whole, and where: what follows is not known.
+/// Obstacle to a comparison of the whole version, with its place: what follows is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Obstacle {
     /// Path of the file, as it is shown.
     pub file: String,
     /// The line, from 1, where it is known.
     pub line: Option<u32>,
-    /// What it is.
+    /// Reason of the obstacle.
     pub reason: Reason,
 }
 
@@ -34,9 +34,10 @@ pub enum Reason {
         /// The kind of compensation.
         kind: Kind,
     },
-    /// Which blocks run depends on what only the machine knows; the dry run assumed a way.
+    /// The executed blocks depend on a value that only the machine knows; the dry run assumed a
+    /// way.
     Assumed,
-    /// What a command does depends on a machine that is not described.
+    /// The effect of a command depends on a machine that is not described.
     Undescribed,
 }
 
@@ -53,7 +54,7 @@ impl Reason {
 }
 
 impl Obstacle {
-    /// What a message would be if it stopped the program.
+    /// Returns the obstacle of a message that stopped the program.
     pub(super) fn stop(said: &Diagnostic) -> Option<Self> {
         let code = said.code;
         (code.severity() == Severity::Error || code.is_budget()).then(|| {
@@ -67,7 +68,7 @@ impl Obstacle {
         })
     }
 
-    /// What a message is by itself.
+    /// Returns the obstacle of a message by itself.
     pub(super) fn of(said: &Diagnostic) -> Option<Self> {
         match said.code {
             Code::Fc408 => Some(Self::at(said, Reason::Undescribed)),

@@ -28,7 +28,8 @@ pub struct Switch {
     pub text: String,
 }
 
-/// What makes a switch of one version the same as one of the other: the line is not part of it.
+/// Key by which a switch of one version is the same as one of the other: the line is not part of
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Identity<'a> {
     block: Result<i64, &'a str>,

@@ -8,7 +8,7 @@ use frictcomp::comp::{KindSet, State};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::timeline::{EndedBy, Footing, Record, Row, Sink};
 
-/// What one version of a program switches: a sink for the records of a session that runs it.
+/// Switches of one version of a program: a sink for the records of a session that runs it.
 #[derive(Debug, Clone)]
 pub struct Version {
     kinds: KindSet,

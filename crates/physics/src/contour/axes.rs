@@ -1,4 +1,4 @@
-//! Which axes a program moves: the axes that have to be driven.
+//! The axes that a program moves, which have to be driven.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;

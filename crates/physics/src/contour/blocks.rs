@@ -1,4 +1,4 @@
-//! How far the axes are from the path of each block.
+//! The deviations of the axes from the path of each block.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -28,20 +28,20 @@ pub struct BlockDeviation {
     /// The worst place of each stretch of its path; none where it is never cut: a rapid motion, or
     /// one that is left out.
     pub stretches: Vec<WorstPlace>,
-    /// How long the stretches are, in mm.
+    /// Length of the stretches, in mm.
     pub stretch_mm: f64,
     /// The axes that reverse while it is cut, with the glitch in µm, in the order of the path.
     pub reversals: Vec<(String, f64)>,
-    /// How many more reversals it has, and the largest glitch of those in µm.
+    /// Number of its further reversals, and the largest glitch of those in µm.
     pub more_reversals: (u64, f64),
 }
 
-/// Where a block deviates most.
+/// Place of the largest deviation of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstPlace {
     /// The deviation to either side in µm.
     pub deviation_um: f64,
-    /// Where the axes of the plane are commanded to be, in mm.
+    /// Commanded position of the axes of the plane, in mm.
     pub place: [f64; 2],
 }
 
@@ -94,7 +94,7 @@ fn as_float(count: usize) -> f64 {
 #[derive(Debug, Clone, Default)]
 pub struct BlockDeviations {
     blocks: Vec<BlockDeviation>,
-    /// Where the blocks of each file are, by line.
+    /// Indices of the blocks of each file, by line.
     known: HashMap<Arc<str>, HashMap<u32, usize>>,
     cut: Cut,
 }
@@ -104,9 +104,9 @@ pub struct BlockDeviations {
 struct Cut {
     /// Its number in the run.
     seq: u64,
-    /// Where it is in the list.
+    /// Index in the list.
     at: Option<usize>,
-    /// How far it has come, in mm.
+    /// Distance covered, in mm.
     gone_mm: f64,
     place: [f64; 2],
 }

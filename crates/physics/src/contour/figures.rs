@@ -6,7 +6,7 @@ use super::reversals::ContourReversal;
 use crate::motion::{Cause, Movement};
 use frictcomp::comp::State;
 
-/// How far a run was from the path while it was cutting (R11.3).
+/// Deviations of a run from the path while it was cutting (R11.3).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Deviations {
     /// The outermost deviation in µm: `F_max` on a circle; negative where the whole path is inside.
@@ -64,8 +64,8 @@ impl Deviations {
     }
 }
 
-/// What missing compensation costs (R11.24): by how much the path as programmed is farther away than
-/// with all of it on, where that is most.
+/// Cost of missing compensation (R11.24): the largest additional deviation of the path as
+/// programmed against the one with all of it on.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Due {
     /// The difference in µm, 0 where nothing is missing.

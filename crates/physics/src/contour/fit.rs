@@ -35,7 +35,8 @@ impl ListFit {
 }
 
 impl ContourOptions {
-    /// How the value list of an axis fits its drive. `None` where the list is made from the drive.
+    /// Compares the value list of an axis with its drive. `None` where the list is made from the
+    /// drive.
     pub fn list_fit(&self, axis: &ContourAxis) -> Option<ListFit> {
         if axis.source == ListSource::Plant {
             return None;

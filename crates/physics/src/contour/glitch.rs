@@ -26,18 +26,18 @@ const CORNER: f64 = 0.3;
 const SHORTEST_S: f64 = 0.1;
 /// A side with fewer cycles is missing.
 const FEWEST: usize = 10;
-/// So many cycles are kept at most.
+/// Limit of the cycles kept.
 const MOST_MOMENTS: usize = 20_000;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// What matters of a cycle.
+/// Values of a cycle that matter here.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moment {
     time_s: f64,
     /// By how much the path has turned up to here, in rad.
     turned: f64,
-    /// How far each run is from the path, normal to it.
+    /// Deviation of each run from the path, normal to it.
     errors: [Places; 3],
     /// Whether the path stops or has a corner here, or is rapid.
     breaks: bool,
@@ -108,9 +108,9 @@ pub(super) struct Window {
     after: Side,
     /// The extremes are looked for in these cycles.
     inside: Vec<(f64, [f64; 3])>,
-    /// When the window has ended, after the reversal.
+    /// End of the window after the reversal.
     ended: Option<f64>,
-    /// How far the side after it reaches, in rad.
+    /// Length of the side after it, in rad.
     reach: f64,
 }
 

@@ -1,17 +1,17 @@
-//! What is measured in a cycle.
+//! The measured values of a cycle.
 
 use std::sync::Arc;
 
 use super::path::Distance;
 use crate::motion::Cause;
 
-/// What is measured in a cycle.
+/// Measured values of a cycle.
 pub(super) struct Measured<'a> {
     pub(super) time_s: f64,
     pub(super) cause: &'a Arc<Cause>,
-    /// Where the driven axes are commanded to be, in mm.
+    /// Commanded positions of the driven axes, in mm.
     pub(super) positions: &'a [f64],
-    /// How fast, in mm/s.
+    /// Velocities in mm/s.
     pub(super) velocities: &'a [f64],
     pub(super) path_velocity: f64,
     pub(super) programmed_velocity: f64,

@@ -1,10 +1,10 @@
-//! What keeps a contour from being judged.
+//! The obstacles to a verdict on a contour.
 
 use std::fmt;
 
 use frictcomp::diagnostic::Code;
 
-/// What keeps a contour from being judged, or compared, as a whole.
+/// Obstacle to a verdict on, or a comparison of, the whole contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ContourObstacle {

@@ -1,4 +1,4 @@
-//! What a contour depends on.
+//! The options of a contour.
 
 use crate::current::Reading;
 use crate::motion::PlannerOptions;
@@ -9,7 +9,7 @@ use frictcomp::lists::FrictionList;
 /// More axes are not driven at once.
 pub const MOST_AXES: usize = 8;
 
-/// Where the value list of an axis comes from.
+/// Source of the value list of an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum ListSource {
@@ -32,9 +32,9 @@ pub struct ContourAxis {
     pub drive: DriveParameters,
     /// The compensation value list.
     pub list: FrictionList,
-    /// Where that comes from.
+    /// Source of the list.
     pub source: ListSource,
-    /// What a drive unit of the list is in units of the drive.
+    /// Size of a drive unit of the list in units of the drive.
     pub torque_scale: f64,
 }
 
@@ -45,17 +45,17 @@ impl ContourAxis {
     }
 }
 
-/// How a contour is made.
+/// Options of a contour.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ContourOptions {
     /// The axes: those of the plane first, then further linear axes, at most [`MOST_AXES`].
     pub axes: Vec<ContourAxis>,
-    /// How the commanded trace is planned.
+    /// Options of the commanded trace.
     pub planner: PlannerOptions,
     /// The friction model.
     pub model: FrictionModel,
-    /// What applies where the documents leave something open.
+    /// Reading of what the documents leave open.
     pub reading: Reading,
 }
 

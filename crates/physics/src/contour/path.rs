@@ -28,7 +28,7 @@ struct Point {
     is_corner: bool,
 }
 
-/// How far a place is from the path.
+/// Distance of a place from the path.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Distance {
     /// In the plane, in mm: positive on the outside of the curve.
@@ -43,7 +43,7 @@ pub(super) struct Distance {
 #[derive(Debug, Clone)]
 pub(super) struct CommandedPath {
     points: VecDeque<Point>,
-    /// How many points before the commanded one the nearest may lie.
+    /// Number of points before the commanded one among which the nearest may be.
     back: u64,
     /// The number of the first of the points.
     first: u64,

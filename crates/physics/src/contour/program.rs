@@ -41,7 +41,7 @@ pub struct ContourPoint<'a> {
     pub time_s: f64,
     /// The block that is executed, and what holds in it.
     pub cause: &'a Arc<Cause>,
-    /// Where the axes are commanded to be, in mm; those of the plane first.
+    /// Commanded positions of the axes, in mm; those of the plane first.
     pub positions: &'a [f64],
     /// The signed distance from the path in the plane, positive on the outside of a curve.
     pub deviation_um: PerRun<f64>,
@@ -187,12 +187,12 @@ impl<S: ContourSink> ProgramContour<S> {
         }
     }
 
-    /// How far each run was from the path.
+    /// Returns the deviations of each run from the path.
     pub fn deviations(&self) -> &PerRun<Deviations> {
         &self.tracer().deviations
     }
 
-    /// What missing compensation costs.
+    /// Returns the cost of missing compensation.
     pub fn due(&self) -> &Due {
         &self.tracer().due
     }
@@ -225,12 +225,12 @@ impl<S: ContourSink> ProgramContour<S> {
         self.left_out() == 0 && self.obstacles().iter().all(is_beside)
     }
 
-    /// What became of the transitions between feed moves.
+    /// Returns the treatment of the transitions between feed moves.
     pub fn transitions(&self) -> Transitions {
         self.trace.transitions()
     }
 
-    /// What keeps the contour from being judged as a whole.
+    /// Returns the obstacles to a verdict on the whole contour.
     pub fn obstacles(&self) -> Vec<ContourObstacle> {
         let mut obstacles = Vec::new();
         if self.machine_time_s() <= 0.0 {
@@ -280,12 +280,13 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.is_cut_short()
     }
 
-    /// How many motions are left out, because it is not known where they lead or how fast.
+    /// Returns the number of motions left out because their target or their feed is not known.
     pub fn left_out(&self) -> u64 {
         self.trace.left_out()
     }
 
-    /// How many of them are not known to be rapid moves: they may deviate by anything.
+    /// Returns the number of those that are not known to be rapid moves: they may deviate by
+    /// anything.
     pub fn left_out_feed(&self) -> u64 {
         self.trace.left_out_feed()
     }

@@ -10,7 +10,7 @@ use super::per_run::PerRun;
 use crate::motion::Movement;
 use frictcomp::comp::State;
 
-/// How much of the motion an axis may have where it reverses: beyond it the path itself turns back.
+/// Greatest share of the motion for an axis that reverses: beyond it the path itself turns back.
 const ALONG: f64 = 0.99;
 
 /// A reversal of an axis.
@@ -29,7 +29,7 @@ pub struct ContourReversal {
     pub seq: u64,
     /// The time of the trace in s.
     pub time_s: f64,
-    /// Where each driven axis is commanded to be, in mm.
+    /// Commanded position of each driven axis, in mm.
     pub positions: Vec<f64>,
     /// The path velocity in mm/min.
     pub feed_mm_per_min: f64,
@@ -43,21 +43,22 @@ pub struct ContourReversal {
     pub state: State,
     /// The additive current in drive units before the reversal, and at the end of its window.
     pub current_units: [f64; 2],
-    /// How far the deviation in the direction of the axis, normal to the path, leaves the straight line
-    /// through both sides of the reversal, peak to peak in µm; 0 where there is no figure.
+    /// Distance of the deviation in the direction of the axis, normal to the path, from the
+    /// straight line through both sides of the reversal, peak to peak in µm; 0 where there is no
+    /// figure.
     pub glitch_um: PerRun<f64>,
     /// Whether there is a figure: the path goes on long enough before it and after it (R11.26).
     pub is_measured: bool,
 }
 
 impl ContourReversal {
-    /// What compensation would gain at it, in µm.
+    /// Returns the gain by compensation at it, in µm.
     pub fn gain_um(&self) -> f64 {
         self.glitch_um.programmed - self.glitch_um.all_on
     }
 }
 
-/// What a window is about.
+/// Event in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Event {
     /// An axis reverses.

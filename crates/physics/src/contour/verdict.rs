@@ -1,4 +1,4 @@
-//! What a contour comes to, against limits (R11.24).
+//! The verdict on a contour against limits (R11.24).
 
 use super::obstacle::ContourObstacle;
 use super::program::{ContourSink, ProgramContour};
@@ -8,11 +8,11 @@ use super::program::{ContourSink, ProgramContour};
 pub struct ContourLimits {
     /// The largest deviation as programmed, in µm.
     pub deviation_um: Option<f64>,
-    /// What missing compensation may cost, in µm.
+    /// Permitted cost of missing compensation, in µm.
     pub due_um: Option<f64>,
 }
 
-/// What a contour comes to.
+/// Verdict on a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContourVerdict {
     /// It keeps the limits.
@@ -40,8 +40,8 @@ impl ContourLimits {
         self.deviation_um.is_some() || self.due_um.is_some()
     }
 
-    /// What a contour with these obstacles comes to; `None` where it can be judged, and there is no
-    /// limit.
+    /// Returns the verdict on a contour with these obstacles; `None` where it can be judged and
+    /// there is no limit.
     pub fn verdict<S: ContourSink>(
         &self,
         contour: &ProgramContour<S>,

@@ -14,7 +14,7 @@ pub enum Switched {
     Off,
 }
 
-/// What is added in one CNC cycle.
+/// Additive current of one CNC cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Added {
     /// Weight of the decay before a reversal, 0 to 1 (R4.2).
@@ -49,7 +49,7 @@ pub struct Added {
 #[derive(Debug, Clone)]
 pub struct AdditiveCurrent {
     table: Vec<TablePoint>,
-    /// How many points of it lie at or below the last speed.
+    /// Number of its points at or below the last speed.
     above: usize,
     /// `scaling_factor` as a factor.
     scaling: f64,
@@ -78,7 +78,7 @@ pub struct AdditiveCurrent {
 /// The build-up after a reversal.
 #[derive(Debug, Clone, Copy)]
 struct BuildUp {
-    /// Where the axis turned.
+    /// Position of the reversal.
     from: f64,
     /// Cycles until the build-up begins.
     waits: usize,
@@ -122,12 +122,12 @@ impl AdditiveCurrent {
         self.friction(speed_units) * self.scaling
     }
 
-    /// How many later velocities [`step`](Self::step) looks at, P-COMP-00044.
+    /// Returns the number of later velocities that [`step`](Self::step) needs, P-COMP-00044.
     pub fn lookahead(&self) -> usize {
         self.lookahead
     }
 
-    /// How many outputs were cut to 16 bit so far (R4.11).
+    /// Returns the number of outputs limited to 16 bit so far (R4.11).
     pub fn saturated(&self) -> u64 {
         self.saturated
     }

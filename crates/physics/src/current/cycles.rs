@@ -19,7 +19,7 @@ const GAP: f64 = 1.5;
 /// More cycles are not made: eleven hours of 1 ms.
 const MAX_CYCLES: f64 = 40_000_000.0;
 
-/// What is done with times that are not those of CNC cycles.
+/// Treatment of times that are not those of CNC cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Resampling {
@@ -290,7 +290,7 @@ impl Resampled {
         self.switched.push(columns.switched[switched]);
     }
 
-    /// What was done.
+    /// Returns the treatment in words.
     fn told(&self, times_s: &[f64], kept: &[usize], cycle_s: f64) -> Vec<String> {
         let mut said = vec![format!(
             "{} rows are resampled to {} cycles of {} ms",

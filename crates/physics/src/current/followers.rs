@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use super::additive::{Added, AdditiveCurrent, Switched};
 use frictcomp::comp::State;
 
-/// What is commanded to one axis in one cycle.
+/// Commanded motion of one axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Commanded {
     /// The position in units of 0.1 µm or 0.0001°.
@@ -19,10 +19,10 @@ pub struct Commanded {
 /// One axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurrentSample {
-    /// What was commanded.
+    /// Commanded motion.
     pub commanded: Commanded,
-    /// What is added. It is 0 in every state but `active`; in the state `unknown` it is not known,
-    /// and this is what an axis without compensation gets.
+    /// Additive current. It is 0 in every state but `active`; in the state `unknown` it is not
+    /// known, and this is the value of an axis without compensation.
     pub added: Added,
 }
 
@@ -30,7 +30,7 @@ pub struct CurrentSample {
 /// some cycles ahead, so that the currents come out as many cycles later (R4.2).
 pub struct Followers {
     axes: Vec<Follower>,
-    /// How many cycles the currents lag after.
+    /// Lag of the currents in cycles.
     lag: usize,
     samples: Vec<CurrentSample>,
 }
@@ -40,7 +40,7 @@ struct Follower {
     /// As it was before the first cycle.
     fresh: AdditiveCurrent,
     waiting: VecDeque<Commanded>,
-    /// How many cycles went out.
+    /// Number of cycles given out.
     out: u64,
     /// The cycles in which the commanded direction changes, as far as they are ahead.
     turns: VecDeque<u64>,
@@ -96,7 +96,7 @@ impl Followers {
         self.axes.iter().map(|axis| axis.current.at_rest())
     }
 
-    /// How many outputs of each axis were cut to 16 bit so far (R4.11).
+    /// Returns the number of outputs of each axis limited to 16 bit so far (R4.11).
     pub fn saturated(&self) -> impl Iterator<Item = u64> {
         self.axes.iter().map(|axis| axis.current.saturated())
     }

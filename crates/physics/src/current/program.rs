@@ -29,7 +29,7 @@ pub struct CurrentCycle<'a> {
     pub axes: &'a [CurrentSample],
 }
 
-/// Who receives the currents of a program. A function of a [`CurrentCycle`] is one.
+/// Receiver of the currents of a program. A function of a [`CurrentCycle`] is one.
 pub trait CurrentSink {
     /// Takes a cycle. `Break` ends the program.
     fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()>;
@@ -46,13 +46,13 @@ impl<F: FnMut(&CurrentCycle<'_>) -> ControlFlow<()>> CurrentSink for F {
     }
 }
 
-/// How the currents of a program are computed.
+/// Options of the currents of a program.
 #[derive(Debug, Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct CurrentOptions {
-    /// How its trace is planned.
+    /// Options of its trace.
     pub planner: PlannerOptions,
-    /// What applies where the documents leave something open.
+    /// Reading of what the documents leave open.
     pub reading: Reading,
 }
 
@@ -169,12 +169,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.is_cut_short()
     }
 
-    /// How many motions the trace leaves out.
+    /// Returns the number of motions that the trace leaves out.
     pub fn left_out(&self) -> u64 {
         self.trace.left_out()
     }
 
-    /// How many cycles the trace has.
+    /// Returns the number of cycles of the trace.
     pub fn cycles(&mut self) -> u64 {
         self.trace.sink().count
     }
@@ -189,7 +189,7 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.sink().followers.at_rest()
     }
 
-    /// Who received the currents.
+    /// Returns the receiver of the currents.
     pub fn sink(&mut self) -> &mut S {
         &mut self.trace.sink().sink
     }

@@ -1,4 +1,4 @@
-//! How the documents are read where they are silent.
+//! The readings of the documents where they are silent.
 
 use std::fmt;
 use std::str::FromStr;
@@ -27,11 +27,11 @@ pub struct Reading {
     pub standstill: Standstill,
     /// The value below the first point of the table.
     pub below: Below,
-    /// What `delay_cycles` postpones.
+    /// Quantity that `delay_cycles` postpones.
     pub delay: Delay,
     /// After which starts the current builds up.
     pub start: Start,
-    /// How the current decays before a reversal.
+    /// Decay of the current before a reversal.
     pub decay: Decay,
 }
 
@@ -57,7 +57,7 @@ pub enum Below {
     Origin,
 }
 
-/// What `delay_cycles` postpones (R4.5).
+/// Quantity that `delay_cycles` postpones (R4.5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Delay {
@@ -79,7 +79,7 @@ pub enum Start {
     Every,
 }
 
-/// How the current decays over the cycles of `reversal_lookahead` (R4.2).
+/// Decay of the current over the cycles of `reversal_lookahead` (R4.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Decay {
@@ -93,7 +93,7 @@ pub enum Decay {
 /// Makes a choice.
 type Choose = fn(&mut Reading);
 
-/// What can be chosen; of options that exclude each other one is always in force.
+/// The options; of those that exclude each other one is always in force.
 const OPTIONS: [(&str, Choose); 10] = [
     ("standstill=hold", |it| it.standstill = Standstill::Hold),
     ("standstill=zero", |it| it.standstill = Standstill::Zero),
@@ -120,7 +120,7 @@ const QUESTIONS: [(Question, &str); 5] = [
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{word}` is not a reading{help}")]
 pub struct UnknownReading {
-    /// What was written.
+    /// The word as written.
     pub word: String,
     help: String,
 }
@@ -182,7 +182,7 @@ impl fmt::Display for Reading {
 }
 
 impl From<&Readings> for Reading {
-    /// What a machine selects in `[reading]` of its configuration.
+    /// Returns the selection in `[reading]` of a machine's configuration.
     fn from(readings: &Readings) -> Self {
         let mut reading = Self::default();
         for (question, key) in QUESTIONS {

@@ -35,15 +35,15 @@ pub struct CommandedRow {
     pub switched: Switched,
 }
 
-/// How the rows of a trace become CNC cycles.
+/// Options of the way from rows of a trace to CNC cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct TraceOptions {
     /// The CNC cycle; by default the usual step of the times, else 1 ms.
     pub cycle_s: Option<f64>,
-    /// What is done with times that are not those of cycles.
+    /// Treatment of times that are not those of cycles.
     pub resampling: Resampling,
-    /// Which velocities count as standstill.
+    /// Velocities that count as standstill.
     pub dead_band: DeadBand,
 }
 
@@ -126,7 +126,7 @@ impl CommandedTrace {
         self
     }
 
-    /// What was done to make cycles of the rows, each a sentence in lower case.
+    /// Returns the treatment of the rows, each step a sentence in lower case.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }

@@ -3,7 +3,7 @@
 use super::units::POSITION_UNITS_PER_MM;
 use frictcomp::diagnostic::Shown;
 
-/// Which velocities count as standstill.
+/// Velocities that count as standstill.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum DeadBand {
@@ -14,17 +14,17 @@ pub enum DeadBand {
     Below(f64),
 }
 
-/// What counts as standstill although the velocity was not 0.
+/// Samples that count as standstill although the velocity was not 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Standstills {
-    /// How often.
+    /// Number of samples.
     pub count: u64,
     /// In how many cycles.
     pub cycles: u64,
 }
 
 impl Standstills {
-    /// What counts as standstill, in a sentence.
+    /// Returns the rule of standstill in a sentence.
     pub(super) fn told(self, band: DeadBand) -> Option<String> {
         let Self { count, cycles } = self;
         let what = match band {
@@ -78,7 +78,7 @@ impl DeadBand {
     }
 }
 
-/// Where an axis begins to move in another direction, the first time included, and the end.
+/// Returns the beginnings of motion in another direction, the first included, and the end.
 fn changes(velocities: &[f64]) -> Vec<usize> {
     let mut direction = 0.0;
     let mut changes = Vec::new();

@@ -6,11 +6,11 @@ use super::limits::AxisLimits;
 use super::profile::Bounds;
 use super::share::Share;
 
-/// How much of the acceleration a curve may take for its own: the rest speeds up and slows down.
+/// Share of the acceleration for the curve itself: the rest speeds up and slows down.
 const CURVE_ACCELERATION: f64 = 0.9;
-/// How much of the jerk a curve may take for its own.
+/// Share of the jerk for the curve itself.
 const CURVE_JERK: f64 = 0.7;
-/// How much of what is left the change of path velocity may take across the path.
+/// Share of the rest for the change of path velocity across the path.
 const CROSS_JERK: f64 = 0.5;
 
 /// The places at which a span is looked at for its extremes.
@@ -48,7 +48,7 @@ struct Axis {
     largest: [f64; 3],
 }
 
-/// Where a curve is, and how it changes there.
+/// State along a curve.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Along {
     u: f64,
@@ -172,7 +172,7 @@ impl Curve {
             .sum::<f64>()
     }
 
-    /// What is there after a distance.
+    /// Returns the state after a distance.
     pub(super) fn after(&self, distance: f64) -> Along {
         if distance <= 0.0 {
             return self.along(0.0);

@@ -1,4 +1,4 @@
-//! What each axis can do, and what is assumed where the configuration does not say it.
+//! The limits of each axis, and the values assumed where the configuration has none.
 
 use super::trace::Movement;
 use frictcomp::machine::{Axis, AxisType, Machine, SlopeProfile};
@@ -17,7 +17,7 @@ pub struct AxisLimits {
     /// The share of the acceleration by which the axis may jump in a corner, P-AXIS-00013; `None` where
     /// its ramps bound that.
     pub corner_share: Option<f64>,
-    /// Which of them the configuration does not give.
+    /// Limits that the configuration does not give.
     pub assumed: Assumed,
 }
 

@@ -14,17 +14,17 @@ use super::trace::{Dwell, Movement, TraceSink};
 use frictcomp::interpreter::BlockEnd;
 use frictcomp::machine::SlopeProfile;
 
-/// How many segments are looked at together. The path is planned to a stop after the last one;
-/// half of the plan is kept, the rest is planned anew when more segments are known.
+/// Number of segments planned together. The path is planned to a stop after the last one; half of
+/// the plan is kept, the rest is planned anew when more segments are known.
 const CAPACITY: usize = 4096;
 
-/// What is known of the path and not sampled yet.
+/// Known path that is not sampled yet.
 pub(super) struct LookAhead {
     limits: MachineLimits,
     queue: VecDeque<Queued>,
     /// The path velocity at the start of the first segment in the queue.
     velocity: f64,
-    /// What is left of the last plan.
+    /// Rest of the last plan.
     left: Vec<Stretch>,
     sampler: Sampler,
     slow_kinks: u64,
@@ -73,7 +73,7 @@ impl LookAhead {
         self.sampler.time_s()
     }
 
-    /// How many kinks between feed moves are passed below 80 % of F.
+    /// Returns the number of kinks between feed moves that are passed below 80 % of F.
     pub(super) fn slow_kinks(&self) -> u64 {
         self.slow_kinks
     }
@@ -176,8 +176,8 @@ impl LookAhead {
         ControlFlow::Continue(())
     }
 
-    /// How many stretches lie in the first half of the queue; the next one is cut in two where
-    /// that changes nothing.
+    /// Returns the number of stretches in the first half of the queue; the next one is cut in two
+    /// where that changes nothing.
     fn cut(&self, stretches: &mut Vec<Stretch>) -> usize {
         let (mut kept, mut segments) = (0, 0);
         while let Some(stretch) = stretches.get(kept)

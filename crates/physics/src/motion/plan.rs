@@ -13,7 +13,7 @@ use std::ops::Range;
 use super::junction::Junction;
 use super::profile::{Bounds, VelocityProfile, fits, reach};
 
-/// What the plan needs to know of a segment.
+/// Inputs of the plan from a segment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stage {
     pub(super) length: f64,
@@ -25,7 +25,7 @@ pub(super) struct Stage {
 /// One profile over one or several segments.
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
-    /// How many segments it spans.
+    /// Number of its segments.
     pub(super) segments: usize,
     pub(super) profile: VelocityProfile,
     /// The path velocities at its ends.
@@ -87,7 +87,7 @@ impl Stretch {
 /// A velocity this close to a bound touches it.
 const TOUCH: f64 = 1e-9;
 
-/// How often knots that turned out to bind are put back, before every knot is kept.
+/// Number of rounds in which binding knots are put back, before every knot is kept.
 const ROUNDS: usize = 24;
 
 /// So often they are put back alone; then more and more of those beside them are, too.

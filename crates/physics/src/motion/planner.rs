@@ -16,13 +16,13 @@ use frictcomp::interpreter::{Form, Motion, PathFeed, PositionFrame, SAME_PLACE, 
 use frictcomp::machine::{Axis, Machine};
 use frictcomp::timeline::Row;
 
-/// How a trace is made.
+/// Options of a trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PlannerOptions {
     /// The CNC cycle.
     pub cycle_s: f64,
-    /// How many cycles the trace may have.
+    /// Limit of the cycles of the trace.
     pub max_cycles: u64,
 }
 
@@ -61,7 +61,7 @@ pub struct TrajectoryPlanner {
     names: Vec<String>,
     /// Whether each axis is X, Y or Z.
     main: Arc<[bool]>,
-    /// Where the path ends, by axis; empty before it begins.
+    /// End of the path, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
     /// The same, to the last bit of the last segment.
     end: Vec<f64>,
@@ -102,7 +102,7 @@ enum Running {
 
 /// Why a motion cannot be followed.
 enum Obstacle {
-    /// Where the axes stand before it is not known.
+    /// The positions of the axes before it are not known.
     Start,
     Reason(&'static str),
 }
@@ -180,22 +180,22 @@ impl TrajectoryPlanner {
         flow
     }
 
-    /// What became of the transitions between feed moves.
+    /// Returns the treatment of the transitions between feed moves.
     pub fn transitions(&self) -> Transitions {
         self.path.transitions()
     }
 
-    /// How many motions the trace leaves out.
+    /// Returns the number of motions that the trace leaves out.
     pub fn left_out(&self) -> u64 {
         self.left_out
     }
 
-    /// How many of them are not known to be rapid moves.
+    /// Returns the number of those that are not known to be rapid moves.
     pub fn left_out_feed(&self) -> u64 {
         self.left_out_feed
     }
 
-    /// What there is to say about the motions, each once a place.
+    /// Returns the messages on the motions, each once a place.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         self.remarks.diagnostics()
     }

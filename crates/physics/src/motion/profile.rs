@@ -23,8 +23,8 @@ pub(super) struct Bounds {
     pub(super) ramps: RampForm,
 }
 
-/// How the acceleration rises and falls. In the same ramp time both forms change the velocity by as
-/// much, and on a symmetrical change of velocity they take the same way.
+/// Form of the ramps of the acceleration. In the same ramp time both forms change the velocity by
+/// as much, and on a symmetrical change of velocity they take the same way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RampForm {
     /// With a constant jerk.
@@ -74,7 +74,7 @@ impl Ramp {
     }
 }
 
-/// How many halvings find a velocity to the last bit of its bracket.
+/// Number of halvings that find a velocity to the last bit of its bracket.
 const HALVINGS: usize = 60;
 
 /// The highest velocity to which a ramp from `from` leads within `length`; the same backwards, for
@@ -205,7 +205,7 @@ impl VelocityProfile {
         self.duration = state.start;
     }
 
-    /// How long it takes.
+    /// Returns the duration.
     pub(super) fn duration_s(&self) -> f64 {
         self.duration
     }

@@ -101,17 +101,17 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.is_cut_short
     }
 
-    /// What became of the transitions between feed moves.
+    /// Returns the treatment of the transitions between feed moves.
     pub fn transitions(&self) -> Transitions {
         self.planner.transitions()
     }
 
-    /// How many motions the trace leaves out.
+    /// Returns the number of motions that the trace leaves out.
     pub fn left_out(&self) -> u64 {
         self.planner.left_out()
     }
 
-    /// How many of them are not known to be rapid moves.
+    /// Returns the number of those that are not known to be rapid moves.
     pub fn left_out_feed(&self) -> u64 {
         self.planner.left_out_feed()
     }

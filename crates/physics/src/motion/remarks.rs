@@ -1,4 +1,4 @@
-//! What there is to say about motions.
+//! The messages on motions.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use frictcomp::interpreter::Simplifications;
 use frictcomp::text::{Place, Span};
 use frictcomp::timeline::Row;
 
-/// How many places are named.
+/// Limit of the named places.
 const MAX_NAMED: usize = 100;
 
 /// The place of a block.
@@ -44,15 +44,15 @@ pub(super) struct Remark<'a> {
     pub(super) help: Advice,
 }
 
-/// What was said: the code, file and line of a block, and what of several things there.
+/// Key of a message: the code, file and line of a block, and its subject.
 type Key = (Code, Arc<str>, u32, &'static str);
 
-/// What there is to say about motions, each once a place.
+/// Messages on motions, each once a place.
 #[derive(Default)]
 pub(super) struct Remarks {
     diagnostics: Vec<Diagnostic>,
     named: BTreeSet<Key>,
-    /// What the last motion was followed without.
+    /// Functions that the last motion was followed without.
     simplified: Simplifications,
     before: Option<BeforeTrace>,
 }
@@ -71,7 +71,7 @@ impl Remarks {
         &self.diagnostics
     }
 
-    /// What the last motion was followed without.
+    /// Returns the functions that the last motion was followed without.
     pub(super) fn simplified(&self) -> Simplifications {
         self.simplified
     }

@@ -13,8 +13,8 @@ use super::smoothing::{Place, SmoothRun};
 use super::trace::{Cause, Dwell, Movement, TraceSink};
 use frictcomp::interpreter::{BlockEnd, Contouring, Joining};
 
-/// How far a vertex of a run may be from the line through its neighbours, in mm: four times a sagitta
-/// of 0.2 µm (R11.22), and what the third decimal adds.
+/// Greatest distance of a vertex of a run from the line through its neighbours, in mm: four times a
+/// sagitta of 0.2 µm (R11.22), and the share of the third decimal.
 const FINE: f64 = 0.0015;
 
 /// The sharpest kink in a run, in rad: 1° (R11.22), and what the third decimal adds.
@@ -29,7 +29,7 @@ const TURNS_BACK: f64 = 3.0;
 /// A smaller kink is only the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
-/// Where the followed path leaves the programmed one most.
+/// Largest deviation of the followed path from the programmed one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Departure {
     /// The distance in µm.
@@ -38,29 +38,29 @@ pub struct Departure {
     pub at: Option<Arc<Cause>>,
 }
 
-/// What becomes of the transitions between feed moves.
+/// Treatment of the transitions between feed moves.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Transitions {
-    /// How many are part of a curve that joins short lines.
+    /// Number of those that are part of a curve that joins short lines.
     pub joined: u64,
-    /// How many are rounded corners.
+    /// Number of rounded corners.
     pub rounded: u64,
-    /// How many are kinks that nothing rounds, and that are passed below 80 % of F.
+    /// Number of kinks that nothing rounds, and that are passed below 80 % of F.
     pub slow: u64,
-    /// Where rounding leaves the programmed path most.
+    /// Largest deviation by rounding from the programmed path.
     pub rounding: Departure,
     /// The largest distance of a chord from the curve that joins it with others.
     pub sagitta: Departure,
 }
 
-/// How a transition is passed.
+/// Passage of a transition.
 enum Passage {
     /// As it is.
     Kink,
     /// The blocks are part of one curve.
     Joined {
-        /// How far the curve is from its chords, in mm.
+        /// Distance of the curve from its chords, in mm.
         sagitta: f64,
     },
     /// The corner is rounded.
@@ -69,9 +69,9 @@ enum Passage {
 
 /// A rounded corner.
 struct Corner {
-    /// How far the curve reaches into both blocks, in mm.
+    /// Length of the curve in both blocks, in mm.
     reach: f64,
-    /// How far it is from the corner, in mm.
+    /// Distance of the curve from the corner, in mm.
     departure: f64,
 }
 
@@ -105,12 +105,12 @@ impl Rounding {
         }
     }
 
-    /// What is known of the path, but for its roundings.
+    /// Returns the known path, but for its roundings.
     pub(super) fn look_ahead(&self) -> &LookAhead {
         &self.look_ahead
     }
 
-    /// What became of the transitions.
+    /// Returns the treatment of the transitions.
     pub(super) fn transitions(&self) -> Transitions {
         Transitions {
             slow: self.look_ahead.slow_kinks(),
@@ -270,7 +270,7 @@ impl Rounding {
         self.look_ahead.add(segment, sink)
     }
 
-    /// How the transition from the last block to the next one is passed.
+    /// Returns the passage of the transition from the last block to the next one.
     fn passage(&self, last: &Straight, next: &Segment) -> Passage {
         let Some(contouring) = &last.contouring else {
             return Passage::Kink;

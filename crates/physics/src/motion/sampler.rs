@@ -17,7 +17,7 @@ pub(super) struct Sampler {
     rate: Option<f64>,
     /// The number of the next cycle.
     next: u64,
-    /// When the path planned so far ends, in seconds.
+    /// End of the planned path, in seconds.
     end: f64,
     positions: Vec<f64>,
     velocities: Vec<f64>,
@@ -25,7 +25,7 @@ pub(super) struct Sampler {
     programmed_velocity: f64,
     /// The block that was followed last.
     last: Option<Arc<Cause>>,
-    /// How many cycles there may be.
+    /// Limit of the cycles.
     budget: u64,
     over: bool,
 }

@@ -10,11 +10,11 @@ use super::trace::Cause;
 use frictcomp::interpreter::{BlockEnd, CircularArc, SAME_PLACE};
 use frictcomp::machine::SlopeProfile;
 
-/// How much of the acceleration a circle may take for its own: the rest speeds up and slows down.
+/// Share of the acceleration for the circle itself: the rest speeds up and slows down.
 const CIRCLE_ACCELERATION: f64 = 0.9;
-/// How much of the jerk a circle may take for its own.
+/// Share of the jerk for the circle itself.
 const CIRCLE_JERK: f64 = 0.7;
-/// How much of the jerk the change of path velocity on a circle may take across the path.
+/// Share of the jerk for the change of path velocity on a circle, across the path.
 const CROSS_JERK: f64 = 0.5;
 
 /// A slope smaller than this is the rounding of a sine.
@@ -38,7 +38,7 @@ pub(super) struct Segment {
     pub(super) cause: Shared<Cause>,
 }
 
-/// What a segment follows.
+/// Shape of a segment.
 #[derive(Debug, Clone)]
 enum Shape {
     Line,
@@ -58,7 +58,7 @@ struct Circle {
     sweep: f64,
 }
 
-/// Where a segment leads, by axis, and which axes the feed refers to.
+/// Ends of a segment, by axis, and the axes that the feed refers to.
 pub(super) struct Ends<'a> {
     pub(super) from: Box<[f64]>,
     pub(super) to: Box<[f64]>,
@@ -183,22 +183,22 @@ impl Segment {
         open.bounds(limits, Share::Whole).velocity
     }
 
-    /// Where the axes are at its start.
+    /// Returns the positions of the axes at its start.
     pub(super) fn starts(&self) -> &[f64] {
         &self.from
     }
 
-    /// Where the axes are at its end.
+    /// Returns the positions of the axes at its end.
     pub(super) fn ends(&self) -> &[f64] {
         &self.to
     }
 
-    /// How many axes there are.
+    /// Returns the number of axes.
     pub(super) fn axes(&self) -> usize {
         self.from.len()
     }
 
-    /// Where an axis is after a distance along the segment, and its slope there.
+    /// Returns the position of an axis after a distance along the segment, and its slope there.
     pub(super) fn place(&self, axis: usize, distance: f64) -> [f64; 2] {
         if let Shape::Curve(curve) = &self.shape
             && distance > 0.0
@@ -212,7 +212,7 @@ impl Segment {
         [self.position(axis, distance), self.slope(axis, distance)]
     }
 
-    /// Where an axis is after a distance along the segment; exact at both ends.
+    /// Returns the position of an axis after a distance along the segment; exact at both ends.
     pub(super) fn position(&self, axis: usize, distance: f64) -> f64 {
         if distance <= 0.0 {
             return self.from[axis];
@@ -275,9 +275,9 @@ impl Segment {
         }
     }
 
-    /// What the limits of the axes leave along this segment (R5.2, R5.3). Along a circle position,
-    /// acceleration and jerk of the plane's axes are those of `r(φ)`: `v²/r` and `3va/r` across the
-    /// path, `a` and `j - v³/r²` along it.
+    /// Returns the limits along this segment from those of the axes (R5.2, R5.3). Along a circle
+    /// position, acceleration and jerk of the plane's axes are those of `r(φ)`: `v²/r` and `3va/r`
+    /// across the path, `a` and `j - v³/r²` along it.
     pub(super) fn bounds(&self, limits: &[AxisLimits], share: Share) -> Bounds {
         let mut bounds = Bounds {
             velocity: self.feed,
@@ -341,7 +341,7 @@ impl Circle {
         (cosine, sine)
     }
 
-    /// What the axes of the plane leave along the path.
+    /// Applies the limits of the axes of the plane along the path.
     fn restrict(&self, bounds: &mut Bounds, plane: Bounds, length: f64) {
         // The part of the path velocity that lies in the plane; all of it without a helix.
         let flat = self.radius * self.sweep.abs() / length;

@@ -1,14 +1,14 @@
-//! How much of what an axis can do a piece of the path may use.
+//! The shares of the limits of an axis that a piece of the path may use.
 
 use super::limits::AxisLimits;
 use super::profile::{Bounds, RampForm};
 
-/// How much of the limits a piece of the path may use.
+/// Share of the limits for a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Share {
     /// All of them.
     Whole,
-    /// What a kink at one of its ends leaves.
+    /// The share beside a kink at one of its ends.
     BesideKink,
 }
 

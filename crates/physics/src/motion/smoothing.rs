@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-/// So many vertices on either side are weighed at most.
+/// Limit of the vertices weighed on either side.
 const WIDEST: usize = 12;
 
 /// The weights of a vertex and its neighbours to one side: a Gaussian times a parabola, whose second
@@ -32,7 +32,7 @@ fn weights(half: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Where axes are.
+/// Positions of axes.
 pub(super) type Place = Box<[f64]>;
 
 /// The vertices of a run of short lines, of which control points are made as it goes on.

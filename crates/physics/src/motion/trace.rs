@@ -19,17 +19,17 @@ pub struct Cause {
     pub line: u32,
     /// The block number, where it is known.
     pub number: Option<i64>,
-    /// How the axes move.
+    /// Motion of the axes.
     pub movement: Movement,
     /// Whether positions are those of the machine (R5.4).
     pub frame: PositionFrame,
-    /// What the control does to the path or its velocity and the trace does not.
+    /// Functions on the path or its velocity that the trace does not follow.
     pub simplified: Simplifications,
     /// The friction compensation of each followed axis.
     pub friction: Arc<[State]>,
 }
 
-/// How the axes move along a piece of the path.
+/// Motion of the axes along a piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Movement {
@@ -57,11 +57,11 @@ impl Movement {
 pub struct Sample<'a> {
     /// Time since the first cycle.
     pub time_s: f64,
-    /// Where each followed axis is commanded to be, in mm or degrees.
+    /// Commanded position of each followed axis, in mm or degrees.
     pub positions: &'a [f64],
-    /// How fast each followed axis is commanded to move, in mm or degrees per second.
+    /// Commanded velocity of each followed axis, in mm or degrees per second.
     pub velocities: &'a [f64],
-    /// How fast the path is followed, in mm/s, or °/s where the feed is that of rotary axes.
+    /// Velocity of the path, in mm/s, or °/s where the feed is that of rotary axes.
     pub path_velocity: f64,
     /// The path velocity that the program asks for in the same units, infinite in a rapid motion.
     pub programmed_velocity: f64,

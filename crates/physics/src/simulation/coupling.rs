@@ -1,4 +1,4 @@
-//! What lies between the motor, where the position is measured, and the load (R5.27).
+//! The coupling between the motor, where the position is measured, and the load (R5.27).
 
 /// A dead zone: the load follows the motor only when the play is used up.
 #[derive(Debug, Clone)]
@@ -25,8 +25,8 @@ impl Coupling {
         }
     }
 
-    /// Where the load is when the motor is at `position`, both in m. The friction of the guideway
-    /// holds the load while the motor crosses the play.
+    /// Returns the position of the load for a motor at `position`, both in m. The friction of the
+    /// guideway holds the load while the motor crosses the play.
     #[inline]
     pub(super) fn follow(&mut self, position: f64) -> f64 {
         self.load = self

@@ -7,7 +7,7 @@ use super::parameters::DriveParameters;
 use super::stiction::Stiction;
 use crate::stiction::StictionParameters;
 
-/// What the fine interpolation asks of a drive in a cycle of the position loop.
+/// Setpoint of a drive from the fine interpolation, in a cycle of the position loop.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Setpoint {
     /// Position.
@@ -44,9 +44,9 @@ pub struct Drive {
     command: f64,
     /// Integral part of the speed loop in N.
     integral: f64,
-    /// What a velocity error of 1 m/s adds to the integral part in a cycle, in N.
+    /// Increment of the integral part by a velocity error of 1 m/s in a cycle, in N.
     integral_gain: f64,
-    /// What is left of a difference of forces after a step of the current loop.
+    /// Rest of a difference of forces after a step of the current loop.
     current_decay: f64,
     /// The step divided by the mass, in s/kg.
     per_mass: f64,

@@ -143,7 +143,7 @@ fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64
     })
 }
 
-/// What the values must be to each other.
+/// Checks the relations between the values.
 fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError> {
     let friction = &drive.friction;
     let refuse = |quantity, message, help: Advice| Err(table.refuse(quantity, message, help));

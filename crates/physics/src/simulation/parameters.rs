@@ -1,4 +1,4 @@
-//! What describes one feed drive, and the values that follow from others (chapter 5.2).
+//! The parameters of one feed drive, and the values that follow from others (chapter 5.2).
 
 use std::f64::consts::TAU;
 
@@ -54,7 +54,7 @@ pub struct DriveParameters {
     pub stiction: Option<StictionParameters>,
 }
 
-/// What a plant file changes.
+/// Changes by a plant file.
 impl DriveParameters {
     /// Changes the mass to `kg`, and the gain of the speed loop and the damping of the contact,
     /// which follow from it.

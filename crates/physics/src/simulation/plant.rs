@@ -12,7 +12,7 @@ use frictcomp::diagnostic::did_you_mean;
 /// Two feed drives, X and Y.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plant {
-    /// What it is called in reports.
+    /// Name in reports.
     pub name: String,
     /// The drive of X.
     pub x: DriveParameters,

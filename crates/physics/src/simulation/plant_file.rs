@@ -10,16 +10,16 @@ use frictcomp::diagnostic::Advice;
 use frictcomp::lists::{Given, Number, Written};
 use frictcomp::text::{SourceFile, Span};
 
-/// What a plant file says.
+/// Contents of a plant file.
 #[derive(Debug, Clone)]
 pub(super) struct PlantFile {
-    /// What the plant is called.
+    /// Name of the plant.
     pub(super) name: Option<String>,
     /// The plant that gives the missing values.
     pub(super) base: Option<Given<String>>,
-    /// What holds for both axes.
+    /// Values for both axes.
     pub(super) both: DriveTable,
-    /// What holds for X and for Y.
+    /// Values for X and for Y.
     pub(super) axes: [Option<DriveTable>; 2],
 }
 
@@ -27,7 +27,7 @@ pub(super) struct PlantFile {
 #[derive(Debug, Clone)]
 pub(super) struct DriveTable {
     numbers: Vec<(Quantity, Given<f64>)>,
-    /// How fast elements that slip follow the friction.
+    /// Rate at which slipping elements follow the friction.
     pub(super) attraction: Option<f64>,
     /// The share and the stiffness in N/m of each element of the Maxwell-slip model.
     pub(super) elements: Option<Vec<[f64; 2]>>,
@@ -61,7 +61,7 @@ const STICTION: Shape = Shape {
 };
 
 impl PlantFile {
-    /// What the file says. What the values must be to each other is not looked at.
+    /// Parses the file. Relations between the values are not checked.
     pub(super) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
         let parsed = DeTable::parse(source.text()).map_err(|error| {
             let span = error.span().unwrap_or_default();

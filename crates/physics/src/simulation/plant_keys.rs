@@ -61,7 +61,7 @@ pub(super) enum StictionKey {
     Feed,
 }
 
-/// What is to be known about a key.
+/// Facts about a key.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facts {
     /// The symbol of the equations.
@@ -146,13 +146,13 @@ impl StictionKey {
 
 /// The elements of the Maxwell-slip model.
 pub(super) const ELEMENTS: &str = "gms";
-/// How fast those that slip follow the friction.
+/// Key of the rate of slipping elements.
 pub(super) const ATTRACTION: &str = "gms_C";
 
 /// The table of stiction compensation.
 pub(super) const STICTION: &str = "stiction";
 
-/// What the plant is called in reports.
+/// Key of the name of the plant in reports.
 pub(super) const NAME: &str = "name";
 /// The plant that gives the missing values.
 pub(super) const BASE: &str = "base";

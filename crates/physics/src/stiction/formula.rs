@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Formula {
-    /// What the manual writes.
+    /// The formula as the manual writes it.
     pub text: &'static str,
     factor: f64,
     /// Quantities and their powers, 1 or -1.

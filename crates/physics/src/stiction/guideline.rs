@@ -1,4 +1,4 @@
-//! What the control accepts as MP1511, and what the manual recommends (R8.3).
+//! The range that the control accepts as MP1511, and the manual's recommendations (R8.3).
 
 use std::ops::RangeInclusive;
 

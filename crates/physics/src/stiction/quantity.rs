@@ -38,7 +38,7 @@ pub enum Quantity {
     Mp1513,
 }
 
-/// What is fixed about a quantity.
+/// Fixed facts about a quantity.
 struct Facts {
     quantity: Quantity,
     symbol: &'static str,
@@ -107,7 +107,7 @@ pub enum UnitError {
     Unknown {
         /// The quantity.
         quantity: Quantity,
-        /// What stands after the number.
+        /// Text after the number.
         unit: String,
         /// The units that it has.
         known: String,

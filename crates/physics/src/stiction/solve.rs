@@ -1,4 +1,4 @@
-//! What follows from the quantities that are known.
+//! The conclusions from known quantities.
 
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ pub enum Effect {
     Unknown,
 }
 
-/// What follows from the quantities that were given.
+/// Conclusions from the given quantities.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Solution {
@@ -62,7 +62,7 @@ pub enum StictionError {
     TooFew {
         /// The formula that needs fewest.
         formula: &'static str,
-        /// What it needs besides; all but one of these.
+        /// Further inputs; all but one of these.
         missing: Vec<&'static str>,
     },
     /// A formula contradicts a value.
@@ -72,9 +72,9 @@ pub enum StictionError {
         formula: &'static str,
         /// The quantity.
         quantity: Quantity,
-        /// What the formula gives.
+        /// Result of the formula.
         computed: f64,
-        /// What was given.
+        /// Given value.
         given: f64,
     },
     /// A value is outside what it can be.
@@ -82,7 +82,7 @@ pub enum StictionError {
     Range {
         /// The quantity.
         quantity: Quantity,
-        /// What it can be.
+        /// Permitted range.
         expected: &'static str,
     },
     /// The formula cannot be solved because a value is 0, or because the result is too large.
@@ -266,7 +266,8 @@ impl State {
     }
 }
 
-/// What every quantity can be (R8.3): `Δs_a` and what follows from it have a sign, the others have none.
+/// Checks the range of every quantity (R8.3): `Δs_a` and its results have a sign, the others have
+/// none.
 fn check_ranges(values: &BTreeMap<Quantity, f64>) -> Result<(), StictionError> {
     for (&quantity, &value) in values {
         let (is_possible, expected) = match quantity {

@@ -30,16 +30,16 @@ pub struct RecordedCircle {
     pub centre_mm: [f64; 2],
     /// Its radius.
     pub radius_mm: f64,
-    /// How many points the evaluated turn has.
+    /// Number of points of the evaluated turn.
     pub points: usize,
-    /// How long the turn took, where the times are known.
+    /// Duration of the turn, where the times are known.
     pub turn_s: Option<f64>,
-    /// What else was recorded.
+    /// The rest of the recording.
     pub left_out: LeftOut,
     pub(super) profile: RadialProfile,
 }
 
-/// What a recording holds besides the turn that is evaluated.
+/// The rest of a recording besides the evaluated turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftOut {
     /// Rows that repeat the one before them, of the whole recording.
@@ -215,7 +215,7 @@ fn refusal(fit: &Fit, points: &[[f64; 2]], runs: &[Run]) -> RecordedError {
 }
 
 impl Fit {
-    /// That points around the circle lie too far from it to be one, but not anywhere.
+    /// Refuses points around the circle that are too far from it to be one.
     fn not_round(&self, points: &[[f64; 2]]) -> Option<RecordedError> {
         let outside = points.iter().map(|&point| self.outside(point));
         let [inner, outer] = outside.fold([f64::MAX, f64::MIN], |[inner, outer], it| {

@@ -175,7 +175,7 @@ impl Run {
         }
     }
 
-    /// What a turn may lack at its ends: a degree, or a few points.
+    /// Returns the permitted gap at the ends of a turn: a degree, or a few points.
     pub(super) fn lacking(&self) -> f64 {
         LACKING.max(self.step())
     }
@@ -196,7 +196,7 @@ impl Run {
         wide.map(|(at, _)| at).collect()
     }
 
-    /// How much of a run that has no full turn without a gap is missing, in degrees.
+    /// Returns the missing part of a run without a full turn, in degrees.
     pub(super) fn missing_deg(&self) -> f64 {
         let ways = self.holes().into_iter();
         let ways = ways.map(|at| self.angles[at + 1] - self.angles[at]);

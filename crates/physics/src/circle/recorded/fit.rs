@@ -74,7 +74,7 @@ impl Fit {
         })
     }
 
-    /// How far outside the circle a point lies.
+    /// Returns the distance of a point outside the circle.
     pub(super) fn outside(&self, point: [f64; 2]) -> f64 {
         (point[0] - self.centre[0]).hypot(point[1] - self.centre[1]) - self.radius
     }
@@ -84,7 +84,7 @@ impl Fit {
         (point[1] - self.centre[1]).atan2(point[0] - self.centre[0])
     }
 
-    /// What is still on this circle, in mm.
+    /// Returns the permitted distance from this circle, in mm.
     pub(super) fn tolerance(&self) -> f64 {
         /// A small circle is not allowed to be an egg.
         const PART: f64 = 0.05;

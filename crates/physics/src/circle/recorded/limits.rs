@@ -1,4 +1,4 @@
-//! What a recording must have, and what is still a circle.
+//! The least requirements on a recording, and the tolerance of a circle.
 
 /// Points of a turn at least.
 pub const MIN_POINTS: usize = 72;
@@ -6,6 +6,6 @@ pub const MIN_POINTS: usize = 72;
 /// A gap between two points that is bridged, in degrees.
 pub(super) const WIDEST_GAP_DEG: f64 = 6.0;
 
-/// What lies farther from the circle is not on it, and a circle that is less round is refused, in
+/// Greatest distance of a point from the circle, and greatest roundness deviation of a circle, in
 /// mm: a machine is better by far.
 pub(super) const MOST_MM: f64 = 1.0;

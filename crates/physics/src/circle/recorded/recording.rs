@@ -12,13 +12,13 @@ use crate::circle::figures::{Nominal, Paths};
 pub struct Recording {
     /// The circles.
     pub circles: Vec<RecordedCircle>,
-    /// How they were commanded.
+    /// Commanded circle.
     pub commanded: CommandedCircle,
     /// The figures.
     pub side: Side,
 }
 
-/// How recorded circles were commanded, as far as that is known.
+/// Commanded values of recorded circles, where they are known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CommandedCircle {
     /// The radius.

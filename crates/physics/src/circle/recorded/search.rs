@@ -69,7 +69,7 @@ pub(super) fn search(points: &[[f64; 2]]) -> Result<Fit, RecordedError> {
     Ok(circle)
 }
 
-/// How good a circle is: how many sectors have points on it, then how many points there are.
+/// Rank of a circle: the number of sectors with points on it, then the number of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Rank {
     sectors: u32,

@@ -1,5 +1,5 @@
-//! What a list leaves over the whole range for which it was tuned, not only where it was looked at
-//! (R5.29).
+//! The remaining glitch of a list over the whole range for which it was tuned, not only at the
+//! circles of the search (R5.29).
 
 use serde::Serialize;
 
@@ -17,16 +17,16 @@ pub(super) const CHECKED: usize = 25;
 /// Accelerations that are searched are at most this factor apart.
 const APART: f64 = 1.5;
 
-/// Where within its CNC cycle an axis reverses.
+/// Phases of the reversal of an axis within its CNC cycle.
 const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// How much friction differs between the directions, as a part.
+/// Difference of friction between the directions, as a share.
 const UNEVEN: f64 = 0.1;
 
-/// What the machine is in place of what the plant says.
+/// Deviation of the machine from the plant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Deviating {
-    /// What the plant says.
+    /// No deviation.
     Nothing,
     /// A contact half as stiff.
     HalfStiff,
@@ -59,7 +59,7 @@ impl Deviating {
     }
 }
 
-/// What a list leaves at one acceleration, in µm: the largest over the axes.
+/// Remaining glitch of a list at one acceleration, in µm: the largest over the axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Checked {
     /// The acceleration v²/R at the reversal in mm/s².
@@ -184,7 +184,8 @@ impl Task {
         sorted
     }
 
-    /// How many reversals [`check_reversal`](Self::check_reversal) knows for one circle.
+    /// Returns the number of reversals that [`check_reversal`](Self::check_reversal) knows for one
+    /// circle.
     pub(super) fn reversals_of_a_check() -> usize {
         Trial::all().count()
     }

@@ -11,7 +11,7 @@ pub(super) const POINTS: usize = 12;
 /// Points that count, the better half.
 const COUNTED: usize = POINTS / 2;
 
-/// Where the random numbers begin; not 0.
+/// Seed of the random numbers; not 0.
 const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The search: [`ask`](Self::ask) for points, [`tell`](Self::tell) their values.
@@ -21,19 +21,19 @@ pub(super) struct CmaEs {
     step: f64,
     /// The spread along each variable, squared, in steps.
     spread: Vec<f64>,
-    /// Where the mean went, in spreads: for the step.
+    /// Path of the mean in spreads, for the step.
     path_of_step: Vec<f64>,
-    /// Where the mean went, in steps: for the spread.
+    /// Path of the mean in steps, for the spread.
     path_of_spread: Vec<f64>,
     generation: i32,
     asked: Vec<Vec<f64>>,
     random: XorShift,
 }
 
-/// What the points of a generation weigh, and how fast everything follows them.
+/// Weights of the points of a generation, and the rates of adaptation.
 struct Rates {
     weights: [f64; COUNTED],
-    /// How many points the weights are worth.
+    /// Effective number of points of the weights.
     worth: f64,
     step: f64,
     damping: f64,

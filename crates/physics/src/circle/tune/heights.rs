@@ -1,4 +1,4 @@
-//! What a value list leaves on the circles for which it is tuned.
+//! The remaining glitch of a value list on the circles for which it is tuned.
 
 /// The glitch in µm on each circle.
 #[derive(Debug, Clone, PartialEq)]

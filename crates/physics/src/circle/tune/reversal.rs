@@ -41,7 +41,7 @@ pub(super) struct AxisAlone<'a> {
     pub(super) drive: &'a DriveParameters,
     pub(super) model: FrictionModel,
     pub(super) reading: Reading,
-    /// How much later within its CNC cycle the axis reverses than on a whole run, in cycles.
+    /// Delay of the reversal within its CNC cycle against a whole run, in cycles.
     pub(super) phase: f64,
 }
 
@@ -112,7 +112,7 @@ struct Path<'a> {
     stretch: Stretch,
     axis: PlaneAxis,
     cycle: usize,
-    /// Where the axis is commanded at the ends of the cycle.
+    /// Commanded positions at the ends of the cycle.
     chord: [f64; 2],
     /// Simulation steps since the cycle began.
     steps: u32,
@@ -175,11 +175,11 @@ impl Path<'_> {
 struct Window {
     /// The angle in radians from where the drives begin to the reversal.
     ahead: f64,
-    /// Where the drives begin.
+    /// First cycle of the drives.
     begin: usize,
-    /// Where the glitch is looked for.
+    /// First cycle of the glitch.
     from: usize,
-    /// Where both end.
+    /// Last cycle of both.
     end: usize,
 }
 

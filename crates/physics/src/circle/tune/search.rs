@@ -118,7 +118,7 @@ impl<S: Space> Search<S> {
             .map_or_else(|| self.space.start(), |(_, candidate)| candidate)
     }
 
-    /// How many candidates were tried.
+    /// Returns the number of candidates tried.
     pub(super) fn trials(&self) -> usize {
         self.tried.len()
     }

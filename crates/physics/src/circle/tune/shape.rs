@@ -22,10 +22,11 @@ const INPUTS: [f64; 20] = [
 /// Points up to 1 mm/s.
 const FREE: usize = 12;
 
-/// How far an output may be from the curve, as a part.
+/// Greatest distance of an output from the curve, as a share.
 const BOUND: f64 = 0.6;
 
-/// How much the parts of three neighbours may bend: second difference of outputs by their curve (R5.29).
+/// Greatest bend of the shares of three neighbours: second difference of outputs by their curve
+/// (R5.29).
 const BEND: f64 = 0.15;
 
 /// The first step of the search, as a part of the curve.
@@ -40,7 +41,8 @@ const DISTANCE: f64 = 20.0;
 /// Cycles of `reversal_lookahead` for a step of 1.
 const LOOKAHEAD: f64 = 10.0;
 
-/// How much later than the unshaped list each search begins, in cycles: it ends in another valley.
+/// Delay at which each search begins, against the unshaped list, in cycles: it ends in another
+/// valley.
 const LATER: [f64; RUNS] = [0.0, 10.0, 20.0];
 
 /// The outputs alone scale the table.
@@ -58,14 +60,14 @@ const MOST: usize = 300;
 /// Generations without a gain after which the search ends.
 const IDLE: usize = 60;
 
-/// What counts as a gain, as a part.
+/// Least gain that counts, as a share.
 const GAIN: f64 = 0.001;
 
 /// A search for outputs and times.
 #[derive(Debug, Clone)]
 pub(super) struct ShapeSearch {
     runs: [Run; RUNS],
-    /// Which of them is asked.
+    /// Index of the present one.
     current: usize,
     start: Candidate,
     ranges: Ranges,
@@ -224,7 +226,7 @@ impl ShapeSearch {
         })
     }
 
-    /// How far a point of the search is out of bounds.
+    /// Returns the distance of a point of the search from its bounds.
     fn excess(&self, point: &[f64]) -> f64 {
         let smoothed = smoothed(point);
         let factors = point.iter().zip(smoothed);

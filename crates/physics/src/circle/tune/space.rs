@@ -1,4 +1,4 @@
-//! Where a search looks: the parameters of value lists, and those of stiction compensation.
+//! The parameters of a search: those of value lists, and those of stiction compensation.
 
 use super::candidate::Candidate;
 use super::ranges::Ranges;

@@ -1,4 +1,4 @@
-//! What is tuned.
+//! The task of tuning.
 
 use super::super::compare::Comparison;
 use super::super::crossing::PlaneAxis;
@@ -14,20 +14,20 @@ use crate::current::{Reading, Switched};
 use crate::simulation::{DriveParameters, FrictionModel, Plant};
 use frictcomp::lists::Points;
 
-/// What is tuned.
+/// Task of tuning.
 #[derive(Debug, Clone)]
 pub struct Task {
     /// The machine.
     pub plant: Plant,
-    /// How its friction is computed.
+    /// Friction model.
     pub model: FrictionModel,
     /// The circles, which differ in their feeds and radii.
     pub circles: Vec<Circle>,
     /// Between which values the parameters are searched.
     pub ranges: Ranges,
-    /// How the documents are read.
+    /// Reading of the documents.
     pub reading: Reading,
-    /// How the points of the lists are written.
+    /// Form of the points of the lists.
     pub points: Points,
     /// Whether the points below 1 mm/s get a shape of their own.
     pub shaping: Shaping,
@@ -51,7 +51,7 @@ pub enum Aim {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Shaping {
-    /// Where it is worth it.
+    /// Where it is worthwhile.
     #[default]
     Allowed,
     /// The table is the friction curve.
@@ -88,7 +88,7 @@ impl Variant {
 /// the reversal is, in mm/s.
 const ABRUPT_MM_PER_S: f64 = 0.05;
 
-/// How much faster than the fastest circle a list is looked at beyond its range.
+/// Ratio of the fastest checked circle to the fastest of the range.
 const BEYOND: f64 = 2.4;
 
 impl Task {
@@ -119,8 +119,8 @@ impl Task {
         }
     }
 
-    /// What a compensation leaves at reversals of axes by themselves, on each circle. As soon as one
-    /// reaches `bound_um` it has lost.
+    /// Returns the remaining glitches of a compensation at reversals of single axes, on each
+    /// circle. As soon as one reaches `bound_um` the candidate has lost.
     pub(super) fn heights(
         &self,
         axes: &[PlaneAxis],

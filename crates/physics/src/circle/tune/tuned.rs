@@ -49,7 +49,7 @@ impl FeedResult {
     }
 }
 
-/// What was found for an axis.
+/// Result for an axis.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TunedAxis {
     /// The best compensation: a value list as it is written, or stiction compensation; none for an
@@ -90,13 +90,13 @@ pub struct Robust {
 pub struct Tuned {
     /// X and Y; both the same where their drives are equal.
     pub axes: [TunedAxis; 2],
-    /// What the lists leave on each circle.
+    /// Remaining glitches on each circle.
     pub feeds: Vec<FeedResult>,
-    /// What they leave at accelerations all over the range (R5.29).
+    /// Remaining glitches at accelerations all over the range (R5.29).
     pub check: Vec<Checked>,
-    /// What a search for a robust list found, where that was wanted.
+    /// Result of the search for a robust list, where it was requested.
     pub robust: Option<Robust>,
-    /// How many lists, or sets of parameters, were tried.
+    /// Number of lists, or sets of parameters, tried.
     pub trials: usize,
 }
 
@@ -233,7 +233,7 @@ struct Found {
 struct Reserve {
     /// A circle beyond the range.
     circle: Circle,
-    /// What the list leaves there without a shape, in µm.
+    /// Remaining glitch of the unshaped list there, in µm.
     left_um: f64,
 }
 
@@ -262,7 +262,7 @@ impl Reserve {
 }
 
 impl Task {
-    /// How many simulations a tuning makes, about: a search ends when nothing gets better.
+    /// Returns about the number of simulations of a tuning: a search ends when nothing improves.
     pub fn expected_trials(&self) -> usize {
         /// Lists of the search for the parameters of a list, as a rule.
         const PARAMETERS: usize = 400;
@@ -285,7 +285,7 @@ struct Tuning<'a> {
     simulations: &'a dyn Simulations,
     /// The circles that a search looks at.
     searched: Vec<Circle>,
-    /// What a robust list may leave on the plant; without it only the plant counts.
+    /// Greatest glitch of a robust list on the plant; without it only the plant counts.
     limit_um: Option<f64>,
 }
 
@@ -338,7 +338,7 @@ impl Tuning<'_> {
         Ok(if is_worth_it { shaped } else { plain })
     }
 
-    /// What lists leave over the whole range.
+    /// Checks the remaining glitches of lists over the whole range.
     fn check(&self, axes: &[TunedAxis; 2]) -> Result<Vec<Checked>, CircleError> {
         let task = self.task;
         let circles = task.checked();
@@ -374,7 +374,8 @@ impl Tuning<'_> {
             .collect())
     }
 
-    /// What a compensation leaves on each circle of the search; one that reaches `bound_um` has lost.
+    /// Returns the remaining glitches of a compensation on each circle of the search; one that
+    /// reaches `bound_um` has lost.
     fn heights(
         &self,
         axes: &[PlaneAxis],

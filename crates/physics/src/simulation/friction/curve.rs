@@ -35,7 +35,7 @@ pub struct Friction {
     pub damping_velocity_m_per_s: f64,
     /// The elements of the Maxwell-slip model.
     pub elements: Vec<GmsElement>,
-    /// How fast slipping elements approach their share of the friction, C.
+    /// Rate at which slipping elements approach their share of the friction, C.
     pub attraction_n_per_s: f64,
     /// The part by which a sliding contact has more friction forwards, and less backwards.
     #[serde(skip)]

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::Serialize;
 use thiserror::Error;
 
-/// How friction is computed.
+/// Model of friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -29,7 +29,7 @@ impl FrictionModel {
     /// Every model, the simplest first.
     pub const ALL: [Self; 3] = [Self::Stribeck, Self::Lugre, Self::Gms];
 
-    /// What it is, in a few words.
+    /// Returns the meaning in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Stribeck => "The static Stribeck curve",

@@ -1,10 +1,9 @@
-//! What the operator has to know or to do after a session, for every report that tells it.
+//! Advice to the operator after a session, for every report that gives it.
 
 use frictcomp::comp::State;
 use frictcomp::timeline::{AxisSummary, EndedBy, Footing};
 
-/// What the operator has to know or to do about an axis, after its name (R1.27: the state
-/// outlives the program).
+/// Returns the advice on an axis, after its name (R1.27: the state outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
     let untold = axis.end != axis.start_up && !axis.told;
     match axis.end {
@@ -24,8 +23,8 @@ pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
     }
 }
 
-/// What an error means for the states that are left, where `errors` were said and the last program
-/// ended so.
+/// Returns the consequence of errors for the final states, where `errors` were said and the last
+/// program ended so.
 pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static str> {
     match by {
         Some(EndedBy::Error) => {

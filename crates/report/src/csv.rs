@@ -11,7 +11,7 @@ use super::strings::integer;
 use super::view::View;
 use super::visible::{any_byte, is_command, visible, visible_line};
 
-/// What the last column says of a row that is no block.
+/// Last column of a row that is not a block.
 const JOIN: &[u8] = b"join";
 
 /// The last row: what is said at program end joins its codes.

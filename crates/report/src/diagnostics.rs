@@ -25,7 +25,7 @@ pub enum Paint {
     Styled,
 }
 
-/// How text output looks.
+/// Appearance of text output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
     /// Colours.
@@ -153,9 +153,9 @@ struct Shown<'a> {
     text: Cow<'a, str>,
     /// The part of the place's text that is shown, without pictures.
     part: &'a str,
-    /// How many bytes of the place's text were left out at its start.
+    /// Number of bytes left out at the start of the place's text.
     skipped: usize,
-    /// What stands in the shown text for what was left out.
+    /// Mark in the shown text for the part left out.
     mark: &'static str,
 }
 
@@ -171,7 +171,7 @@ impl Shown<'_> {
     }
 }
 
-/// How many characters of a long line are shown on either side of the span.
+/// Number of characters of a long line shown on either side of the span.
 const SURROUNDINGS: usize = 160;
 
 fn shown(place: &Place) -> Shown<'_> {

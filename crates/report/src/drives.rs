@@ -21,7 +21,7 @@ pub fn render_drives(reports: &[DriveReport], out: &mut dyn Write) -> fmt::Resul
     Ok(())
 }
 
-/// What is known about the drive of an axis, as a record.
+/// Returns the evidence on the drive of an axis as a record.
 pub fn drive_record(report: &DriveReport) -> Value {
     let mut record = json!(report);
     if let Value::Object(keys) = &mut record {

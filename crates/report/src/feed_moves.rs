@@ -1,4 +1,4 @@
-//! What the feed moves without friction compensation come to, in words (R13.12).
+//! The feed moves without friction compensation, in words (R13.12).
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! What there is to say about a recording, as text.
+//! The remarks on a recording, as text.
 
 use std::fmt::Write as _;
 

@@ -17,9 +17,9 @@ pub struct IdentifyReport {
     pub name: String,
     /// The axis, where it is named.
     pub axis: Option<String>,
-    /// What was recorded.
+    /// The recording.
     pub recording: AxisRecording,
-    /// What was found.
+    /// Result.
     pub identified: Identified,
 }
 
@@ -32,7 +32,7 @@ impl IdentifyReport {
             .chain(&self.identified.findings)
     }
 
-    /// What is wrong with the recording, each a line for the written list (R6.21).
+    /// Returns the faults of the recording, each a line for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let faults = self
             .findings()
@@ -127,7 +127,7 @@ fn push_pairs(out: &mut String, found: &Identified) {
     }
 }
 
-/// What an offset is good for.
+/// Returns the use of an offset, in words.
 fn offset_words(found: &Identified) -> &'static str {
     if found.is_offset_small() {
         return "It is too small to be set anywhere.\n";

@@ -9,7 +9,7 @@ use super::output::{Gathered, Output};
 use super::records::{Encoder, Frame};
 use super::view::View;
 
-/// What stands before the first record.
+/// Text before the first record.
 pub(super) const OPENING: &[u8] = b"{\"schema\":2,\"records\":[";
 
 /// Writes records as one document, `{"schema":2,"records":[…]}`, a record a line.
@@ -17,7 +17,7 @@ pub(super) const OPENING: &[u8] = b"{\"schema\":2,\"records\":[";
 pub struct Json<W> {
     output: Output<W>,
     encoder: Encoder,
-    /// Where the records begin in the bytes of the first chunk; `None` once one was written.
+    /// Offset of the records in the first chunk; `None` once one was written.
     start: Option<usize>,
 }
 

@@ -18,9 +18,9 @@ pub struct OnCirclesReport {
     pub names: Vec<String>,
     /// The axis, where it is named.
     pub axis: Option<String>,
-    /// What was recorded.
+    /// The recordings.
     pub recordings: Vec<AxisRecording>,
-    /// What was found.
+    /// Result.
     pub found: OnCircles,
 }
 
@@ -34,7 +34,7 @@ impl OnCirclesReport {
         units.into_iter().next().unwrap_or("drive units")
     }
 
-    /// What is wrong with the recordings, each a line for the written list (R6.21).
+    /// Returns the faults of the recordings, each a line for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let findings = self.findings().into_iter();
         let faults = findings.filter(|it| it.severity == Severity::Warning);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use frictcomp::timeline::Sink;
 
-/// How many bytes are gathered before they are written.
+/// Number of bytes gathered before they are written.
 const CHUNK: usize = 64 * 1024;
 
 /// A timeline format whose output can be ended.
@@ -26,7 +26,7 @@ pub trait Report: Sink {
 
 /// A format that gathers its bytes before it writes them.
 pub(super) trait Gathered: Sink {
-    /// Where they go.
+    /// Destination of the bytes.
     type Writer: Write;
 
     /// The bytes on their way.

@@ -9,7 +9,7 @@ use frictcomp::timeline::{
 use super::strings::{integer, optional, separated, string};
 use super::view::View;
 
-/// Where an object stands: what comes before and after it.
+/// Text before and after an object.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub(super) before: &'static [u8],
@@ -364,7 +364,7 @@ fn uncompensated(out: &mut Vec<u8>, summary: &Summary<'_>) {
     out.push(b'}');
 }
 
-/// How often each remark applied that was made only once for its place.
+/// Writes the number of repetitions of each remark that was made only once for its place.
 fn repeats(out: &mut Vec<u8>, repeated: &[Repeat]) {
     out.extend_from_slice(b",\"repeated\":[");
     for (at, repeat) in repeated.iter().enumerate() {

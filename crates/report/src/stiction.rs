@@ -36,7 +36,7 @@ pub fn render_stiction(solution: &Solution) -> String {
     out
 }
 
-/// What to say about a guideline that is not kept (R8.3).
+/// Returns the advice on a guideline that is not kept (R8.3).
 pub fn guideline(guideline: Guideline) -> &'static str {
     match guideline {
         Guideline::Mp1511 => "MP1511 is outside the guideline of 5000 to 10000 µs",

@@ -3,7 +3,8 @@
 use super::visible::any_byte;
 use frictcomp::text::{is_hidden, shown_json};
 
-/// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter after `\`.
+/// Escape of a byte in a JSON string: 0 for the byte itself, `u` for a code, else the letter after
+/// `\`.
 const ESCAPES: [u8; 256] = {
     let mut table = [0; 256];
     let mut byte = 0;

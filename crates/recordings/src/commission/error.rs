@@ -119,7 +119,7 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> String {
         match self {
             Self::Axes(_) => "plan two axes in one folder, further ones in another".to_owned(),

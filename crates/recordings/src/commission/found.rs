@@ -11,7 +11,8 @@ use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 /// the end of one.
 const STEADY: f64 = 0.1;
 
-/// What differs between the directions, and is no constant weight, may be this part of the friction.
+/// Greatest difference between the directions, beyond a constant weight, as a share of the
+/// friction.
 const EVEN: f64 = 0.2;
 
 /// A measured speed is the planned one within this part.
@@ -34,7 +35,7 @@ pub struct FrictionFound {
     pub override_part: Option<f64>,
     /// The points of a value list: µm/s or 0.001°/s, drive units.
     pub table: Vec<[f64; 2]>,
-    /// What there is to say.
+    /// Remarks.
     pub notes: Vec<String>,
     /// Reasons for which no list is made of it.
     pub against: Vec<String>,
@@ -172,7 +173,7 @@ pub struct CirclesFound {
     pub glitches_um: Vec<[f64; 4]>,
     /// The largest of them.
     pub worst_um: f64,
-    /// What there is to say.
+    /// Remarks.
     pub notes: Vec<String>,
     /// Reasons for which nothing is concluded from it.
     pub against: Vec<String>,

@@ -16,7 +16,7 @@ pub struct Program {
     /// The motions after the approach.
     #[serde(skip)]
     pub steps: Vec<PlanStep>,
-    /// Where it begins: the place of each axis of the plan in mm or degrees.
+    /// Start: the position of each axis of the plan in mm or degrees.
     pub start: Vec<f64>,
 }
 

@@ -21,11 +21,11 @@ pub struct RecordingResult {
     pub read_with: String,
     /// The number of its program.
     pub program: Option<u16>,
-    /// What it tells.
+    /// Result.
     pub found: Found,
 }
 
-/// What a recording tells.
+/// Result of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Found {

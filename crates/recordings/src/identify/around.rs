@@ -17,7 +17,7 @@ pub(super) struct Window {
     pub(super) to: usize,
 }
 
-/// What signals around reversals may depend on: time since the reversal, motion, the list.
+/// Instruments for signals around reversals: time since the reversal, motion, the list.
 pub(super) struct Instruments {
     /// For each window its rows.
     rows: Vec<Vec<Vec<f64>>>,
@@ -35,7 +35,7 @@ const KNOTS_S: [f64; 20] = [
     0.015, 0.02, 0.028, 0.04, 0.06, 0.09, 0.15,
 ];
 
-/// What keeps products of instruments that are nearly alike from being singular.
+/// Term that keeps products of nearly equal instruments from being singular.
 const NEARLY: f64 = 1e-7;
 
 impl Instruments {
@@ -196,7 +196,7 @@ fn products_of(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     products
 }
 
-/// How much of each knot there is at a time: 1 together.
+/// Returns the share of each knot at a time: 1 together.
 fn shares_of_knots(time_s: f64) -> [f64; KNOTS_S.len()] {
     let mut shares = [0.0; KNOTS_S.len()];
     let after = KNOTS_S.partition_point(|knot| *knot <= time_s);

@@ -9,18 +9,18 @@ use super::statistics::{count, moving_average, samples_in};
 use super::track::{Samples, Track, TrackError};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
-/// What circles say about friction.
+/// Friction found on circles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnCircles {
     /// Speeds in mm/s with the friction there in drive units, slowest first.
     pub points: Vec<[f64; 2]>,
     /// Torque of an acceleration of 1 mm/s², in drive units.
     pub inertia: f64,
-    /// What is the same in both directions.
+    /// Part that is the same in both directions.
     pub offset: f64,
     /// Speeds in mm/s that had too few samples and are left out.
     pub left_out: Vec<f64>,
-    /// What is wrong with the recordings.
+    /// Faults of the recordings.
     pub findings: Vec<TraceFinding>,
 }
 

@@ -1,4 +1,4 @@
-//! What makes a recording wrong: it is refused, or its fault is said before anything else (R6.21).
+//! The faults of a recording: it is refused, or its fault is named before anything else (R6.21).
 
 use super::clipped::clipped;
 use super::finding::TraceFinding;
@@ -22,7 +22,7 @@ const LEAST_OF_RATED: f64 = 0.02;
 /// moves for long.
 const MUCH_OF_RATED: f64 = 0.5;
 
-/// So many standard errors are no accident.
+/// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 3.0;
 
 /// A fault for which there is no list.

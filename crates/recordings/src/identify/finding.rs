@@ -1,4 +1,4 @@
-//! What there is to say about a recording and what was found in it.
+//! The remarks on a recording and on the values found in it.
 
 use serde::Serialize;
 
@@ -9,11 +9,11 @@ use frictcomp::diagnostic::{Code, Severity};
 pub struct TraceFinding {
     /// Its number.
     pub code: Code,
-    /// How much it counts.
+    /// Severity.
     pub severity: Severity,
-    /// What was found.
+    /// Text of the finding.
     pub message: String,
-    /// What to do about it.
+    /// Advice.
     pub help: String,
 }
 

@@ -12,17 +12,17 @@ use super::support::Wanted;
 use super::track::TrackError;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
-/// What is wanted of an identification.
+/// Options of an identification.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct IdentifyOptions {
-    /// How many support points.
+    /// Number of support points.
     pub wanted: Wanted,
     /// The accuracy that the friction should have, as a part of it.
     pub accuracy: f64,
     /// The speed in mm/s or °/s at which the machine works.
     pub working_speed: f64,
-    /// What is known of the torque.
+    /// Known properties of the torque.
     pub measured: Measured,
 }
 
@@ -65,7 +65,7 @@ pub enum IdentifyError {
 }
 
 impl IdentifyError {
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> &str {
         match self {
             Self::Refused(finding) => &finding.help,
@@ -82,14 +82,14 @@ impl IdentifyError {
     }
 }
 
-/// What was found in a recording.
+/// Values found in a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identified {
     /// The segments of constant speed.
     pub segments: Vec<Segment>,
     /// Friction and offset at each speed, slowest first.
     pub pairs: Vec<Pair>,
-    /// What is the same in both directions, in drive units: weight, asymmetry.
+    /// Part that is the same in both directions, in drive units: weight, asymmetry.
     pub offset: f64,
     /// The fit, whether it is used or not; `None` with fewer than four speeds.
     pub fit: Option<Fit>,
@@ -99,13 +99,13 @@ pub struct Identified {
     pub points: Vec<TablePoint>,
     /// The largest error of the straight lines between the points, in drive units.
     pub point_error: f64,
-    /// What repeats along the way.
+    /// Part that repeats along the way.
     pub ripple: Option<Ripple>,
-    /// How friction changed over the recording, where speeds were visited more than once.
+    /// Change of friction over the recording, where speeds were visited more than once.
     pub drift: Option<Drift>,
     /// Positions in mm or degrees, and what the torque there differs from the mean of its segment.
     pub residuals: Vec<[f64; 2]>,
-    /// What there is to say; what makes the recording wrong comes first.
+    /// Remarks; those on a wrong recording come first.
     pub findings: Vec<TraceFinding>,
 }
 

@@ -1,4 +1,4 @@
-//! What a recorded torque holds: whether the additive current is in it (R6.21).
+//! The contents of a recorded torque: whether the additive current is part of it (R6.21).
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::trace::Channel;
 use frictcomp_physics::current::Switched;
 
-/// Which torque a channel holds.
+/// Kind of torque in a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TorqueKind {
@@ -106,10 +106,10 @@ impl FromStr for TorqueKind {
     }
 }
 
-/// What is known of a recorded torque.
+/// Known properties of a recorded torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Which torque it is; `None` where nothing tells.
+    /// Kind of torque; `None` where it is not known.
     pub kind: Option<TorqueKind>,
     /// Whether friction compensation was on; `None` where nothing tells.
     pub compensation: Option<Switched>,
@@ -118,7 +118,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// What is known of two recordings alike; compensation was on if it was on in either.
+    /// Returns the properties common to two recordings; compensation was on if it was on in either.
     #[must_use]
     pub fn common(self, other: Self) -> Self {
         let either = [self.compensation, other.compensation];

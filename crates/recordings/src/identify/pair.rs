@@ -20,7 +20,7 @@ pub struct Pair {
     pub speed: f64,
     /// The friction in drive units, with the sign that it has at positive velocity.
     pub friction: f64,
-    /// What is the same in both directions; `None` where only one was recorded.
+    /// Part that is the same in both directions; `None` where only one was recorded.
     pub offset: Option<f64>,
     /// The standard error of the friction.
     pub error: f64,
@@ -53,9 +53,9 @@ struct Mean {
 pub(super) struct Paired {
     /// Slowest first.
     pub(super) pairs: Vec<Pair>,
-    /// What is the same in both directions at all speeds.
+    /// Part that is the same in both directions at all speeds.
     pub(super) offset: f64,
-    /// How friction changed over the recording.
+    /// Change of friction over the recording.
     pub(super) drift: Option<Drift>,
 }
 
@@ -130,7 +130,7 @@ pub(super) fn speeds_of(segments: &[Segment]) -> Vec<Vec<usize>> {
 
 struct Measure<'a> {
     samples: &'a Samples,
-    /// What the drive resolves.
+    /// Resolution of the drive.
     step: f64,
 }
 
@@ -242,7 +242,7 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
     couples
 }
 
-/// How friction changes over the recording, where speeds were visited more than once.
+/// Change of friction over the recording, where speeds were visited more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
     /// By which part friction is larger at the end of the recording than at its beginning.

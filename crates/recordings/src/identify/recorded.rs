@@ -11,7 +11,7 @@ use crate::trace::{
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
 
-/// Which channels are the motion and the torque of an axis.
+/// Channels of the motion and the torque of an axis.
 #[derive(Debug, Clone, Default)]
 pub struct AxisChannels {
     time: Option<Pick>,
@@ -24,7 +24,7 @@ pub struct AxisChannels {
     followed: Option<(Followed, Pick)>,
 }
 
-/// How the following error was recorded.
+/// Form of the recorded following error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Followed {
     /// As itself.
@@ -33,7 +33,7 @@ enum Followed {
     Actual,
 }
 
-/// What was recorded of an axis, and what there is to say about it.
+/// Recording of an axis, with its remarks.
 #[derive(Debug, Clone, Default)]
 pub struct AxisRecording {
     /// Motion and torque.
@@ -41,13 +41,13 @@ pub struct AxisRecording {
     /// Commanded less actual position at each sample in 0.1 µm or 0.0001°; empty where it was not
     /// recorded.
     pub following_errors: Vec<f64>,
-    /// What is known of the torque.
+    /// Known properties of the torque.
     pub measured: Measured,
     /// The unit of the torque, where it is no drive unit.
     pub torque_unit: Option<String>,
-    /// How the file was read, each a sentence in lower case.
+    /// Steps in which the file was read, each a sentence in lower case.
     pub remarks: Vec<String>,
-    /// What may be wrong with it.
+    /// Possible faults.
     pub findings: Vec<TraceFinding>,
 }
 
@@ -73,7 +73,7 @@ impl AxisChannels {
         Ok(found)
     }
 
-    /// What is kept of the file.
+    /// Returns the channels to keep.
     pub fn choice(&self) -> Choice {
         Choice {
             values: self
@@ -156,7 +156,7 @@ impl AxisChannels {
         })
     }
 
-    /// What the channel of the torque and that of the state tell.
+    /// Returns the properties of the torque that its channel and the channel of the state show.
     fn measured(&self, recording: &TraceRecording, is_of_the_drive: bool) -> Measured {
         let channel = |pick: Pick| &recording.channels()[pick.channel.get()];
         let state = self.state.map(|pick| recording.values(pick.channel));

@@ -1,4 +1,5 @@
-//! What repeats along the way: the pitch of a screw, the poles of a motor (R6.16).
+//! The part of the torque that repeats along the way: the pitch of a screw, the poles of a motor
+//! (R6.16).
 
 use std::f64::consts::TAU;
 use std::ops::Range;

@@ -25,7 +25,7 @@ const STEADY_SIGMA: f64 = 5.0;
 /// Slower segments are ignored, in mm/s.
 const SLOWEST: f64 = 0.1;
 
-/// What is cut in front: this part, or so many seconds if they are more; and at the end.
+/// Part cut off in front, or duration if that is more; and part cut off at the end.
 const CUT_FRONT: f64 = 0.15;
 const CUT_FRONT_S: f64 = 0.15;
 const CUT_END: f64 = 0.1;
@@ -33,7 +33,7 @@ const CUT_END: f64 = 0.1;
 /// Samples at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
-    /// Which samples are used.
+    /// Samples in use.
     pub samples: Range<usize>,
     /// From when, in s.
     pub from_s: f64,
@@ -160,7 +160,7 @@ impl<'a> Speeds<'a> {
 
     /// Appends a segment, or lets the last one go on where noise alone had ended it.
     fn join(&self, samples: &Samples, found: &mut Vec<Segment>, next: Segment) {
-        /// What was cut between two pieces of one segment is not longer, in s.
+        /// Longest cut between two pieces of one segment, in s.
         const APART_S: f64 = 1.0;
         if let Some(last) = found.last_mut()
             && last.velocity * next.velocity > 0.0

@@ -65,7 +65,7 @@ const MOST_WINDOWS: usize = 24;
 /// Shifts of the current in CNC cycles that serve as instruments.
 const KNOWN_SHIFTS: [f64; 6] = [-1.0, 0.0, 1.0, 2.0, 4.0, 8.0];
 
-/// What the equations of the loops leave out is at least this part of the current.
+/// Least error of the equations of the loops, as a share of the current.
 const LEAST_ERROR: f64 = 0.005;
 
 /// The noise of a torque is at least this, in drive units: it comes in whole ones.
@@ -163,7 +163,7 @@ impl Signals<'_> {
         (0..wanted).map(|it| all[it * all.len() / wanted]).collect()
     }
 
-    /// What is known of a sample without noise.
+    /// Returns the known signals of a sample, without noise.
     fn known(&self, at: usize) -> Vec<f64> {
         let shifted = KNOWN_SHIFTS.map(|cycles| {
             let place = at.checked_add_signed(-rounded(cycles * self.cycle));
@@ -183,9 +183,9 @@ impl Signals<'_> {
 struct Fit {
     share: f64,
     error: f64,
-    /// What the instruments find in what is left, as a multiple of the noise.
+    /// Signal of the instruments in the residual, as a multiple of the noise.
     misfit: f64,
-    /// How many of them are free.
+    /// Number of free parameters.
     free: f64,
 }
 
@@ -258,7 +258,7 @@ impl Fit {
     }
 }
 
-/// What lies between two samples.
+/// Course of a signal between two samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Hold {
     /// The value of the first.

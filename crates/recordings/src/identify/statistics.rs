@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-/// What makes a standard deviation of the median of deviations.
+/// Factor from the median of deviations to a standard deviation.
 const NORMAL: f64 = 1.4826;
 
 /// The middle value; the mean of the two middle ones of an even number.
@@ -65,7 +65,7 @@ pub(super) fn resolution(values: &[f64]) -> f64 {
     if least.is_finite() { least } else { 0.0 }
 }
 
-/// How many samples a time has, at least one.
+/// Returns the number of samples in a time, at least one.
 pub(super) fn samples_in(seconds: f64, step_s: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1 to some thousands
     let samples = (seconds / step_s).round().max(1.0) as usize;

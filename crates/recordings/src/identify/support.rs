@@ -2,7 +2,7 @@
 
 use super::curve::FrictionCurve;
 
-/// How many points are wanted.
+/// Requested number of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
     /// At most this many.
@@ -63,10 +63,10 @@ pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> 
 }
 
 struct Table {
-    /// Where points may be, in mm/s, whole µm/s.
+    /// Candidates for points, in mm/s, whole µm/s.
     speeds: Vec<f64>,
     values: Vec<f64>,
-    /// Where errors are looked at: speeds with the values of the curve, ascending.
+    /// Speeds at which errors are evaluated, with the values of the curve, ascending.
     looked: Vec<[f64; 2]>,
 }
 
@@ -135,7 +135,7 @@ impl Table {
         best
     }
 
-    /// How far a line is below and above the curve.
+    /// Returns the distances of a line below and above the curve.
     fn beside(&self, [[x0, y0], [x1, y1]]: [[f64; 2]; 2]) -> [f64; 2] {
         let slope = (y1 - y0) / (x1 - x0);
         let first = self.looked.partition_point(|it| it[0] < x0);

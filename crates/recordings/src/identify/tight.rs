@@ -15,7 +15,7 @@ const BLOCK_S: f64 = 0.01;
 /// A place needs so many blocks in each direction.
 const FEWEST: f64 = 8.0;
 
-/// So many standard errors are no accident.
+/// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 5.0;
 
 /// This part of the friction is worth a word.
@@ -27,7 +27,7 @@ pub(super) struct TightSpot {
     /// Its ends in mm or degrees.
     pub(super) from: f64,
     pub(super) to: f64,
-    /// How much harder at least, in drive units.
+    /// Least additional torque, in drive units.
     pub(super) more: f64,
 }
 

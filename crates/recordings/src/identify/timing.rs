@@ -26,7 +26,7 @@ const BEFORE_S: f64 = 0.05;
 /// Following errors at reversals that are smaller say nothing, in mm.
 const NOTICEABLE: f64 = 0.0003;
 
-/// So many standard errors are no accident.
+/// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 3.0;
 
 /// Part of the current of a list that is in a torque, and the interval of three standard errors around
@@ -44,7 +44,7 @@ pub struct ActingShare {
     pub high: f64,
 }
 
-/// What a recording tells of the timing of a value list.
+/// Timing of a value list in a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "state")]
 #[non_exhaustive]
@@ -178,7 +178,7 @@ pub(super) struct Followed<'a> {
 }
 
 impl Followed<'_> {
-    /// What is to be said of the timing.
+    /// Returns the verdict on the timing.
     pub(super) fn timing(&self) -> Timing {
         if self.turns.is_empty() {
             return Timing::Open;

@@ -1,4 +1,4 @@
-//! What was recorded of one axis, cycle by cycle.
+//! The recording of one axis, cycle by cycle.
 
 use thiserror::Error;
 
@@ -53,7 +53,7 @@ pub enum TrackError {
     /// Fewer samples than a segment has.
     #[error("{samples} samples are too few")]
     Short {
-        /// How many there are.
+        /// Number of samples.
         samples: usize,
     },
     /// Samples that are too far apart for motions to be seen.
@@ -73,7 +73,7 @@ pub enum TrackError {
 }
 
 impl TrackError {
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoMotion => {
@@ -208,7 +208,7 @@ fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| value * factor).collect()
 }
 
-/// Where velocities lead, from 0.
+/// Integrates velocities, from 0.
 fn integrated(velocities: &[f64], times_s: &[f64]) -> Vec<f64> {
     let mut position = 0.0;
     let mut before = times_s.first().copied().unwrap_or_default();

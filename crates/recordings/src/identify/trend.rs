@@ -20,7 +20,7 @@ pub enum FrictionParameter {
     Coulomb,
     /// Friction just after breaking loose, Fs.
     Breakaway,
-    /// How friction rises with the speed, fv.
+    /// Increase of friction with the speed, fv.
     Viscous,
     /// Torque that is the same in both directions.
     Offset,

@@ -8,7 +8,7 @@ use frictcomp::diagnostic::Code;
 /// No axis is faster, in mm/s: 200 m/min.
 const FASTEST: f64 = 200_000.0 / 60.0;
 
-/// Nobody records friction only below this, in mm/s: 10 mm/min.
+/// Speed in mm/s below which no recording of friction stays as a whole: 10 mm/min.
 const SLOWEST: f64 = 10.0 / 60.0;
 
 /// Speeds in mm/s that recordings of friction usually reach.
@@ -83,8 +83,8 @@ fn fastest(positions: &[f64], track: &Track) -> f64 {
         / POSITION_UNITS
 }
 
-/// What is to be said of the factor and the offset with which Scope draws a channel: a remark, or
-/// FC519 where nothing tells whether the samples contain them.
+/// Returns the remark on the factor and the offset with which Scope draws a channel, or FC519 where
+/// it is not known whether the samples contain them.
 pub(super) fn scope_scale(
     channel: &Channel,
     samples: &[f64],

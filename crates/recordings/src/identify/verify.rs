@@ -10,18 +10,18 @@ use frictcomp_physics::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
 };
 
-/// How a value list fits a recording.
+/// Fit of a value list to a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
     /// Recorded friction as a part of the predicted one, over all speeds.
     pub scale: f64,
     /// The same by ranges of speeds.
     pub ranges: Vec<ScaleRange>,
-    /// What is the same in both directions, in drive units.
+    /// Part that is the same in both directions, in drive units.
     pub offset: f64,
     /// Torque of an acceleration of 1 mm/s², in drive units.
     pub inertia: f64,
-    /// What the following error tells of the timing of the list.
+    /// Timing of the list in the following error.
     pub timing: Timing,
     /// The time between two samples.
     pub step_s: f64,
@@ -78,7 +78,7 @@ const FEWEST: f64 = 100.0;
 pub struct Predictor<'a> {
     /// The value list.
     pub list: &'a FrictionList,
-    /// How the documents are read.
+    /// Reading of the documents.
     pub reading: Reading,
     /// The CNC cycle in s; without it the time between two samples.
     pub cycle_s: Option<f64>,
@@ -280,7 +280,7 @@ impl Motion {
             .fold(0.0, |most, velocity| most.max(velocity.abs()))
     }
 
-    /// Where the direction changes.
+    /// Returns the samples at which the direction changes.
     fn turns(&self) -> Vec<usize> {
         (1..self.signs.len())
             .filter(|&at| self.signs[at] * self.signs[at - 1] < 0.0)
@@ -329,7 +329,7 @@ impl Motion {
     }
 }
 
-/// Which range a speed in mm/s belongs to.
+/// Returns the range of a speed in mm/s.
 fn range_of(speed: f64) -> usize {
     BOUNDS.partition_point(|bound| *bound < speed)
 }
@@ -390,7 +390,7 @@ fn regress(
 }
 
 impl Verified {
-    /// What is wrong with the list, each a sentence; empty where nothing is.
+    /// Returns the faults of the list, each a sentence.
     pub fn verdict(&self) -> Vec<String> {
         /// A list within this part is right.
         const RIGHT: f64 = 0.03;

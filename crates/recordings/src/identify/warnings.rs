@@ -1,4 +1,4 @@
-//! What a recording lacks, and what is odd in it (R6.13, R6.15, R6.16).
+//! The gaps and oddities of a recording (R6.13, R6.15, R6.16).
 
 use super::curve::FrictionCurve;
 use super::finding::TraceFinding;

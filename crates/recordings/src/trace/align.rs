@@ -18,7 +18,7 @@ pub struct Aligned {
     pub columns: Vec<Vec<f64>>,
     /// The usual time between two samples.
     pub step_s: f64,
-    /// What was done to bring the channels together, each a sentence in lower case.
+    /// Steps that brought the channels together, each a sentence in lower case.
     pub remarks: Vec<String>,
 }
 
@@ -50,13 +50,13 @@ pub enum NotAligned {
     Short {
         /// The channel.
         channel: String,
-        /// How many samples it has.
+        /// Number of samples.
         samples: usize,
     },
 }
 
 impl NotAligned {
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoTimes => {

@@ -1,6 +1,6 @@
 //! Cells of a row and the numbers in them.
 
-/// What stands between two cells.
+/// Separator of two cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
     /// One such byte.
@@ -12,8 +12,8 @@ pub(super) enum Separator {
 }
 
 impl Separator {
-    /// What stands between the numbers below a header with this separator: of aligned columns some
-    /// have only one blank between them.
+    /// Returns the separator of the numbers below a header with this separator: some aligned
+    /// columns have only one blank between them.
     pub(super) fn of_numbers(self) -> Self {
         match self {
             Self::Gaps => Self::Blanks,
@@ -104,7 +104,7 @@ impl<'a> Iterator for Cells<'a> {
     }
 }
 
-/// What a cell holds.
+/// Value of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Value {
     /// A number.
@@ -115,7 +115,7 @@ pub(super) enum Value {
     Other,
 }
 
-/// Which decimal marks were seen.
+/// Decimal marks found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Decimals {
     /// None yet.
@@ -130,7 +130,7 @@ pub(super) enum Decimals {
 /// A number of a length that is read without further memory.
 const MOST_DIGITS: usize = 64;
 
-/// What a cell holds, and the decimal mark in it.
+/// Returns the value of a cell, and the decimal mark in it.
 pub(super) fn value(cell: &[u8]) -> (Value, Decimals) {
     let cell = cell.trim_ascii();
     if cell.is_empty() {
@@ -191,7 +191,7 @@ fn word(cell: &[u8]) -> Value {
     }
 }
 
-/// What computers write for a value that is none: `NaN`, `-inf`, `1.#QNAN`.
+/// Returns whether a cell is a word for a missing number: `NaN`, `-inf`, `1.#QNAN`.
 fn is_no_number(cell: &[u8]) -> bool {
     let cell = cell.trim_ascii();
     let cell = cell

@@ -1,4 +1,4 @@
-//! What is known of a channel before its first sample.
+//! The description of a channel before its first sample.
 
 use std::fmt;
 
@@ -24,7 +24,7 @@ pub struct Channel {
     pub symbol: String,
     /// The unit as the file writes it.
     pub unit: Option<String>,
-    /// Which object of the CNC was recorded.
+    /// Recorded object of the CNC.
     pub object: Option<CncObject>,
     /// The time between two samples that the file announces.
     pub sample_time_s: Option<f64>,
@@ -70,8 +70,8 @@ fn as_whole(value: f64) -> i64 {
 }
 
 impl ScopeDrawing {
-    /// What the samples contain, as far as the range in the header or the type of the variable tells
-    /// (R6.23).
+    /// Returns the contents of the samples, as far as the range in the header or the type of the
+    /// variable decides (R6.23).
     pub fn contained_in(&self, samples: &[f64]) -> Contains {
         let finite = || samples.iter().copied().filter(|it| it.is_finite());
         let [least, most] = finite().fold([f64::MAX, f64::MIN], |[least, most], it| {

@@ -1,21 +1,21 @@
-//! Which channels of a file are kept.
+//! The selection of the channels of a file.
 
 use super::channel::{Channel, ChannelIndex};
 use super::error::SelectError;
 use super::select::Pick;
 
-/// Which channels are kept.
+/// Selection of channels.
 #[derive(Debug, Clone, Default)]
 pub struct Choice {
     /// Channels of numbers.
     pub values: Vec<ChannelIndex>,
     /// Channels of `on` and `off`, kept as 1 and 0.
     pub switches: Vec<ChannelIndex>,
-    /// Where their times come from.
+    /// Source of their times.
     pub time: TimeSource,
 }
 
-/// Where the times of samples come from.
+/// Source of the times of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum TimeSource {
     /// From the columns of times that the layout has; a table with a header has none.
@@ -49,7 +49,7 @@ impl Choice {
 /// Says which of the channels are kept.
 type Choose<'a> = Box<dyn FnMut(&[Channel]) -> Result<Choice, SelectError> + Send + 'a>;
 
-/// What is wanted of a trace.
+/// Requirements on a trace.
 pub(super) struct Demand<'a> {
     pub(super) choose: Choose<'a>,
     pub(super) most_rows: usize,

@@ -1,6 +1,6 @@
 //! The times at which channels were sampled.
 
-/// What a column of times says about a recording.
+/// Properties of a column of times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clock {
     /// The usual time between two samples.
@@ -13,7 +13,7 @@ pub struct Clock {
     pub gaps: u64,
     /// The longest time without a sample, where there are gaps.
     pub longest_gap_s: f64,
-    /// Where the longest one begins.
+    /// Start of the longest gap.
     pub gap_at_s: f64,
     /// Rows whose time is not after the one before.
     pub backwards: u64,
@@ -23,7 +23,7 @@ pub struct Clock {
 const GAP: f64 = 1.5;
 
 impl Clock {
-    /// What the times of a clock look like; `None` without any.
+    /// Finds the properties of the times of a clock; `None` without any.
     pub fn of(times_s: &[f64]) -> Option<Self> {
         let (&first_s, &last_s) = (times_s.first()?, times_s.last()?);
         let pairs = || times_s.windows(2).map(|pair| (pair[0], pair[1] - pair[0]));

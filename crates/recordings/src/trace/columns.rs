@@ -1,4 +1,4 @@
-//! Which column of a table is what.
+//! The meaning of the columns of a table.
 
 use super::cell::Separator;
 use super::channel::Channel;
@@ -11,7 +11,7 @@ pub(super) struct Line {
     pub(super) bytes: Vec<u8>,
 }
 
-/// How times are written.
+/// Form of the times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum TimeScale {
     /// As Scope does: ms from the first point, or FILETIME, 100 ns since the year 1601.
@@ -36,12 +36,12 @@ pub(super) struct Column {
     pub(super) group: usize,
 }
 
-/// Which column of a table is what.
+/// Meaning of the columns of a table.
 #[derive(Debug, Clone)]
 pub(super) struct Columns {
     pub(super) layout: Layout,
     pub(super) separator: Separator,
-    /// How many cells a row has.
+    /// Number of cells of a row.
     pub(super) count: usize,
     pub(super) described: Vec<Column>,
     pub(super) groups: Vec<Group>,

@@ -24,9 +24,9 @@ pub enum TraceProblem {
     DecimalComma {
         /// The line of the file.
         line: u64,
-        /// How many cells the row has.
+        /// Number of cells of the row.
         cells: usize,
-        /// How many columns there are.
+        /// Number of columns.
         columns: usize,
     },
     /// `0,5` and `0.5` in one file.
@@ -42,9 +42,9 @@ pub enum TraceProblem {
     Row {
         /// The line of the file.
         line: u64,
-        /// How many cells the row has.
+        /// Number of cells of the row.
         cells: usize,
-        /// How many columns there are.
+        /// Number of columns.
         columns: usize,
     },
     /// `1,5` in quotes, or a word.
@@ -54,7 +54,7 @@ pub enum TraceProblem {
         line: u64,
         /// The column.
         column: String,
-        /// What stands there.
+        /// Text at that place.
         text: String,
     },
     /// `yes` in a column of switches.
@@ -64,7 +64,7 @@ pub enum TraceProblem {
         line: u64,
         /// The column.
         column: String,
-        /// What stands there.
+        /// Text at that place.
         text: String,
     },
     /// A line, a header or a row that is longer than any export.
@@ -72,13 +72,13 @@ pub enum TraceProblem {
     Long {
         /// The line of the file.
         line: u64,
-        /// What a line may have.
+        /// Limit of a line.
         most: usize,
     },
     /// A trace that was recorded at a very high rate.
     #[error("it has more than {most} rows")]
     TooLong {
-        /// What it may have.
+        /// Limit.
         most: usize,
     },
     /// A header that cannot be divided, because its separator stands in the names.
@@ -95,10 +95,10 @@ pub enum TraceProblem {
     Xml {
         /// The line of the file.
         line: u64,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
-    /// What was asked for is not there.
+    /// A requested item does not exist.
     #[error(transparent)]
     Select(#[from] SelectError),
 }
@@ -112,7 +112,7 @@ impl TraceProblem {
         }
     }
 
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::Binary => {
@@ -148,17 +148,17 @@ pub enum SelectError {
     /// A name that no channel has.
     #[error("there is no channel `{wanted}`")]
     None {
-        /// What was asked for.
+        /// Requested item.
         wanted: String,
-        /// What there is.
+        /// Existing items.
         found: Vec<String>,
-        /// What may be meant.
+        /// Probable item.
         guess: Option<String>,
     },
     /// A name that several channels have.
     #[error("{} channels fit `{wanted}`: {}", .found.len(), .found.join(", "))]
     Several {
-        /// What was asked for.
+        /// Requested item.
         wanted: String,
         /// Those that fit.
         found: Vec<String>,
@@ -180,11 +180,11 @@ pub enum SelectError {
     /// Channels that are needed and not named.
     #[error("the trace has {lacks}, only {}", listed(.found))]
     Lacks {
-        /// What is not there: no columns `x` and `y`.
+        /// Missing items: no columns `x` and `y`.
         lacks: String,
-        /// What there is.
+        /// Existing items.
         found: Vec<String>,
-        /// What to do.
+        /// Advice.
         help: String,
     },
 }
@@ -216,7 +216,7 @@ impl SelectError {
         }
     }
 
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::None { found, guess, .. } => {

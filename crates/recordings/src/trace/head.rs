@@ -1,4 +1,4 @@
-//! What stands above the rows of numbers, gathered until the first of these comes.
+//! The text above the rows of numbers, gathered until the first of them.
 
 use super::cell::{Separator, is_data};
 use super::columns::{Columns, Line};

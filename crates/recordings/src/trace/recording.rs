@@ -2,7 +2,7 @@
 
 use super::channel::{Channel, ChannelIndex};
 
-/// How a file is laid out.
+/// Layout of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Layout {
@@ -31,11 +31,11 @@ impl Layout {
 /// Cells of a channel that hold no number.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Missing {
-    /// How many.
+    /// Number of them.
     pub count: u64,
     /// The line of the first one.
     pub line: u64,
-    /// What stands in the first one.
+    /// Text of the first one.
     pub text: String,
 }
 
@@ -44,7 +44,7 @@ pub struct Missing {
 pub(super) struct Samples {
     pub(super) values: Vec<f64>,
     pub(super) missing: Missing,
-    /// Which of the clocks, where the file has times.
+    /// Index of its clock, where the file has times.
     pub(super) clock: Option<usize>,
 }
 
@@ -61,7 +61,7 @@ pub struct TraceRecording {
 }
 
 impl TraceRecording {
-    /// How the file is laid out.
+    /// Returns the layout of the file.
     pub fn layout(&self) -> Layout {
         self.layout
     }
@@ -71,7 +71,7 @@ impl TraceRecording {
         &self.channels
     }
 
-    /// What there is to say about how the file was read, each a sentence in lower case.
+    /// Returns the steps in which the file was read, each a sentence in lower case.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }

@@ -110,10 +110,10 @@ pub(super) struct OpenRow {
     /// A cell began with a quote that is not closed.
     is_quoted: bool,
     cells: usize,
-    /// How many cells it must have: a comment without quotes goes on until its row is as wide as the
+    /// Required number of cells: a comment without quotes goes on until its row is as wide as the
     /// others.
     wanted: usize,
-    /// How many letters the last cell has, but for the name of the attribute.
+    /// Number of letters of the last cell, without the name of the attribute.
     letters: usize,
 }
 
@@ -310,13 +310,13 @@ impl Row {
     }
 }
 
-/// How many cells a row has up to its last one that is not empty.
+/// Returns the number of cells of a row up to its last one that is not empty.
 fn width(cells: &[Vec<u8>]) -> usize {
     let last = cells.iter().rposition(|cell| !cell.trim_ascii().is_empty());
     last.map_or(0, |last| last + 1)
 }
 
-/// Where the groups begin.
+/// Beginnings of the groups.
 struct Division {
     /// The columns with the names of attributes.
     starts: Vec<usize>,
@@ -374,7 +374,7 @@ impl Division {
         Err(TraceProblem::Divided)
     }
 
-    /// How many channels each group has.
+    /// Returns the number of channels of each group.
     fn widths(&self) -> Vec<usize> {
         if self.is_joined {
             return vec![1; self.starts.len()];

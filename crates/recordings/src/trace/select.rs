@@ -6,7 +6,7 @@ use super::unit::ChannelQuantity::Position;
 use super::unit::{ChannelQuantity, Unit, split_unit};
 use frictcomp::diagnostic::did_you_mean;
 
-/// What the user says about the channels of a trace.
+/// Selection of the channels of a trace by the user.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelSelection {
     /// The axis whose channels are meant, by its name or its number.
@@ -30,7 +30,7 @@ pub struct ChannelSelection {
 /// A channel that was found, with what makes the units of lists and traces of its samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pick {
-    /// Which channel.
+    /// Index of the channel.
     pub channel: ChannelIndex,
     /// Its unit.
     pub unit: Unit,

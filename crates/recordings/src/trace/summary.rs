@@ -1,4 +1,4 @@
-//! What the channels of a recording hold, at a glance.
+//! The contents of the channels of a recording, at a glance.
 
 use super::channel::{Channel, ChannelIndex};
 use super::clock::Clock;
@@ -7,11 +7,11 @@ use super::recording::TraceRecording;
 /// A channel at a glance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChannelSummary<'a> {
-    /// What is known of it.
+    /// Description of the channel.
     pub channel: &'a Channel,
-    /// How many samples it has, those that are no numbers among them.
+    /// Number of samples, missing ones included.
     pub samples: usize,
-    /// How many of them are no numbers.
+    /// Number of missing samples.
     pub missing: u64,
     /// The least and the greatest sample, in the unit of the file; `None` without any.
     pub range: Option<[f64; 2]>,

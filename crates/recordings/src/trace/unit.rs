@@ -1,6 +1,6 @@
 //! Units of channels, and what makes the units of lists and traces of them.
 
-/// What a unit measures.
+/// Quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ChannelQuantity {
@@ -48,9 +48,9 @@ pub enum AxisMotion {
 /// A unit that a file names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// What it measures.
+    /// Quantity.
     pub quantity: ChannelQuantity,
-    /// What makes the units of lists and traces of it.
+    /// Factor to the units of lists and traces.
     pub factor: f64,
     /// Whether it is one of lengths or of angles.
     pub motion: Option<AxisMotion>,

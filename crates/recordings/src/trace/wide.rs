@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// What the bytes of a file are.
+/// Encoding of the bytes of a file.
 #[derive(Debug, Default)]
 pub(super) enum Letters {
     /// Too few bytes to tell.

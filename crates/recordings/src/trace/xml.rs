@@ -20,7 +20,8 @@ const MOST_ELEMENT: usize = 1 << 20;
 /// A trace has no more signals.
 const MOST_SIGNALS: usize = 4096;
 
-/// What controls write for a value that is none: the bits of a number that is none, as an integer.
+/// Value that controls write in place of a missing number: the bits of such a number, as an
+/// integer.
 const NO_VALUE: f64 = 9.2e18;
 
 /// A trace of which some elements came.
@@ -31,7 +32,7 @@ pub(super) struct Xml {
     /// Signals as they are described anywhere in the file.
     described: Vec<Signal>,
     columns: Vec<Recorded>,
-    /// Where the columns of the frame at hand begin.
+    /// Index of the first column of the present frame.
     frame: usize,
     records: usize,
     /// The bytes are letters of an old code page.

@@ -6,18 +6,18 @@ use frictcomp::diagnostic::Code;
 use frictcomp::machine::AxisSet;
 use frictcomp::timeline::EndedBy;
 
-/// What is assumed at one point. The texts name codes and words of programs in backquotes.
+/// An assumption. The texts name codes and words of programs in backquotes.
 #[derive(Debug, Clone, Copy)]
 pub struct Assumption {
     /// The rule, section or contradiction of `docs/rules.md` that it belongs to.
     pub rule: &'static str,
     /// The assumption.
     pub sentence: &'static str,
-    /// What it changes.
+    /// Results that it changes.
     pub changes: &'static str,
-    /// How a user sees that it was assumed.
+    /// Output by which a user sees it.
     pub shows: &'static str,
-    /// When a session depends on it: in each of these cases, or in none that its records tell.
+    /// Cases in which a session depends on it; none if its records tell of none.
     pub when: &'static [When],
 }
 
@@ -37,16 +37,16 @@ pub enum When {
     Reported(Code),
 }
 
-/// What the records of a session tell about the assumptions that it depends on.
+/// Facts about a session that decide its assumptions.
 #[derive(Debug, Clone)]
 pub(crate) struct Met {
     /// The codes of its messages.
     pub(crate) reported: BTreeSet<Code>,
-    /// Which axes there are.
+    /// Set of axes.
     pub(crate) axis_set: AxisSet,
-    /// How many words and commands were passed over.
+    /// Number of words and commands passed over.
     pub(crate) passed_over: u64,
-    /// How its last program ended.
+    /// End of its last program.
     pub(crate) ended: Option<EndedBy>,
 }
 

@@ -9,7 +9,7 @@ use super::{
 /// A part of the table.
 #[derive(Debug, Clone, Copy)]
 pub struct Chapter {
-    /// What its assumptions are about.
+    /// Subject of its assumptions.
     pub title: &'static str,
     /// The assumptions by their rules.
     pub assumptions: &'static [Assumption],

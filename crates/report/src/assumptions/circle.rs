@@ -1,4 +1,4 @@
-//! What is assumed about the circular test.
+//! Assumptions about the circular test.
 
 use super::assumption::Assumption;
 

@@ -1,4 +1,4 @@
-//! What is assumed about the COMP command.
+//! Assumptions about the COMP command.
 
 use super::assumption::Assumption;
 use super::assumption::When::{Always, NoMachine, Reported};

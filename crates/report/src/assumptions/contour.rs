@@ -1,4 +1,4 @@
-//! What is assumed about contours.
+//! Assumptions about contours.
 
 use super::assumption::Assumption;
 

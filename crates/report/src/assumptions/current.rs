@@ -1,4 +1,4 @@
-//! What is assumed about the additive current.
+//! Assumptions about the additive current.
 
 use super::assumption::Assumption;
 use super::assumption::When::Reported;

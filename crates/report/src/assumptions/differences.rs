@@ -1,15 +1,16 @@
-//! Where frictcomp differs from the control on purpose, or does not model it (R15.12).
+//! The intended differences between frictcomp and the control, and the parts that it does not model
+//! (R15.12).
 
 /// One difference. The texts name codes and words of programs in backquotes.
 #[derive(Debug, Clone, Copy)]
 pub struct Difference {
     /// `purpose` or `not modelled`.
     pub kind: &'static str,
-    /// What it is about.
+    /// Subject.
     pub what: &'static str,
-    /// What the control does, as far as it is known.
+    /// Behaviour of the control, as far as it is known.
     pub control: &'static str,
-    /// What frictcomp does.
+    /// Behaviour of frictcomp.
     pub frictcomp: &'static str,
     /// The rule.
     pub rule: &'static str,

@@ -1,4 +1,4 @@
-//! What is assumed about the drives.
+//! Assumptions about the drives.
 
 use super::assumption::Assumption;
 use super::assumption::When::Reported;

@@ -1,4 +1,4 @@
-//! What is assumed when friction is identified.
+//! Assumptions of the identification of friction.
 
 use super::assumption::Assumption;
 

@@ -1,4 +1,4 @@
-//! What is assumed about the NC language.
+//! Assumptions about the NC language.
 
 use super::assumption::Assumption;
 use super::assumption::When::{NoMachine, PassedOver, Reported};

@@ -1,4 +1,4 @@
-//! What is assumed about the lists.
+//! Assumptions about the lists.
 
 use super::assumption::Assumption;
 use super::assumption::When::Reported;

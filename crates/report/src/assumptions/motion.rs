@@ -1,4 +1,4 @@
-//! What is assumed about motion.
+//! Assumptions about motion.
 
 use super::assumption::Assumption;
 use super::assumption::When::Reported;

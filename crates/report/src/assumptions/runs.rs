@@ -1,4 +1,4 @@
-//! What is assumed about runs as a whole.
+//! Assumptions about runs as a whole.
 
 use super::assumption::Assumption;
 use super::assumption::When::Stopped;

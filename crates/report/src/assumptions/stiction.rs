@@ -1,4 +1,4 @@
-//! What is assumed about stiction compensation.
+//! Assumptions about stiction compensation.
 
 use super::assumption::Assumption;
 

@@ -1,4 +1,4 @@
-//! What the order of programs does, in every format (R10.5).
+//! The effect of the order of programs, in every format (R10.5).
 
 mod csv;
 mod records;

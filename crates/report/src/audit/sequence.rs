@@ -1,4 +1,4 @@
-//! What happens in a given order, program by program (R10.6).
+//! The effect of a given order, program by program (R10.6).
 
 use std::fmt::Write as _;
 

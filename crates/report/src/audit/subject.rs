@@ -1,4 +1,4 @@
-//! What is reported: archives by machine, and the words for what a program does.
+//! The subject of the report: archives by machine, and the words for effects of programs.
 
 use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
 use frictcomp::comp::Kind;
@@ -17,12 +17,12 @@ pub struct MachineAudit {
     pub origin: Option<String>,
     /// The programs.
     pub archive: Archive,
-    /// What they do together.
+    /// Effects of all programs together.
     pub findings: Vec<AxisFinding>,
 }
 
 impl MachineAudit {
-    /// What the programs of a machine do together.
+    /// Finds the effects of the programs of a machine together.
     pub fn new(origin: Option<String>, archive: Archive) -> Self {
         Self {
             findings: archive.findings(),
@@ -68,7 +68,7 @@ impl AuditReport {
         unknown.map(|axis| (axis.axis.as_str(), axis.kind))
     }
 
-    /// How many programs were audited.
+    /// Returns the number of audited programs.
     pub fn programs(&self) -> usize {
         let programs = self.machines.iter().map(|it| it.archive.programs().len());
         programs.sum()
@@ -81,7 +81,7 @@ impl AuditReport {
     }
 }
 
-/// What a program does to an axis, as one word; the most dangerous comes first.
+/// Effect of a program on an axis, as one word; the most dangerous comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Word {
@@ -144,7 +144,7 @@ impl Word {
         }
     }
 
-    /// What it means.
+    /// Returns the meaning.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Both => {

@@ -11,7 +11,7 @@ use frictcomp::interpreter::MotionKind;
 const ROWS: usize = 40;
 const LISTED: usize = 10;
 
-/// How much of long tables and lists is shown.
+/// Length at which tables and lists are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Length {
     /// The dangerous part; the rest is counted.
@@ -143,7 +143,7 @@ fn columns_of(text: &str) -> usize {
     unicode_width::UnicodeWidthStr::width(text)
 }
 
-/// How many programs are not shown, by their most dangerous word.
+/// Writes the number of programs that are not shown, by their most dangerous word.
 fn push_folded(out: &mut String, folded: &[(&str, Vec<Word>)]) {
     if folded.is_empty() {
         return;
@@ -264,7 +264,7 @@ fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> String {
     }
 }
 
-/// How an axis moves, behind `moves` or `may move`.
+/// Returns the kind of motion, behind `moves` or `may move`.
 fn way(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Rapid => " in rapid",

@@ -114,7 +114,7 @@ struct ByAxis<T> {
     y: T,
 }
 
-/// What stays and what decays after the reversals of an axis.
+/// Permanent and decaying deviations after the reversals of an axis.
 #[derive(Serialize)]
 struct AxisRecord {
     step: f64,

@@ -1,4 +1,4 @@
-//! What is reported of a circular test.
+//! The subject of the report on a circular test.
 
 use serde::Serialize;
 
@@ -8,11 +8,11 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::current::Switched;
 
-/// How the radial deviations were treated; stands beside the figures (R5.21).
+/// Treatment of the radial deviations, shown beside the figures (R5.21).
 pub(super) const TREATMENT: &str = "every point of the path for G, F and the glitch; H at 36000 fixed angles, \
                          linear between points; no filter, no mean";
 
-/// Where the value list came from.
+/// Origin of the value list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ListOrigin {
@@ -35,16 +35,16 @@ impl ListOrigin {
     }
 }
 
-/// What is reported.
+/// Report on a circular test.
 #[derive(Debug, Clone)]
 pub struct CircleReport {
-    /// What was driven.
+    /// Driven circle.
     pub subject: Subject,
     /// The paths without and with compensation, or what was recorded.
     pub sides: Vec<NamedSide>,
 }
 
-/// What was driven.
+/// Driven circle.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Subject {
@@ -52,7 +52,7 @@ pub enum Subject {
     Simulated {
         /// The test.
         test: Box<CircularTest>,
-        /// Where its list came from.
+        /// Origin of its list.
         origin: ListOrigin,
         /// Cycles of the speed loop in which a force was limited.
         saturated_cycles: u64,
@@ -68,7 +68,7 @@ pub struct NamedSide {
     pub name: &'static str,
     /// The paths.
     pub side: Side,
-    /// What their shapes suggest.
+    /// Causes that their shapes suggest.
     pub advice: Vec<Diagnosis>,
 }
 
@@ -125,7 +125,8 @@ impl CircleReport {
         }
     }
 
-    /// What would give figures at the crossings, where the circle is too fast for them (R5.22).
+    /// Returns the change that would give figures at the crossings, where the circle is too fast
+    /// for them (R5.22).
     pub(super) fn too_fast(&self) -> Option<TooFast> {
         let mut paths = self.sides.iter().flat_map(|side| {
             let figures = &side.side.figures;
@@ -143,7 +144,7 @@ impl CircleReport {
     }
 }
 
-/// What would give figures at the crossings.
+/// Change that would give figures at the crossings.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct TooFast {
     /// A feed of at most this.

@@ -129,7 +129,7 @@ fn bidirectional_condition(report: &CircleReport) -> Option<String> {
     })
 }
 
-/// Where the glitch is looked for (R5.22).
+/// Returns the window of the glitch in words (R5.22).
 fn window_condition(report: &CircleReport) -> Option<String> {
     let mut figures = report.sides.iter().map(|side| &side.side.figures);
     let shape = figures.find_map(|it| {
@@ -302,7 +302,7 @@ fn recorded_conditions(recording: &Recording) -> Vec<String> {
     lines
 }
 
-/// What was cut away (R5.26).
+/// Returns the parts cut away, in words (R5.26).
 fn left_out(circle: &RecordedCircle) -> String {
     let LeftOut {
         repeated,
@@ -366,7 +366,8 @@ fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
     own.chain(shared).filter(Row::says_something).collect()
 }
 
-/// What the paths do at the crossings: the glitches, and for each axis what stays and what decays.
+/// Returns the shapes of the paths at the crossings: the glitches, and for each axis the permanent
+/// and the decaying part.
 fn shape_rows(columns: &[Column<'_>]) -> Vec<Row> {
     let row = |name: String, value: &dyn Fn(&PathShape) -> Option<f64>| Row {
         name,
@@ -412,7 +413,7 @@ impl Row {
     }
 }
 
-/// What the shapes suggest: the same finding at several crossings is said once.
+/// Returns the suggested causes: the same finding at several crossings is said once.
 pub(crate) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<String> {
     let words = match &report.subject {
         Subject::Simulated { test, .. } if test.is_stiction() => words_of_stiction,
@@ -457,7 +458,7 @@ pub(crate) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<Strin
     lines
 }
 
-/// What advice about a recording rests on, and what speaks against it (R5.28).
+/// Returns the grounds of advice about a recording, with the evidence against it (R5.28).
 fn grounds(grounds: &DiagnosisGrounds) -> String {
     let mut said = Vec::new();
     said.extend(grounds.error_um.map(|it| format!("± {it:.2}")));
@@ -487,7 +488,7 @@ fn words_of_stiction(finding: Finding) -> &'static str {
     }
 }
 
-/// What a finding means and what to do.
+/// Returns the meaning of a finding, with the advice.
 pub fn words(finding: Finding) -> &'static str {
     match finding {
         Finding::Friction => "a peak that decays: friction at the reversal",

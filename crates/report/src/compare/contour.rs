@@ -24,7 +24,7 @@ pub struct ContoursReport {
 }
 
 impl ContoursReport {
-    /// What the comparison comes to, in a sentence without its end.
+    /// Returns the result of the comparison, a sentence without its end.
     pub(crate) fn verdict(&self) -> String {
         let comparison = &self.comparison;
         let known = match comparison.agreement() {
@@ -51,7 +51,7 @@ impl ContoursReport {
         }
     }
 
-    /// Where a block deviates more.
+    /// Returns the place at which a block deviates more.
     pub(crate) fn place(&self, change: &BlockChange) -> String {
         let axes = self.plane.iter().zip(change.new.place);
         let places: Vec<String> = axes.map(|(axis, at)| format!("{axis}{at:.3}")).collect();

@@ -17,7 +17,7 @@ pub struct VersionsReport {
     pub old: String,
     /// The new version, as the user named it.
     pub new: String,
-    /// What stands above the result: that no machine is described.
+    /// Remark above the result: no machine is described.
     pub remark: Option<String>,
     /// The result.
     pub comparison: VersionComparison,
@@ -26,7 +26,7 @@ pub struct VersionsReport {
 }
 
 impl VersionsReport {
-    /// What the comparison comes to, in a sentence without its end.
+    /// Returns the result of the comparison, a sentence without its end.
     pub(crate) fn verdict(&self) -> String {
         match self.comparison.agreement() {
             Agreement::Same => {

@@ -73,7 +73,7 @@ fn feed_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
     })
 }
 
-/// What became of the transitions between feed moves, lengths in µm.
+/// Returns the treatment of the transitions between feed moves, lengths in µm.
 fn transitions_record<S: ContourSink>(contour: &ProgramContour<S>) -> Value {
     let transitions = contour.transitions();
     let departure = |from: &Departure| json!({ "max": rounded(from.um, 3), "max_at": record(from.at.as_deref()) });

@@ -8,14 +8,14 @@ use frictcomp_physics::contour::{
     BlockDeviation, BlockDeviations, ContourObstacle, Deviations, PerRun, ProgramContour,
 };
 
-/// What was driven, and from where.
+/// Driven program, and its start.
 #[derive(Debug, Clone)]
 pub struct GoldenContour {
     /// Path of the program.
     pub program: String,
     /// The plant.
     pub plant: String,
-    /// Where axes stand before the program.
+    /// Positions of axes before the program.
     pub start: Vec<(String, f64)>,
 }
 

@@ -1,4 +1,4 @@
-//! Where the figures of a contour are: their lines and blocks (R11.24).
+//! The places of the figures of a contour: their lines and blocks (R11.24).
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! What is kept or written of a contour while it is made.
+//! The parts of a contour that are kept or written while it is made.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -9,13 +9,13 @@ use crate::pictures::ContourPicture;
 use frictcomp_physics::contour::{ContourPoint, ContourReversal, ContourSink};
 use frictcomp_physics::motion::Movement;
 
-/// How many of the worst reversals are kept.
+/// Number of the worst reversals kept.
 const WORST: usize = 10;
 
-/// So many switches are kept.
+/// Limit of the switches kept.
 const MOST_SWITCHES: usize = 100;
 
-/// What becomes of each reversal.
+/// Destination of the reversals.
 enum Reversals<'a> {
     /// Only the worst are kept.
     Worst,
@@ -99,8 +99,8 @@ impl<'a> ContourRecorder<'a> {
         &self.worst
     }
 
-    /// Where compensation of an axis is switched while it moves on, the first ones, and how many more
-    /// there are.
+    /// Returns the first switches of compensation while the axis moves on, and the number of
+    /// further ones.
     pub fn switches(&self) -> (&[ContourReversal], u64) {
         (&self.switches, self.more_switches)
     }
@@ -110,7 +110,7 @@ impl<'a> ContourRecorder<'a> {
         &self.blocks
     }
 
-    /// What was drawn.
+    /// Returns the picture.
     pub fn take_picture(&mut self) -> Option<ContourPicture> {
         self.picture.take()
     }

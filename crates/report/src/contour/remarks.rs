@@ -1,4 +1,4 @@
-//! What the figures of a contour rest on.
+//! The basis of the figures of a contour.
 
 use super::places::Block;
 use crate::limits::assumed_limits;
@@ -33,7 +33,8 @@ fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
     ))
 }
 
-/// How kinks are passed: "7199 short lines are driven as curves, at most 0.01 µm from their chords, at …"
+/// Returns the passage of kinks in words: "7199 short lines are driven as curves, at most 0.01 µm
+/// from their chords, at …"
 fn transitions(transitions: &Transitions) -> Vec<String> {
     let mut lines = Vec::new();
     let at = |departure: &Departure| {
@@ -113,7 +114,7 @@ pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = 
     lines.map(|obstacle| format!("not judged: {obstacle}"))
 }
 
-/// What keeps a contour from its limits: a line each. Without limits there is none.
+/// Returns the exceeded limits of a contour, a line each.
 pub fn exceeded<S: ContourSink>(
     contour: &ProgramContour<S>,
     limits: &ContourLimits,

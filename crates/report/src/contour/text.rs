@@ -12,7 +12,7 @@ use frictcomp_physics::contour::{
 };
 use frictcomp_physics::motion::Cause;
 
-/// What was driven.
+/// Driven program.
 #[derive(Debug, Clone)]
 pub struct ContourSubject {
     /// Path of the program.
@@ -169,7 +169,7 @@ fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     };
 }
 
-/// Where compensation is switched while the axis moves on (R1.57).
+/// Writes the switches of compensation while the axis moves on (R1.57).
 fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) {
     for switch in switches {
         let way = if switch.state == State::Active {

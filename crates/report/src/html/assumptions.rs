@@ -1,4 +1,4 @@
-//! What the documents leave open and how this run read it.
+//! The points that the documents leave open, and their readings in this run.
 
 use maud::{Markup, html};
 
@@ -34,8 +34,8 @@ pub(super) fn render(met: &Met, readings: &(Readings, Option<CncBuild>)) -> Mark
     }
 }
 
-/// What the configuration says about an assumption: the reading that it selects, and on which build a
-/// control confirmed it (R15.3).
+/// Returns the setting of an assumption in the configuration: the selected reading, and the build
+/// on which a control confirmed it (R15.3).
 fn said_of(rule: &str, (readings, build): &(Readings, Option<CncBuild>)) -> String {
     let Some(question) = Question::of_rule(rule) else {
         return String::new();

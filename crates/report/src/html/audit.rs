@@ -122,7 +122,7 @@ impl Marks {
     }
 }
 
-/// Where a program does something dangerous to an axis.
+/// Returns the places of dangerous effects of a program on an axis.
 fn sites(axis: &AxisAudit) -> impl Iterator<Item = &Site> {
     let leaves = axis.by.as_ref().filter(|_| axis.leaves_away());
     let reason = axis.reason.as_ref().and_then(|reason| reason.site.as_ref());
@@ -274,7 +274,7 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
     }
 }
 
-/// What a program does to an axis, with links to where.
+/// Returns the effect of a program on an axis, with links to the places.
 fn cell(file: &str, axis: &AxisAudit, marks: &Marks) -> Markup {
     let link = |site: Option<&Site>, text: &str| {
         site.map_or_else(|| html! { (text) }, |site| marks.link(site, text))

@@ -21,7 +21,7 @@ const AXES: [Part; 2] = [
     Part::new("axis-2", "Second axis"),
 ];
 
-/// What the report has beyond the results.
+/// Contents of the report beyond the results.
 #[derive(Debug, Clone, Default)]
 pub struct Acceptance {
     /// The machine, as it is called; `None` where it was not said.
@@ -190,7 +190,7 @@ fn friction_part(verdict: &AxisVerdict, friction: &FrictionFound) -> Markup {
     }
 }
 
-/// What is assumed, and the lists of stage 2.
+/// Renders the assumptions and the lists of stage 2.
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
         ul {

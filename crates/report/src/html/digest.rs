@@ -1,4 +1,4 @@
-//! What is kept of a session while it runs, for the report after it.
+//! The digest of a session that is kept while it runs, for the report after it.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
@@ -17,7 +17,7 @@ use frictcomp::timeline::{
     AxisSummary, End, EndedBy, Footing, Join, Record, Row, Sink, StateView, Summary,
 };
 
-/// How many characters of a source line are shown.
+/// Number of characters shown of a source line.
 pub(super) const LINE_ROOM: usize = 400;
 
 /// Lines whose runs are counted, in all files together.
@@ -35,15 +35,15 @@ const MAX_CHANGES: usize = 24;
 /// Programs that have a chart of their own.
 const MAX_PROGRAMS: usize = 200;
 
-/// What a session did, in bounded memory: a [`Sink`] for its records.
+/// Course of a session in bounded memory: a [`Sink`] for its records.
 #[derive(Debug, Default)]
 pub struct RunDigest {
     kinds: KindSet,
     pub(super) axes: Vec<AxisDigest>,
     pub(super) axis_set: AxisSet,
-    /// How the machine reads the open questions, and its build.
+    /// Readings of the open questions, and the build.
     pub(super) readings: (Readings, Option<CncBuild>),
-    /// That no machine is described (R1.37).
+    /// Remark that no machine is described (R1.37).
     pub(super) remark: Option<String>,
     pub(super) accepted: Vec<AcceptedList>,
     pub(super) programs: Vec<ProgramDigest>,
@@ -57,7 +57,7 @@ pub struct RunDigest {
     pub(super) more_events: u64,
     pub(super) summary: Option<SummaryDigest>,
     pub(super) ways: Ways,
-    /// Where ways met after the last block, and what differs there.
+    /// Place where ways joined after the last block, and the differences there.
     met: Option<(SourceLine, Vec<Met>)>,
     by_name: HashMap<String, usize>,
     by_place: HashMap<(Code, Arc<str>, Position, String), usize>,
@@ -102,13 +102,13 @@ pub(super) struct ProgramDigest {
 #[derive(Debug)]
 pub(super) struct FileDigest {
     pub(super) name: String,
-    /// How often each line was executed, the first line first.
+    /// Number of executions of each line, the first line first.
     pub(super) runs: Vec<u32>,
     pub(super) events: BTreeMap<u32, LineDigest>,
 }
 
 impl FileDigest {
-    /// How often a line was executed, as far as that was counted.
+    /// Returns the number of executions of a line, as far as it was counted.
     pub(super) fn runs_of(&self, line: u32) -> u32 {
         let row = usize::try_from(line)
             .unwrap_or(usize::MAX)
@@ -123,7 +123,7 @@ pub(super) struct LineDigest {
     /// The block as it was executed.
     pub(super) text: String,
     pub(super) changes: Vec<(Change, u64)>,
-    /// What differs where ways meet before it.
+    /// Differences where ways join before it.
     pub(super) met: Vec<Met>,
     /// Different changes beyond [`MAX_CHANGES`].
     pub(super) more_changes: u64,
@@ -131,7 +131,7 @@ pub(super) struct LineDigest {
     pub(super) messages: Vec<usize>,
 }
 
-/// What is possible for an axis where ways meet.
+/// Possible states of an axis where ways join.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Met {
     pub(super) axis: AxisIndex,
@@ -171,7 +171,7 @@ pub(super) struct SummaryDigest {
     pub(super) opaque: BTreeMap<String, u64>,
     pub(super) axes: Vec<AxisSummary>,
     pub(super) footing: Footing,
-    /// What is possible at the end where FRICT of an axis is unknown.
+    /// Possible states at the end where FRICT of an axis is unknown.
     pub(super) ways: Vec<(AxisIndex, WaysIndex)>,
 }
 
@@ -190,7 +190,7 @@ impl RunDigest {
         self.axes.get(axis.get()).map_or("", |axis| &axis.name)
     }
 
-    /// How a state of a kind on an axis stands to that after a start of the control.
+    /// Compares a state of a kind on an axis with the start-up state.
     pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> Standing {
         let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
         let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
@@ -199,7 +199,7 @@ impl RunDigest {
         })
     }
 
-    /// How the last program ended.
+    /// Returns the end of the last program.
     pub(super) fn ended(&self) -> Option<EndedBy> {
         self.programs.last().and_then(|program| program.by)
     }
@@ -366,7 +366,7 @@ impl RunDigest {
         runs[at] = runs[at].saturating_add(1);
     }
 
-    /// What is kept of a line, unless there are too many already.
+    /// Returns the entry of a line, unless there are too many already.
     fn line(&mut self, place: SourceLine, text: &str) -> Option<&mut LineDigest> {
         let SourceLine { file, line } = place;
         let events = &mut self.files[file].events;

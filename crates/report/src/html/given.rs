@@ -1,4 +1,4 @@
-//! What a report needs beside the records.
+//! The inputs of a report besides the records.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use frictcomp::lists::Parameter;
 use frictcomp::machine::{AxisReport, Setting};
 use frictcomp::text::shown_path;
 
-/// What the report tells beside the records.
+/// Inputs of the report besides the records.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RunInputs<'a> {
-    /// What the user gave for the run.
+    /// Options given by the user for the run.
     pub given: GivenForRun<'a>,
     /// The parameters in effect, by axis.
     pub parameters: &'a [AxisReport],
@@ -18,7 +18,7 @@ pub struct RunInputs<'a> {
     pub programs: &'a [Parameter],
 }
 
-/// What the user gave for a run.
+/// Options given by the user for a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GivenForRun<'a> {
     /// The file that describes the machine.
@@ -29,14 +29,14 @@ pub struct GivenForRun<'a> {
     pub variables: &'a [(String, Setting)],
     /// The file that holds the state from one run to the next.
     pub state: Option<&'a Path>,
-    /// Where axes stand before the first program.
+    /// Positions of axes before the first program.
     pub start: &'a [(String, f64)],
-    /// What an error does.
+    /// Reaction to an error.
     pub stop: StopPolicy,
 }
 
 impl GivenForRun<'_> {
-    /// What was given in the words of the command line: names and values.
+    /// Returns the options in the words of the command line: names and values.
     pub(super) fn settings(&self) -> Vec<(&'static str, String)> {
         let mut settings = vec![match self.machine {
             Some(path) => ("machine", shown_path(path)),

@@ -11,7 +11,7 @@ use crate::svg::Frame;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::{AxisSet, Parameterisation};
 
-/// What the user gave and what holds on each axis.
+/// Renders the user's options and the effective values of each axis.
 pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
     html! {
         (settings(&given.given.settings()))

@@ -1,4 +1,4 @@
-//! What there is to say about the programs and lists.
+//! The messages on the programs and lists.
 
 use maud::{Markup, html};
 

@@ -7,10 +7,10 @@ use maud::{Markup, PreEscaped, html};
 use crate::svg;
 use crate::visible::visible;
 
-/// How much markup is gathered before it is written.
+/// Number of bytes of markup gathered before they are written.
 const CHUNK: usize = 64 * 1024;
 
-/// What every page begins with. Elements without content are closed, so that a page is XML too.
+/// Beginning of every page. Elements without content are closed, so that a page is XML too.
 const HEAD: &str = concat!(
     "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n",
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; ",

@@ -1,4 +1,4 @@
-//! What pages are put together from: tables, pictures, states, sentences.
+//! The parts of pages: tables, pictures, states, sentences.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -13,7 +13,7 @@ pub(super) struct Table<'a> {
     pub(super) columns: &'a [Column<'a>],
 }
 
-/// What a table is called.
+/// Caption of a table.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Caption<'a> {
     /// Above the table.
@@ -122,7 +122,7 @@ pub(super) fn with_code(text: &str) -> Markup {
     }
 }
 
-/// How often something was, unless once.
+/// Renders a number of times, unless it is one.
 pub(super) fn times(times: u64) -> Markup {
     html! { @if times > 1 { " " span.quiet { "(" (times) " times)" } } }
 }

@@ -52,7 +52,7 @@ pub fn render_run(
     page.close()
 }
 
-/// What the session tells about the assumptions that it depends on.
+/// Returns the facts of the session that decide its assumptions.
 fn met(digest: &RunDigest) -> Met {
     let codes = digest.messages.iter().map(|it| it.diagnostic.code);
     let passed_over = digest
@@ -86,7 +86,7 @@ fn title(digest: &RunDigest) -> String {
     title
 }
 
-/// What stands under the title, first of all that no machine is described (R1.37).
+/// Renders the text under the title, first of all that no machine is described (R1.37).
 fn lead(digest: &RunDigest) -> String {
     match &digest.remark {
         Some(remark) => format!("{remark}. {}", counts(digest)),

@@ -44,7 +44,7 @@ struct Listing<'a, 'p> {
     quiet: Vec<QuietLine>,
     /// Whether a line with something to say stands above the waiting ones.
     below_event: bool,
-    /// How many more quiet lines may be written.
+    /// Number of further quiet lines that may be written.
     room: &'a mut usize,
     left_out: u64,
 }
@@ -56,7 +56,7 @@ struct QuietLine {
     text: String,
 }
 
-/// What stands below the lines that wait.
+/// Line below those that wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Below {
     /// A line with something to say.
@@ -257,7 +257,7 @@ impl Listing<'_, '_> {
         }
     }
 
-    /// What is possible where ways meet before the line (R14.2).
+    /// Renders the possible states where ways join before the line (R14.2).
     fn met(&self, met: Met) -> Markup {
         html! {
             (self.named(met.axis, met.kind)) " " (state_word(State::Unknown, Standing::StartUp)) ": "
@@ -287,7 +287,7 @@ impl Listing<'_, '_> {
         }
     }
 
-    /// What the messages about a line mean, in bytes of it, one after the other.
+    /// Returns the spans of the messages on a line, in bytes of it, one after the other.
     fn spans(&self, line: u32, text: &str, event: &LineDigest) -> Vec<Range<usize>> {
         let byte = |column: u32| {
             let column = usize::try_from(column).unwrap_or(usize::MAX) - 1;

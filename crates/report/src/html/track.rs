@@ -4,7 +4,7 @@ use super::ways::{Found, WaysIndex};
 use crate::svg::{BandState, Standing};
 use frictcomp::comp::{AxisIndex, Kind, State};
 
-/// Where a stretch begins.
+/// Beginning of a stretch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Spot {
     /// The file, by its number in the report.
@@ -22,7 +22,7 @@ pub(super) struct Stretch {
     pub(super) from: u64,
     /// The state that the band shows.
     pub(super) state: BandState,
-    /// What is possible where ways differ.
+    /// Possible states where ways differ.
     pub(super) ways: Option<WaysIndex>,
     /// The block that made it so; `None` at program start.
     pub(super) spot: Option<Spot>,
@@ -89,7 +89,7 @@ impl Track {
         self.stretches.iter().any(|stretch| stretch.state != absent)
     }
 
-    /// How a state of this kind on this axis stands to that after a start of the control.
+    /// Compares a state of this kind on this axis with the start-up state.
     pub(super) fn standing(&self, state: BandState) -> Standing {
         match state {
             BandState::One(state) => Standing::of(state, self.start_up),

@@ -18,7 +18,7 @@ pub(super) struct WaysIndex(usize);
 pub(super) struct Found {
     /// The state.
     pub(super) state: State,
-    /// What is possible instead of `unknown`, in words.
+    /// Possible states in place of `unknown`, in words.
     pub(super) ways: Option<WaysIndex>,
 }
 

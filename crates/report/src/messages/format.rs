@@ -10,7 +10,7 @@ use super::message_format::MessageFormat;
 use super::objects::Objects;
 use super::sarif::Sarif;
 
-/// What a format can hold.
+/// Contents that a format supports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Holds {
     /// Messages alone.
@@ -37,7 +37,7 @@ macro_rules! formats {
                 match self { $(Self::$format => $name,)+ }
             }
 
-            /// What it is, in a few words.
+            /// Returns the meaning in a few words.
             pub fn title(self) -> &'static str {
                 match self { $(Self::$format => $title,)+ }
             }

@@ -13,7 +13,7 @@ use super::tally::Tally;
 /// The messages so far.
 #[derive(Debug, Default)]
 pub(super) struct GitLab {
-    /// How often a message was said with the same words about the same file.
+    /// Number of messages with the same words about the same file.
     said: HashMap<u64, u64>,
 }
 

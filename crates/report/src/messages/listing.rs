@@ -44,7 +44,7 @@ impl<W: Write> Listing<W> {
         }
     }
 
-    /// What was counted so far.
+    /// Returns the counts so far.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }

@@ -1,4 +1,4 @@
-//! What every format of messages has to write.
+//! The interface of formats of messages.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use frictcomp::diagnostic::Diagnostic;
 
 use super::tally::Tally;
 
-/// What a format writes before the messages, for each of them, and after them.
+/// Writer of messages: a beginning, a part for each message, an end.
 pub(super) trait MessageFormat: fmt::Debug {
     /// Appends what stands before the first message.
     fn open(&mut self, _out: &mut Vec<u8>) {}

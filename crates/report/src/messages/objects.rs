@@ -14,7 +14,7 @@ use super::tally::Tally;
 #[derive(Debug)]
 pub(super) struct Objects {
     opening: &'static [u8],
-    /// What stands before the next object.
+    /// Text before the next object.
     before: &'static [u8],
     between: &'static [u8],
     after: &'static [u8],

@@ -13,8 +13,8 @@ use crate::strings::to_pretty;
 use super::message_format::MessageFormat;
 use super::tally::Tally;
 
-/// What stands before the results. The keys of SARIF may come in any order, so the results go out one
-/// by one, and what they add up to comes after them.
+/// Text before the results. The keys of SARIF may come in any order, so the results go out one by
+/// one, and their summary comes after them.
 const BEFORE: &str = r#"{
   "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
   "runs": [

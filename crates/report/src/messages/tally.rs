@@ -1,10 +1,10 @@
-//! What the messages of a list add up to.
+//! The totals of the messages of a list.
 
 use std::collections::BTreeMap;
 
 use frictcomp::diagnostic::Severity;
 
-/// How many files were looked at and how many diagnostics of each severity were said.
+/// Number of files examined, and of diagnostics of each severity.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Tally {
     /// Files that were looked at.
@@ -19,7 +19,7 @@ impl Tally {
         *self.counts.entry(severity).or_default() += 1;
     }
 
-    /// How many diagnostics of a severity were said.
+    /// Returns the number of diagnostics of a severity.
     pub fn of(&self, severity: Severity) -> u64 {
         self.counts.get(&severity).copied().unwrap_or_default()
     }

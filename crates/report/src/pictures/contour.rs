@@ -20,7 +20,7 @@ const MOST_MARKS: usize = 20_000;
 /// More states over time are not kept apart.
 const MOST_BANDS: usize = 5000;
 
-/// How many of the worst reversals are labelled.
+/// Number of the worst reversals with a label.
 const NAMED: usize = 6;
 
 /// The block of a reversal, or of the largest deviation.

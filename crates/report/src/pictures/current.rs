@@ -22,11 +22,11 @@ pub struct CurrentPlot {
     axes: Vec<AxisPlot>,
     cycles: u64,
     length: f64,
-    /// Where blocks begin.
+    /// Beginnings of blocks.
     blocks: Vec<XMark>,
     /// Of so many blocks one is kept.
     every: u64,
-    /// How many blocks began.
+    /// Number of blocks begun.
     begun: u64,
 }
 
@@ -50,7 +50,7 @@ pub struct AxisSample<'a> {
     pub velocity: f64,
     /// The state of friction compensation.
     pub state: State,
-    /// What is added.
+    /// Additive current.
     pub added: &'a Added,
 }
 

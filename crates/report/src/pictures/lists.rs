@@ -105,7 +105,7 @@ fn list_panel(accepted: &AcceptedList, panels: usize, end: f64) -> Panel {
     }
 }
 
-/// Where the values of a list hold, in words.
+/// Returns the ranges in which values of a list are held, in words.
 fn held_notes(table: &[[f64; 2]], end: f64) -> Vec<CurveNote> {
     let mut notes = Vec::new();
     if let (Some(&[first_x, first_y]), Some(&[last_x, last_y])) = (table.first(), table.last()) {
@@ -154,7 +154,7 @@ fn curve(name: &str, table: &[[f64; 2]], end: f64) -> [Series; 3] {
 /// Into how many pieces a line between two points is cut.
 const PIECES: u32 = 16;
 
-/// How far the last value is drawn beyond the last point of all.
+/// Length of the last value drawn beyond the last point of all.
 const BEYOND: f64 = 3.0;
 
 /// From standstill to the first point, and from the last one to the end of the chart.

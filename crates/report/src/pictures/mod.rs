@@ -1,4 +1,4 @@
-//! What the results of the tool look like as charts.
+//! The results of the tool as charts.
 
 mod circle;
 mod commission;

@@ -1,4 +1,4 @@
-//! What tuning is worth, over the acceleration at a reversal.
+//! The gain by tuning, over the acceleration at a reversal.
 
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::tune::TuneReport;

@@ -6,7 +6,7 @@ use super::disk::Disk;
 use frictcomp::diagnostic::{Advice, Diagnostic};
 use frictcomp::text::Place;
 
-/// What becomes of files outside the folders.
+/// Treatment of files outside the folders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
@@ -24,7 +24,7 @@ pub struct AllowedRoots {
     /// With all links resolved.
     real: Vec<PathBuf>,
     outside_policy: OutsidePolicy,
-    /// Where they lie.
+    /// Disk of the folders.
     disk: Disk,
 }
 
@@ -114,7 +114,7 @@ fn blank(place: &mut Place) {
     place.text = blank.into();
 }
 
-/// What paths are compared by: Windows does not tell upper from lower case.
+/// Returns a path in the form in which paths are compared: Windows ignores case.
 fn folded(path: &Path) -> PathBuf {
     match path.to_str() {
         Some(text) if cfg!(windows) => {

@@ -14,15 +14,15 @@ use super::in_use::{check_replaceable, device, patiently, told_of_replacing};
 use super::interrupt::Unfinished;
 use super::registry::folder;
 
-/// How the name of a file that is not whole begins and ends. The letters between are random.
+/// Beginning and end of the name of an unfinished file. The letters between are random.
 const PREFIX: &str = ".frictcomp-";
 const SUFFIX: &str = ".tmp";
 const LETTERS: usize = 16;
 
-/// How often a new file is tried where another run takes it for one that was left.
+/// Number of attempts for a new file where another run takes it for a leftover.
 const TRIES: u32 = 8;
 
-/// How many files that wait for others stay open and locked; a process may open some hundreds.
+/// Number of waiting files that stay open and locked; a process may open some hundreds.
 const MOST_HELD: usize = 200;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
@@ -356,7 +356,7 @@ fn same_owner(_: &Metadata, _: &Metadata) -> bool {
     true
 }
 
-/// What a new file gets; the user's mask takes away from it.
+/// Returns the permissions of a new file; the user's mask takes away from them.
 #[cfg(unix)]
 fn new_file_permissions() -> std::fs::Permissions {
     use std::os::unix::fs::PermissionsExt;

@@ -20,15 +20,15 @@ use frictcomp::text::SourceFile;
 /// Blocks between two looks at the clock.
 const STEP: u64 = 1 << 14;
 
-/// How programs are audited.
+/// Options of an audit.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct AuditOptions {
-    /// How they run.
+    /// Options of its runs.
     pub run: Options,
     /// The kinds of compensation that count.
     pub kinds: KindSet,
-    /// How many run at once.
+    /// Number of parallel runs.
     pub workers: NonZeroUsize,
 }
 

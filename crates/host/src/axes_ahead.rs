@@ -1,4 +1,4 @@
-//! Which axes programs name, before they run (R9.74).
+//! The axes that programs name, before they run (R9.74).
 
 use std::collections::BTreeSet;
 use std::fs::File;

@@ -17,23 +17,23 @@ pub struct MachineOfVersions {
     pub old: LoadedMachine,
     /// The machine as the new version finds it.
     pub new: LoadedMachine,
-    /// Whose machine it is.
+    /// Owner of the machine.
     pub owner: MachineOwner,
 }
 
-/// Whose machine two versions run on.
+/// Owner of the machine on which two versions run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MachineOwner {
     /// No version has another one.
     Both,
-    /// That of the new version; the old one has another configuration.
+    /// The new version; the old one has another configuration.
     NewNotOld(PathBuf),
-    /// That of the current folder; neither version has one.
+    /// The current folder; neither version has a machine.
     CurrentFolder,
 }
 
-/// How near a version lies to the machine.
+/// Distance of a version from the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Nearness {
     /// It lies anywhere, like the copies that `git difftool` makes.

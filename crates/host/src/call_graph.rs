@@ -1,4 +1,4 @@
-//! Which programs call which, found without running them (R17.2).
+//! The calls between programs, found without running them (R17.2).
 
 use std::collections::{BTreeMap, HashMap};
 use std::num::NonZeroUsize;

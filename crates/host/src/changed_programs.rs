@@ -1,4 +1,4 @@
-//! Which programs differ from a revision, or reach what differs (R17.4).
+//! The programs that differ from a revision, or reach one that does (R17.4).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
@@ -30,7 +30,7 @@ pub struct ChangedPrograms {
     read: Vec<PathBuf>,
 }
 
-/// What differs, as programs are compared with it.
+/// Differences, in the form in which programs are compared with them.
 struct Changes<'a> {
     files: &'a [ChangedFile],
     /// The files of the work tree that differ.

@@ -20,7 +20,7 @@ use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
 use frictcomp_physics::simulation::{FrictionModel, Plant};
 
-/// What drives the path of a program, and how the program runs.
+/// Setup of a contour: the drives, and the options of the run.
 #[derive(Debug, Clone)]
 pub struct ContourSetup {
     /// The axes of the plane.
@@ -31,11 +31,11 @@ pub struct ContourSetup {
     pub value_lists: Vec<(String, String, FrictionList)>,
     /// The friction model.
     pub model: FrictionModel,
-    /// How the commanded trace is planned.
+    /// Options of the commanded trace.
     pub planner: PlannerOptions,
-    /// How the program runs.
+    /// Options of the run.
     pub session: SessionOptions,
-    /// How files are named.
+    /// Naming of files.
     pub naming: Naming,
 }
 
@@ -118,7 +118,7 @@ pub fn drive_contour<S: ContourSink>(
     Ok(contour)
 }
 
-/// What is to be known before anything is driven.
+/// Facts known before anything is driven.
 struct Ahead {
     moving: MovingAxes,
     /// The trace of no axis: it counts cycles, where somebody watches.

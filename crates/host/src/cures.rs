@@ -14,7 +14,7 @@ use super::workers::in_order;
 use frictcomp::audit::{Affected, Archive, MendedEnd, Mending, Missed, insertions, mend};
 use frictcomp::interpreter::{Interpreter, Observer};
 
-/// How a program of an archive is mended, or a file that programs call.
+/// Mended program of an archive, or file that programs call.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MendedProgram {
@@ -26,7 +26,7 @@ pub struct MendedProgram {
     pub file: Option<MendedFile>,
     /// The other programs that the blocks mend, which call the file.
     pub also: Vec<String>,
-    /// What is left to the user.
+    /// Mendings left to the user.
     pub missed: Vec<Missed>,
 }
 

@@ -1,4 +1,4 @@
-//! Which machine a program runs on: `frictcomp.toml`, a start-up list, or none.
+//! The machine of a program: from `frictcomp.toml`, a start-up list, or none.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ use frictcomp::lists::Parameter;
 use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
 use frictcomp::text::shown_path;
 
-/// Which configuration counts.
+/// Selection of the configuration.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum ConfigurationChoice {
@@ -33,7 +33,7 @@ pub enum ConfigurationChoice {
     Isolated,
 }
 
-/// Where the machine of programs comes from, and what is different from its configuration.
+/// Source of the machine of programs, with deviations from its configuration.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MachineOptions {
@@ -43,11 +43,11 @@ pub struct MachineOptions {
     pub startup: Option<PathBuf>,
     /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
     pub enable: Vec<String>,
-    /// What becomes of programs and lists outside the folders.
+    /// Treatment of programs and lists outside the folders.
     pub outside_policy: OutsidePolicy,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
-    /// Which codes count.
+    /// Codes that count.
     pub codes: CodeFilter,
 }
 
@@ -60,9 +60,9 @@ pub struct LoadedMachine {
     pub settings: Vec<(String, Setting)>,
     /// The user's severities.
     pub levels: Levels,
-    /// Where called programs may lie.
+    /// Folders of called programs.
     pub search_path: SearchPath,
-    /// What there is to say about the lists.
+    /// Messages on the lists.
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters, by axis.
     pub reports: Vec<AxisReport>,
@@ -70,11 +70,11 @@ pub struct LoadedMachine {
     pub programs: Vec<Parameter>,
     /// The configuration or the start-up list that was read.
     pub origin: Option<PathBuf>,
-    /// How many lists were read, and how many are named and are not there.
+    /// Number of lists read, and of named ones that do not exist.
     pub lists: (usize, usize),
     /// The extensions of files that are programs.
     pub extensions: Option<Vec<String>>,
-    /// Where the files of a run on this machine are noted.
+    /// Registry of the files of a run on this machine.
     pub registry: FileRegistry,
     /// The disk that runs on this machine read from.
     pub disk: Disk,
@@ -126,7 +126,8 @@ impl LoadedMachine {
         }
     }
 
-    /// What stops the control at start-up or keeps it from taking a list.
+    /// Returns the messages on faults that stop the control at start-up or keep it from taking a
+    /// list.
     pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics
             .iter()
@@ -213,7 +214,7 @@ impl Machines {
         }
     }
 
-    /// Which configuration counts.
+    /// Returns the selection of the configuration.
     pub(super) fn choice(&self) -> &ConfigurationChoice {
         &self.options.configuration
     }

@@ -25,15 +25,15 @@ pub struct Disk(Kind);
 
 #[derive(Debug, Clone)]
 enum Kind {
-    /// That of the system, with texts in place of files, by their real paths.
+    /// The disk of the system, with texts in place of files, by their real paths.
     System(SharedMap<PathBuf, Arc<String>>),
-    /// That of the system, as some of its files were in a revision.
+    /// The disk of the system, with some of its files as they were in a revision.
     Revision(Arc<RevisedFiles>),
     /// Texts and nothing else.
     Memory(Arc<MemoryDisk>),
 }
 
-/// What a revision has in place of files of the system, by their real paths.
+/// Files of a revision in place of files of the system, by their real paths.
 #[derive(Debug, Default)]
 struct RevisedFiles {
     texts: BTreeMap<PathBuf, Arc<String>>,
@@ -130,7 +130,7 @@ impl Disk {
         }
     }
 
-    /// What a path leads to, once links are followed.
+    /// Returns the entry of a path, after links.
     pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
         if let Kind::Memory(disk) = &self.0 {
             return disk.entry(path);

@@ -19,7 +19,7 @@ use frictcomp::machine::AxisSet;
 use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::timeline::Sink;
 
-/// Where called programs are looked for, and how files are named.
+/// Folders of called programs, and the naming of files.
 #[derive(Clone)]
 pub struct RunContext<'a> {
     search_path: SearchPath,
@@ -31,7 +31,7 @@ pub struct RunContext<'a> {
 }
 
 impl<'a> RunContext<'a> {
-    /// What a machine's configuration says about them.
+    /// Creates the context of a machine's configuration.
     pub fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
         Self {
             search_path: loaded.search_path.clone(),
@@ -128,16 +128,16 @@ pub fn expect_axes(session: &mut Session, loaded: &LoadedMachine, inputs: &[Inpu
 pub struct Programs<'a> {
     /// The programs.
     pub inputs: &'a [Input],
-    /// What is said about the machine before the first of them.
+    /// Messages on the machine before the first of them.
     pub said: &'a [Diagnostic],
 }
 
-/// How far programs were run.
+/// Progress of the programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RunSummary {
     /// `Break` when the sink wanted no more.
     pub flow: ControlFlow<()>,
-    /// How many programs were left when the session stopped.
+    /// Number of programs that did not run when the session stopped.
     pub unrun: usize,
 }
 
@@ -168,17 +168,17 @@ pub fn run_programs(
     Ok(RunSummary { flow, unrun })
 }
 
-/// How a program runs in a session of its own.
+/// Run of a program in a session of its own.
 pub struct SingleRun {
-    /// How the session runs.
+    /// Options of the session.
     pub options: SessionOptions,
-    /// How files are named in records.
+    /// Naming of files in records.
     pub naming: Naming,
-    /// Which axes are listed where no machine is described.
+    /// Listed axes where no machine is described.
     pub axes: Axes,
 }
 
-/// Which axes are listed where no machine is described.
+/// Listed axes where no machine is described.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
     /// Those that a look over the program finds (R9.74).

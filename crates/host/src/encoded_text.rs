@@ -24,9 +24,9 @@ pub struct NotEncodable(pub String);
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     page: &'static Encoding,
-    /// Where they begin in the text.
+    /// Offset in the text.
     text: usize,
-    /// Where they begin in the bytes.
+    /// Offset in the bytes.
     bytes: usize,
 }
 
@@ -83,7 +83,7 @@ impl EncodedText {
     }
 }
 
-/// Which lines of a file have which code page, as [`decode`] takes them.
+/// Returns the code pages of the lines of a file, as [`decode`] takes them.
 fn stretches(bytes: &[u8]) -> Vec<Stretch> {
     let stretch = |page, text, bytes| Stretch { page, text, bytes };
     if let Some((page, mark)) = wide(bytes) {

@@ -20,7 +20,7 @@ pub enum HostError {
     Read {
         /// The file as it was named.
         path: PathBuf,
-        /// What the system says.
+        /// Reason given by the system.
         reason: io::Error,
     },
     /// A file in a folder that does not exist, or that may not be written.
@@ -28,7 +28,7 @@ pub enum HostError {
     Write {
         /// The file as it was named.
         path: PathBuf,
-        /// What the system says.
+        /// Reason given by the system.
         reason: io::Error,
     },
     /// A change that the code page of a file cannot write.
@@ -55,7 +55,7 @@ pub enum HostError {
     Unsettled {
         /// The files.
         files: Vec<PathBuf>,
-        /// What the system says.
+        /// Reason given by the system.
         reason: io::Error,
     },
     /// A full disk.
@@ -72,7 +72,7 @@ pub enum HostError {
     Search {
         /// The folder that is searched.
         folder: PathBuf,
-        /// What the system says.
+        /// Reason given by the system.
         reason: String,
     },
     /// A folder of texts.
@@ -96,7 +96,7 @@ pub enum HostError {
     NotAStartupList {
         /// Path of the file.
         path: PathBuf,
-        /// What it is instead.
+        /// Kind of the file in its place.
         message: String,
     },
     /// No command `git`.
@@ -107,13 +107,13 @@ pub enum HostError {
     NoRepository {
         /// The folder.
         folder: PathBuf,
-        /// What git says.
+        /// Reason given by git.
         reason: String,
     },
     /// A name of no revision.
     #[error("there is no revision `{0}` in the git repository")]
     NoRevision(String),
-    /// What git could not do.
+    /// The action that git could not perform.
     #[error("git could not say what differs: {0}")]
     Git(String),
     /// A folder that is not there.
@@ -153,7 +153,7 @@ pub enum HostError {
     Overwrites {
         /// The output.
         output: String,
-        /// What the input is.
+        /// Kind of the input.
         what: &'static str,
         /// The input.
         input: PathBuf,
@@ -187,7 +187,7 @@ pub enum HostError {
     State {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         reason: String,
     },
     /// A value list that the control would not take.
@@ -195,7 +195,7 @@ pub enum HostError {
     ValueList {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         reason: &'static str,
         /// The lines that are the reason.
         diagnostics: Vec<Diagnostic>,
@@ -217,7 +217,7 @@ pub enum HostError {
     /// A limit of memory that is too low for a simulation.
     #[error("not enough memory: a simulation needs {mebibytes} MiB")]
     Memory {
-        /// What it needs.
+        /// Required memory.
         mebibytes: usize,
     },
 }
@@ -248,7 +248,7 @@ impl HostError {
         }
     }
 
-    /// What to do about it, where that does not depend on the program that asks.
+    /// Returns the advice, where it does not depend on the calling program.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::Read { reason, .. } => match reason.kind() {
@@ -301,7 +301,7 @@ impl HostError {
     }
 }
 
-/// What helps where writing fails.
+/// Returns the advice where writing fails.
 fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
     Some(match kind {
         io::ErrorKind::PermissionDenied => {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// What follows a figure.
+/// Text after a figure.
 const UNIT: &str = " µm";
 
 /// The text of today, in which each line stays as it was agreed on if only its figures changed, and
@@ -31,7 +31,7 @@ pub(super) fn diff_with_tolerance(before: &str, now: String, tolerance_um: f64) 
     out
 }
 
-/// Where the figures of a line are.
+/// Returns the ranges of the figures of a line.
 fn figures(line: &str) -> impl Iterator<Item = Range<usize>> {
     let ends = line.match_indices(UNIT).map(|(end, _)| end);
     ends.filter_map(|end| {

@@ -1,4 +1,4 @@
-//! What the name of a file says about it: a program, a list, a configuration.
+//! The kind of a file by its name: a program, a list, a configuration.
 
 use std::path::Path;
 
@@ -32,7 +32,7 @@ impl FileKind {
         }
     }
 
-    /// What it is called in errors.
+    /// Returns the name used in errors.
     pub(super) fn as_str(self) -> &'static str {
         match self {
             Self::Program => "program",

@@ -15,14 +15,14 @@ use super::registry::{FileRegistry, PROGRAM};
 use frictcomp::session::{Finder, NoProgram};
 use frictcomp::text::SourceFile;
 
-/// Where the programs that are called may lie besides their caller's folder.
+/// Folders of called programs besides the folder of the caller.
 #[derive(Debug, Clone, Default)]
 pub struct SearchPath {
     /// The folders of `program_dirs`, which are searched in this order.
     pub program_dirs: Vec<PathBuf>,
     /// The folder of the configuration; empty, the current one, without.
     pub project: PathBuf,
-    /// What becomes of programs that lie elsewhere.
+    /// Treatment of programs outside them.
     pub outside_policy: OutsidePolicy,
 }
 
@@ -43,13 +43,13 @@ pub struct ProgramFinder {
     folders: Vec<PathBuf>,
     allowed_roots: AllowedRoots,
     naming: Naming,
-    /// Where the files lie that were named so far.
+    /// Paths of the files named so far.
     known: HashMap<String, PathBuf>,
     /// The names of the files that were found, by their real paths.
     names: HashMap<PathBuf, String>,
-    /// What the folders hold that were searched, by names in lower case.
+    /// Contents of the folders searched, by names in lower case.
     listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
-    /// Where the files are noted that were read.
+    /// Registry of the files read.
     registry: FileRegistry,
     disk: Disk,
 }

@@ -1,4 +1,5 @@
-//! What a folder tells about the machine of its programs before it has a configuration (R9.73).
+//! The knowledge of a folder about the machine of its programs, before it has a configuration
+//! (R9.73).
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -21,7 +22,7 @@ use frictcomp::lists::ListKind;
 use frictcomp::machine::{Configuration, NoLists, Outline, check_list};
 use frictcomp::text::shown_path;
 
-/// How deep below the folder a start-up list is looked for.
+/// Depth below the folder at which a start-up list is looked for.
 const DEPTH: usize = 4;
 
 /// What a folder tells about its machine: the start-up list that is given or lies there, otherwise

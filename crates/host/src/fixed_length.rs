@@ -10,7 +10,7 @@ pub(super) struct FixedLengthReader {
     file: File,
     /// The length that it had, where it has one.
     length: Option<u64>,
-    /// How far it was read.
+    /// Number of bytes read.
     at: u64,
 }
 

@@ -1,5 +1,5 @@
-//! What differs between the files of a folder and a revision of its git repository, told by the command
-//! `git` (R17.4).
+//! The differences between the files of a folder and a revision of its git repository, by the
+//! command `git` (R17.4).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
@@ -36,7 +36,7 @@ pub struct ChangedFile {
 /// A file of a revision.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OldFile {
-    /// Where it would lie in the work tree, from the root on.
+    /// Path in the work tree, from the root on.
     pub path: PathBuf,
     /// The name of its content.
     blob: String,
@@ -217,7 +217,7 @@ impl Revision {
         })
     }
 
-    /// What the filters of the repository make of a file.
+    /// Returns a file as the filters of the repository make it.
     fn smudged(&self, file: &OldFile) -> Result<Vec<u8>, HostError> {
         let path = file.path.strip_prefix(&self.top).unwrap_or(&file.path);
         let mut option = std::ffi::OsString::from("--path=");

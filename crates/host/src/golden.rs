@@ -15,11 +15,12 @@ use super::registry::{FileRegistry, Replaces, folder};
 /// A kind of result that is agreed on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GoldenKind {
-    /// What the name of the program is followed by, `timeline`.
+    /// Extension after the name of the program, `timeline`.
     pub extension: &'static str,
-    /// Who writes the files, as it is called in errors.
+    /// Name of the writer of the files in errors.
     pub writer: &'static str,
-    /// What its figures in µm may change: no more is no change, and stays as it was agreed on.
+    /// Tolerance of its figures in µm: within it a figure is unchanged, and stays as it was agreed
+    /// on.
     pub tolerance_um: f64,
 }
 
@@ -58,12 +59,12 @@ pub enum GoldenDrift {
     },
 }
 
-/// What became of the files of one folder.
+/// Result for the files of one folder.
 #[derive(Debug)]
 pub struct UpdatedFolder<'a, E> {
     /// The folder.
     pub folder: &'a Path,
-    /// How many of its files belong to the programs.
+    /// Number of its files that belong to the programs.
     pub files: usize,
     /// The files that drifted and were written.
     pub written: Vec<PathBuf>,

@@ -6,11 +6,11 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a file may be in use: virus scanners and the search of Windows look at new files for
+/// Time for which a file may be in use: virus scanners and the search of Windows open new files for
 /// moments, spreadsheets keep them.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// How often it is tried again.
+/// Time between attempts.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Another program has the file open and lets nobody else have it, or has locked a part of it.

@@ -18,7 +18,7 @@ use frictcomp::text::{LineSource, SourceFile, shown_path};
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
 
-/// How files are named in records and diagnostics.
+/// Form of the names of files in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Naming {
     /// As the user named them.
@@ -70,7 +70,7 @@ impl<R: Read> Read for Waiting<'_, R> {
 }
 
 impl Input {
-    /// What the user means by an argument.
+    /// Creates the input that an argument of the user means.
     pub fn new(argument: &Path) -> Self {
         if argument == Path::new("-") {
             Self::Stdin

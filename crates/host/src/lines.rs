@@ -11,15 +11,15 @@ use frictcomp::text::{LineSource, PhysicalLine, line_end};
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
 
-/// So many bytes hold at least one character more than the longest line.
+/// Number of bytes with at least one character more than the longest line.
 const KEPT: usize = 4 * (MAX_LINE + 1);
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// So many bytes tell UTF-16 without a byte order mark; as long as none of them is zero, it is not.
+/// Number of bytes that show UTF-16 without a byte order mark: a zero among them.
 const TELLING: usize = 4;
 
-/// How lines end.
+/// Form of line ends.
 #[derive(Debug, Clone, Copy)]
 enum LineEnds {
     /// In LF, CRLF or CR.
@@ -45,12 +45,12 @@ pub(super) struct LineReader<R> {
     line: Range<usize>,
     /// Whether that line is longer than what is given of it.
     cut: bool,
-    /// Where the next line begins, in `text`.
+    /// Offset of the next line in `text`.
     next: usize,
-    /// How the lines in `text` end.
+    /// Form of the line ends in `text`.
     ends: LineEnds,
     failure: Option<io::Error>,
-    /// How many bytes may be kept of the lines to come.
+    /// Limit of the bytes kept of the lines to come.
     most_kept: usize,
 }
 
@@ -195,8 +195,8 @@ impl<R: Read> LineReader<R> {
         }
     }
 
-    /// How many of the unread bytes are whole lines. The last line of a file needs no end; what
-    /// was read of a line before an error is none.
+    /// Returns the number of unread bytes in whole lines. The last line of a file needs no end; the
+    /// part of a line read before an error is not a line.
     fn whole_lines(&self) -> usize {
         let bytes = &self.buffer[self.unread.clone()];
         if self.at_end && self.failure.is_none() {

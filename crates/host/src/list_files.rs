@@ -77,7 +77,7 @@ fn as_spelt(path: &Path, disk: &Disk) -> Option<PathBuf> {
     Some(spelt)
 }
 
-/// What has a name in a folder, upper and lower case aside.
+/// Returns the entry with a name in a folder, case ignored.
 fn alike(folder: &Path, wanted: &str, disk: &Disk) -> Option<PathBuf> {
     let mut names = disk.names(folder).into_iter();
     let is_alike = |name: &str| name.eq_ignore_ascii_case(wanted);

@@ -1,4 +1,4 @@
-//! Which programs are main programs of their own (R17.2).
+//! Selection of the programs that are main programs of their own (R17.2).
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -104,7 +104,7 @@ pub(super) fn callers_first(edges: &[Vec<usize>]) -> Vec<Vec<usize>> {
     circles
 }
 
-/// What is reached from a start and was not seen before, each after all that it leads to.
+/// Appends the unseen nodes reached from a start, each after all that it leads to.
 fn finish(edges: &[Vec<usize>], start: usize, is_seen: &mut [bool], finished: &mut Vec<usize>) {
     if std::mem::replace(&mut is_seen[start], true) {
         return;

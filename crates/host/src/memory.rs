@@ -2,7 +2,7 @@
 
 use super::error::HostError;
 
-/// What a circular test needs beside the program itself, with room to spare.
+/// Memory of a circular test besides the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
 
 /// What a thread needs: address space for its stack and for a heap of its own, 128 MiB with glibc.

@@ -48,7 +48,7 @@ impl MemoryDisk {
         self.texts.get(&Self::absolute(path))
     }
 
-    /// What a path leads to.
+    /// Returns the entry of a path.
     pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
         let path = Self::absolute(path);
         if self.texts.contains_key(&path) {

@@ -23,7 +23,7 @@ pub struct MendedFile {
     pub after: String,
     /// The bytes of that text, in the code page and with the line ends of the file.
     pub bytes: Vec<u8>,
-    /// How many changes were made.
+    /// Number of changes.
     pub changes: usize,
 }
 

@@ -26,21 +26,21 @@ struct Inputs {
     missed: BTreeSet<String>,
 }
 
-/// What a program is noted as.
+/// Kind of a program in the registry.
 pub(super) const PROGRAM: &str = "program";
 
 /// A file that is written, and what it is called in errors.
 #[derive(Debug, Clone)]
 pub(super) struct Claim {
-    /// What it is called in errors.
+    /// Name used in errors.
     pub name: &'static str,
     /// Path of the file.
     pub path: PathBuf,
-    /// What it may take the place of.
+    /// Files that it may replace.
     pub replaces: Replaces,
 }
 
-/// What an output may take the place of (R9.93).
+/// Files that an output may replace (R9.93).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Replaces {
     /// Another result.
@@ -189,7 +189,7 @@ impl FileRegistry {
     }
 }
 
-/// Which file a path names.
+/// Identity of the file at a path.
 #[derive(Debug, PartialEq, Eq, Hash)]
 enum Identity {
     /// A file that is there.
@@ -206,7 +206,7 @@ type FileKey = (u64, u64);
 #[cfg(windows)]
 type FileKey = same_file::Handle;
 
-/// Where there are no links.
+/// Key of a file on a system without links.
 #[cfg(not(any(unix, windows)))]
 type FileKey = PathBuf;
 

@@ -17,19 +17,19 @@ use super::read::read_bytes;
 use frictcomp::session::{STATE_SCHEMA, SavedState, StateError};
 use frictcomp::text::shown_json;
 
-/// How long a second run waits for the first (R9.31).
+/// Time for which a second run waits for the first (R9.31).
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// How often it looks.
+/// Time between attempts.
 const PAUSE: Duration = Duration::from_millis(25);
 
-/// What stands between the content of a state file and the digits of its checksum.
+/// Text between the content of a state file and the digits of its checksum.
 const SEAL: &[u8] = b",\n  \"checksum\": \"";
 
 /// The first schema whose files have a checksum.
 const SEALED_SCHEMA: u32 = 3;
 
-/// What every state file has, whatever its version.
+/// Part of a state file that every version has.
 #[derive(Deserialize)]
 struct Schema {
     schema: u32,

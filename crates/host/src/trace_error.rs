@@ -18,7 +18,7 @@ pub enum TraceError {
     Problem {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         problem: TraceProblem,
     },
     /// A project of TwinCAT Scope, whose form is not public.
@@ -29,7 +29,7 @@ pub enum TraceError {
     Apart {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         reason: NotAligned,
     },
     /// Rows that are not CNC cycles.
@@ -37,7 +37,7 @@ pub enum TraceError {
     Cycles {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with its times.
+        /// Fault of its times.
         reason: CyclesError,
     },
     /// Channels of a commanded trace that were not sampled together.
@@ -53,7 +53,7 @@ pub enum TraceError {
         path: PathBuf,
         /// The channel.
         channel: String,
-        /// What stands there.
+        /// Value at that place.
         value: f64,
     },
     /// Points that make no circle.
@@ -61,7 +61,7 @@ pub enum TraceError {
     Circle {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         reason: RecordedError,
     },
     /// Circles that do not belong together.
@@ -70,7 +70,7 @@ pub enum TraceError {
 }
 
 impl TraceError {
-    /// What to do about it.
+    /// Returns the advice.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::Problem { problem, .. } => return problem.help(),

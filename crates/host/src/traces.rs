@@ -271,7 +271,7 @@ pub fn read_axis(
     Ok(axis)
 }
 
-/// Which channels of a trace are the positions of a circle.
+/// Channels of a trace that are the positions of a circle.
 #[derive(Debug, Clone, Default)]
 pub struct CircleChannels {
     /// The channel of each of the two axes; by default those named `x` and `y`.

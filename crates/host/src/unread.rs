@@ -1,4 +1,4 @@
-//! Which variables are set and no program reads (R9.74).
+//! The variables that are set and read by no program (R9.74).
 
 use std::collections::BTreeSet;
 use std::path::Path;

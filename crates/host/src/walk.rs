@@ -9,7 +9,7 @@ use super::error::HostError;
 use super::file_kind::{EXTENSIONS, has_extension};
 use super::input::Input;
 
-/// What was found below the paths.
+/// Programs found below the paths.
 #[derive(Debug, Default)]
 pub struct FoundPrograms {
     /// The programs in a fixed order: files as the user named them, folders walked by name.

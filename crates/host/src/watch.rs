@@ -12,7 +12,7 @@ use frictcomp::timeline::{Record, Row, Sink};
 /// Blocks between two looks at the clock.
 const STEP: u64 = 1 << 14;
 
-/// Somebody who watches long work.
+/// Watcher of long work.
 pub trait Watcher: fmt::Debug + Send + Sync {
     /// Whether it is time to hear how far the work is. Asked often, and by several threads.
     fn is_due(&self) -> bool;
@@ -26,11 +26,11 @@ pub trait Watcher: fmt::Debug + Send + Sync {
     }
 }
 
-/// How far long work is.
+/// Progress of long work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// What was done.
+    /// Completed part.
     pub done: Done,
     /// The program that runs, counted from 1, and how many there are, where there are several.
     pub program: Option<(u64, u64)>,
@@ -40,7 +40,7 @@ pub struct Progress {
     pub lines: Option<u64>,
 }
 
-/// What long work has done.
+/// Part of long work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Done {
@@ -50,14 +50,14 @@ pub enum Done {
     Cycles(u64),
     /// Whole seconds of machine time, and those of the whole program.
     MachineTime {
-        /// What is done.
+        /// Machine time covered.
         seconds: u64,
-        /// All of it.
+        /// That of the whole program.
         all: u64,
     },
     /// Runs of a simulation.
     Runs {
-        /// What is simulated.
+        /// Subject of the simulation.
         of: &'static str,
         /// The runs that are over.
         done: usize,
@@ -106,7 +106,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// How far the programs of a piece of work are.
+/// Progress of the programs of a piece of work.
 #[derive(Debug, Default)]
 pub struct Watch {
     watcher: Option<Arc<dyn Watcher>>,
@@ -117,7 +117,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Somebody watches.
+    /// Progress is reported to a watcher.
     pub fn by(watcher: Arc<dyn Watcher>) -> Self {
         Self {
             watcher: Some(watcher),
@@ -125,7 +125,7 @@ impl Watch {
         }
     }
 
-    /// So many programs are to run.
+    /// Announces the number of programs to run.
     pub fn expect(&self, programs: usize) {
         let programs = u64::try_from(programs).unwrap_or(u64::MAX);
         self.programs.store(programs, Ordering::Relaxed);
@@ -187,7 +187,7 @@ pub struct Reached<'a> {
     pub line: u32,
 }
 
-/// How often control goes through a program.
+/// Number of passes of the control through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Passes {
     /// From its first line to its last.

@@ -54,7 +54,7 @@ fn touches(one: Range, other: Range) -> bool {
     one.start <= other.end && other.start <= one.end
 }
 
-/// What all checks say about a text, each once.
+/// Returns the messages of all checks on a document, each once.
 fn messages<'a>(view: &'a View, document: &Document) -> Vec<&'a Diagnostic> {
     let mut known = BTreeSet::new();
     let analyses = view.analyses_of(document).into_iter();
@@ -103,7 +103,7 @@ fn quick_fixes(
     actions
 }
 
-/// What a fix does, in words.
+/// Returns the effect of a fix in words.
 fn title(document: &Document, fix: &Fix) -> String {
     let old = short(fix.place.span.of(&fix.place.text));
     let new = short(&fix.text);

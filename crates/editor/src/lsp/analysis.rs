@@ -1,4 +1,4 @@
-//! What a check of an open text finds.
+//! The results of the check of an open text.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ pub(super) struct Job {
     pub(super) cancel: Cancel,
 }
 
-/// What a check of a text found.
+/// Result of the check of a text.
 #[derive(Debug, Default)]
 pub(super) struct Analysis {
     /// The version of the text.
@@ -43,20 +43,20 @@ pub(super) struct Analysis {
     pub(super) reads: Vec<PathBuf>,
     /// The names of programs that were called and not found.
     pub(super) missed: Vec<String>,
-    /// What happens in the program.
+    /// Course of the program.
     pub(super) run: Option<Run>,
 }
 
 /// Why a text could not be checked.
 #[derive(Debug)]
 pub(super) struct Failure {
-    /// What cannot be done.
+    /// The failure.
     pub(super) message: String,
-    /// What to do about it.
+    /// Advice on it.
     pub(super) help: Option<String>,
 }
 
-/// What happens in a program.
+/// Course of a program.
 #[derive(Debug)]
 pub(super) struct Run {
     /// The states of its blocks.
@@ -67,7 +67,7 @@ pub(super) struct Run {
     pub(super) is_cut: bool,
     /// The number of executed blocks.
     pub(super) blocks: u64,
-    /// That no machine is described, in words (R1.37).
+    /// Remark that no machine is described, in words (R1.37).
     pub(super) remark: Option<String>,
 }
 
@@ -186,7 +186,7 @@ impl Job {
     }
 }
 
-/// How programs run in an editor: as `check` runs them, for fewer blocks.
+/// Returns the options of runs in an editor: those of `check`, for fewer blocks.
 pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions {
     let run = Options::default()
         .with_stop(StopPolicy::CheckAll)

@@ -1,4 +1,4 @@
-//! What the server asks the client.
+//! The requests of the server to the client.
 
 use gen_lsp_types::{
     ConfigurationItem, ConfigurationParams, ConfigurationRequest,
@@ -10,7 +10,7 @@ use serde_json::json;
 
 use frictcomp_host::CONFIG_NAME;
 
-/// What the server asked, until the client answers.
+/// Request of the server that the client has not answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Asked {
     /// The settings of the user.
@@ -22,7 +22,7 @@ pub(super) enum Asked {
 }
 
 impl Asked {
-    /// What does not happen where the client refuses.
+    /// Returns the consequence of a refusal by the client.
     pub(super) fn refused(self) -> &'static str {
         match self {
             Self::Settings => "the client does not give its settings",

@@ -1,5 +1,5 @@
-//! Which programs of the project call which: the tree of callers, programs by their names, and from how
-//! many programs one is reached (R17.2).
+//! The calls between the programs of the project: the tree of callers, programs by their names, and
+//! the number of programs that reach one (R17.2).
 
 use std::collections::BTreeSet;
 use std::path::Path;

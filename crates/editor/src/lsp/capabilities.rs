@@ -1,4 +1,4 @@
-//! What the server offers.
+//! The capabilities of the server.
 
 use gen_lsp_types::{
     CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, ExecuteCommandOptions,
@@ -77,7 +77,8 @@ pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {
     }
 }
 
-/// How names are changed; a client that can is told first whether there is one.
+/// Returns the support for renaming; a client with the ability is told first whether there is a
+/// name.
 fn renames(client: &Client) -> RenameProvider {
     if client.prepares_renames() {
         let options = RenameOptions {

@@ -1,12 +1,12 @@
-//! Which texts have to be checked, and when (R12.7).
+//! The schedule of checks: the texts that are due, and their times (R12.7).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use super::worker::Cancel;
 
-/// How long nobody may type before a text is checked: shorter than between two keystrokes, longer
-/// than between the changes of one.
+/// Pause in typing before a text is checked: shorter than between two keystrokes, longer than
+/// between the changes of one.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Why a text has to be checked.
@@ -16,7 +16,7 @@ pub(super) enum Outdated {
     Now,
     /// It was changed, and may be again at once.
     ByTyping,
-    /// What it uses was changed.
+    /// A file that it uses was changed.
     ByOthers,
 }
 
@@ -94,7 +94,7 @@ impl Checks {
         Some(uri)
     }
 
-    /// How long until a text is due; `None` where none is, or another one has to be done first.
+    /// Returns the time until a text is due; `None` where none is, or another one comes first.
     pub(super) fn wait(&self, now: Instant) -> Option<Duration> {
         if self.running.is_some() {
             return None;

@@ -1,4 +1,4 @@
-//! What is known about the client.
+//! The abilities and settings of the client.
 
 use std::path::PathBuf;
 
@@ -8,14 +8,14 @@ use super::encoding::Encoding;
 use super::settings::Settings;
 use super::uri::path_of;
 
-/// What the client can do, and what its user wants.
+/// Abilities of the client, and the settings of its user.
 #[derive(Debug, Clone)]
 pub(super) struct Client {
-    /// What its columns count.
+    /// Unit of its columns.
     pub(super) encoding: Encoding,
-    /// What its user chose.
+    /// Settings of its user.
     pub(super) settings: Settings,
-    /// What it can do.
+    /// Abilities.
     pub(super) capabilities: ClientCapabilities,
 }
 

@@ -27,13 +27,13 @@ use frictcomp_report::html::{
 /// The timeline of a program as an HTML report.
 pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
 
-/// What the order of the programs of a folder does, as an HTML report.
+/// Name of the command for the HTML report on the order of the programs of a folder.
 const AUDIT: &str = "frictcomp.audit";
 
 /// All commands.
 pub(super) const COMMANDS: [&str; 2] = [SHOW_TIMELINE, AUDIT];
 
-/// What a command is about: its one argument.
+/// Subject of a command: its one argument.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Subject {
     /// The program, or the folder.

@@ -15,7 +15,7 @@ use super::view::View;
 use frictcomp::comp::Kind;
 use frictcomp::syntax::{PieceKind, code_of, kind_at};
 
-/// What may stand at a place.
+/// Returns the completions at a place.
 pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<CompletionItem>> {
     let at = &params.text_document_position_params;
     let document = view.document(&at.text_document.uri)?;
@@ -32,7 +32,7 @@ pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<C
     Some(offer.map_or_else(Vec::new, |offer| offer.items(at.position)))
 }
 
-/// What may stand in place of a word that is being typed.
+/// Completions in place of a word that is being typed.
 struct Offer<'t> {
     /// The word as far as it is typed.
     typed: &'t str,
@@ -130,7 +130,7 @@ fn is_of_axis(code: &str) -> bool {
     name.contains(|letter: char| letter.is_ascii_alphabetic()) && !above.ends_with(['.', '@', '='])
 }
 
-/// What a kind needs.
+/// Returns the requirements of a kind.
 pub(super) fn about(kind: Kind) -> String {
     let facts = kind.facts();
     let (parameter, selector, since) = (facts.parameter, facts.selector, facts.since);

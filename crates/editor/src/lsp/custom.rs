@@ -1,4 +1,4 @@
-//! What a status bar and a timeline view ask for, beyond the protocol.
+//! Requests of a status bar and a timeline view, beyond the protocol.
 
 use gen_lsp_types::{
     LspRequestMethod, MessageDirection, Position, Request, TextDocumentIdentifier,
@@ -37,7 +37,7 @@ pub(super) struct States {
     pub(super) line: u32,
     /// Whether the place is in that block.
     pub(super) executed: bool,
-    /// How often the block was executed.
+    /// Number of executions of the block.
     pub(super) times: u64,
     /// The axes.
     pub(super) axes: Vec<AxisStates>,
@@ -78,11 +78,11 @@ pub(super) struct TimelineParams {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Timeline {
-    /// How many lines the program has.
+    /// Number of lines of the program.
     pub(super) lines: u32,
     /// The axes.
     pub(super) axes: Vec<AxisTimeline>,
-    /// That no machine is described, in words.
+    /// Remark that no machine is described, in words.
     pub(super) remark: Option<String>,
 }
 

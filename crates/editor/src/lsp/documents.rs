@@ -11,7 +11,7 @@ use super::uri::{path_of, uri_of};
 use frictcomp::text::{LineIndex, Span};
 use frictcomp_host::{CONFIG_NAME, Disk, OpenText, SharedMap, is_program};
 
-/// What a text is.
+/// Kind of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// An NC program.
@@ -61,7 +61,7 @@ impl Document {
         &self.text
     }
 
-    /// How many lines it has; an empty one after the last line end does not count.
+    /// Returns the number of lines; an empty one after the last line end does not count.
     pub(super) fn line_count(&self) -> u32 {
         let lines = u32::try_from(self.lines.lines()).unwrap_or(u32::MAX);
         match self.line(lines - 1) {
@@ -136,7 +136,7 @@ pub(super) struct Documents {
     open: SharedMap<String, Arc<Document>>,
     /// The URIs of the texts of a file; there is hardly ever more than one.
     names: SharedMap<PathBuf, BTreeSet<String>>,
-    /// What the texts hold, by the places of their files.
+    /// Contents of the texts, by the paths of their files.
     texts: SharedMap<PathBuf, Arc<String>>,
     /// The folder of texts that have no file.
     folder: PathBuf,
@@ -245,7 +245,7 @@ const LIST_LANGUAGES: [&str; 2] = ["isg-list", "frictcomp-list"];
 /// Endings that ISG's extension gives to programs and `check` does not look for in folders.
 const FURTHER_ENDINGS: [&str; 2] = ["ecy", "plc"];
 
-/// What a text is by its name or its language (R12.14).
+/// Returns the kind of a text by its name or its language (R12.14).
 fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
     let has_ending = |endings: &[&str]| {
         let extension = path.extension().unwrap_or_default();

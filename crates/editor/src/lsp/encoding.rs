@@ -4,7 +4,7 @@ use gen_lsp_types::{ClientCapabilities, Position, PositionEncodingKind, Range};
 
 use frictcomp::text::{LineIndex, Place};
 
-/// What a column counts.
+/// Unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Bytes.
@@ -30,7 +30,7 @@ impl Encoding {
         }
     }
 
-    /// How much a character takes.
+    /// Returns the number of units of a character.
     fn units(self, letter: char) -> u32 {
         let units = match self {
             Self::Utf8 => letter.len_utf8(),
@@ -76,7 +76,7 @@ impl Encoding {
         span.start as usize + self.offset(span.of(text), position.character)
     }
 
-    /// What a place in a file means to the client.
+    /// Returns the range of a place in the units of the client.
     pub(super) fn range(self, place: &Place) -> Range {
         let lines = LineIndex::new(&place.text);
         let at = |offset: u32| {

@@ -56,7 +56,8 @@ fn hint(view: &View, document: &Document, line: u32, label: &str) -> InlayHint {
     }
 }
 
-/// What a block changes: `X: active → inactive`. Where it does so in some passes only, `(2 of 5)`.
+/// Returns the changes by a block: `X: active → inactive`. Where they happen in some passes only,
+/// `(2 of 5)`.
 fn changes_of(run: &Run, passes: &[Pass<'_>], file: &str) -> String {
     let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
     let mut words: Vec<(String, u64)> = Vec::new();
@@ -85,8 +86,8 @@ fn changes_of(run: &Run, passes: &[Pass<'_>], file: &str) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What the program leaves away from the states at the start of the control, as seen from a file:
-/// `leaves X inactive`.
+/// Returns the states in which the program leaves axes away from the start of the control, as seen
+/// from a file: `leaves X inactive`.
 pub(super) fn left(run: &Run, file: &str) -> Option<String> {
     let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
     let left = run.states.at_end();

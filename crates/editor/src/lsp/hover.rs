@@ -1,4 +1,4 @@
-//! What is said about the block under the pointer (R12.3).
+//! The hover on a block (R12.3).
 
 use std::fmt::Write as _;
 
@@ -16,7 +16,7 @@ use frictcomp::syntax::ast::Item;
 use frictcomp::syntax::parse_block;
 use frictcomp::text::shown_path;
 
-/// What is said about the place under the pointer.
+/// Returns the hover at a place.
 pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
     let at = &params.text_document_position_params;
     let document = view.document(&at.text_document.uri)?;
@@ -79,7 +79,7 @@ fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
     around.next()
 }
 
-/// What a COMP command does, as the documents say it.
+/// Returns the documented effect of a COMP command.
 fn meaning(command: &CompCommand) -> String {
     let axis = plain(&command.axis);
     let (verb, kinds) = match command.selection {
@@ -101,7 +101,7 @@ fn meaning(command: &CompCommand) -> String {
     text
 }
 
-/// How an axis moves in the block.
+/// Returns the motion of an axis in the block.
 fn moving(moves: &AxisMoves) -> String {
     let AxisMoves {
         axis,

@@ -1,4 +1,4 @@
-//! What stands above a program: what it leaves, and the way to its timeline (R12.4).
+//! The lenses above a program: the states that it leaves, and the way to its timeline (R12.4).
 
 use gen_lsp_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;

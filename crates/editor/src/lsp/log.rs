@@ -1,4 +1,4 @@
-//! What is told to who keeps the log of the editor.
+//! Messages for the log of the editor.
 
 use gen_lsp_types::{LogMessageNotification, LogMessageParams, MessageType, Notification as _};
 use lsp_server::{Message, Notification};

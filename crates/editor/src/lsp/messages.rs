@@ -19,10 +19,10 @@ use frictcomp::text::Place;
 /// The source that an editor shows beside a message.
 const SOURCE: &str = "frictcomp";
 
-/// What stands before advice.
+/// Text before advice.
 const HELP: &str = "\nhelp: ";
 
-/// What a message says of a main program that reaches it.
+/// Text of a message on a main program that reaches it.
 const REACHED_FROM: &str = "reached from this program";
 
 /// Number of main programs that a message names.
@@ -36,12 +36,12 @@ pub(super) type ByText = BTreeMap<String, Vec<Message>>;
 pub(super) struct Translator<'a> {
     /// The client.
     pub(super) client: &'a Client,
-    /// What it has open.
+    /// Open documents.
     pub(super) documents: &'a Documents,
 }
 
 impl Translator<'_> {
-    /// What a check has to say, about the text itself and others.
+    /// Returns the messages of a check, on the text itself and on others.
     pub(super) fn messages(self, document: &Document, analysis: &Analysis) -> ByText {
         let mut messages = ByText::new();
         let own = messages.entry(document.uri.0.clone()).or_default();
@@ -54,7 +54,8 @@ impl Translator<'_> {
         messages
     }
 
-    /// That a text could not be checked: without a message it would look as if all were well.
+    /// Returns the message on a text that could not be checked: without it the text would look
+    /// clean.
     fn failure(self, analysis: &Analysis) -> Option<Message> {
         let failure = analysis.failure.as_ref()?;
         let help = failure.help.iter().map(|help| format!("\nhelp: {help}"));
@@ -72,7 +73,7 @@ impl Translator<'_> {
         Some(message)
     }
 
-    /// That only the first blocks were checked (R12.7).
+    /// Returns the remark that only the first blocks were checked (R12.7).
     fn shortened(analysis: &Analysis) -> Option<Message> {
         let run = analysis.run.as_ref()?;
         let blocks = run.blocks;
@@ -164,7 +165,8 @@ fn own(severity: DiagnosticSeverity, text: String) -> Message {
     }
 }
 
-/// What makes two messages about a text the same (R17.3); what to do depends on the main program.
+/// Returns the key by which two messages on a text are the same (R17.3); the advice depends on the
+/// main program.
 fn cause(message: &Message) -> String {
     let said = match &message.message {
         MessageText::String(text) => text.split(HELP).next(),
@@ -199,12 +201,12 @@ fn reach(known: &mut Message, message: &Message) {
 #[derive(Debug, Default)]
 pub(super) struct PublishedDiagnostics {
     by_check: BTreeMap<String, ByText>,
-    /// What checks of other texts say about a text, and how many of them do.
+    /// Messages of checks of other texts on a text, with the number of those checks.
     by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
     shown: ByText,
 }
 
-/// Where a message stands, its cause, and all else that tells it from others.
+/// Key of a message: its place, its cause, and the rest that tells it from others.
 type Key = (u32, u32, String, String);
 
 impl PublishedDiagnostics {

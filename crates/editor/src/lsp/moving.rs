@@ -1,4 +1,5 @@
-//! How the axes of a block move: with which compensation, and whether they reverse in it (R12.3).
+//! The motion of the axes of a block: the compensation under which they move, and their reversals
+//! (R12.3).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
@@ -17,22 +18,23 @@ use frictcomp_host::{
 /// Angles that differ by less are the same.
 const TOLERANCE: f64 = 1e-9;
 
-/// How an axis moves in a block, over all passes.
+/// Motion of an axis in a block, over all passes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AxisMoves {
     /// Its name.
     pub(super) axis: String,
-    /// How often it moves.
+    /// Number of motions.
     pub(super) times: u64,
-    /// How often it does so with friction compensation active.
+    /// Number of motions with friction compensation active.
     pub(super) compensated: u64,
-    /// How often it reverses at the beginning of the block or in it.
+    /// Number of reversals at the beginning of the block or in it.
     pub(super) reversals: u64,
     /// Whether it is not always known where it moves to.
     pub(super) is_unsure: bool,
 }
 
-/// How the axes move in the block that starts on a line, from 1; the program runs once more for it.
+/// Returns the motion of the axes in the block that starts on a line, from 1; the program runs once
+/// more for it.
 pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMoves> {
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
@@ -60,7 +62,7 @@ pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMove
     sink.found
 }
 
-/// Where an axis moved last.
+/// Direction of the last motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Direction {
     /// Nowhere yet.
@@ -151,7 +153,7 @@ impl Moves<'_> {
     }
 }
 
-/// Where an axis moves on a straight line; nowhere where it rests.
+/// Returns the direction of an axis on a straight line; none for an axis at rest.
 fn straight(from: f64, to: f64) -> Option<Direction> {
     match to.partial_cmp(&from)? {
         std::cmp::Ordering::Greater => Some(Direction::Up),
@@ -160,8 +162,8 @@ fn straight(from: f64, to: f64) -> Option<Direction> {
     }
 }
 
-/// Where an axis of the plane moves on an arc, one after the other: it turns round where the arc is
-/// farthest from the centre along it.
+/// Returns the directions of an axis of the plane on an arc, one after the other: it reverses where
+/// the arc is farthest from the centre along it.
 fn along_arc(travel: &Travel, arc: CircularArc, which: usize) -> Vec<Direction> {
     let ends = |places: &[Option<f64>]| -> Option<[f64; 2]> {
         let place = |axis: frictcomp::comp::AxisIndex| places.get(axis.get()).copied().flatten();

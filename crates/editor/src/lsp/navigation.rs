@@ -105,7 +105,7 @@ fn whole(document: &Document, outline: &Outline, mention: &Mention) -> Option<Ra
     })
 }
 
-/// Where a name comes from: a subprogram, a label, or the file that a call finds.
+/// Returns the definition of a name: a subprogram, a label, or the file that a call finds.
 pub(super) fn definition(view: &View, params: &DefinitionParams) -> Option<Location> {
     let place = &params.text_document_position_params;
     let (document, outline, found) = at(view, place, Settings::finds_names)?;
@@ -151,7 +151,7 @@ fn called(view: &View, document: &Document, name: &str) -> Option<PathBuf> {
     read.find(is_it).cloned()
 }
 
-/// Where a name is used.
+/// Returns the uses of a name.
 pub(super) fn references(view: &View, params: &ReferenceParams) -> Option<Vec<Location>> {
     let place = &params.text_document_position_params;
     let (document, outline, found) = at(view, place, Settings::finds_names)?;

@@ -11,7 +11,7 @@ use frictcomp::text::{LineIndex, Span, TextLines};
 
 pub(super) use frictcomp::syntax::Role;
 
-/// What has a name.
+/// Kind of a named thing.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Name {
     /// `%NAME`, or `%L NAME` and `LL NAME`.
@@ -27,9 +27,9 @@ pub(super) enum Name {
 pub(super) struct Mention {
     /// The name that is defined or used.
     pub(super) name: Name,
-    /// What it does here.
+    /// Role at this place.
     pub(super) role: Role,
-    /// Where it stands.
+    /// Span of the name.
     pub(super) span: Span,
 }
 

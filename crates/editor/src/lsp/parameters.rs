@@ -10,11 +10,11 @@ use frictcomp::lists::{AxisType, Field};
 pub(super) struct Page {
     /// The key in the list.
     pub(super) key: String,
-    /// What is said about it, in Markdown.
+    /// Text in Markdown.
     pub(super) text: String,
 }
 
-/// What each parameter of the value list does; chapter 3 of the rules has the sources.
+/// Returns the meaning of a parameter of the value list; chapter 3 of the rules has the sources.
 fn meaning(field: Field) -> &'static str {
     match field {
         Field::Mode => "0 switches friction compensation off, 3 on",
@@ -109,7 +109,7 @@ pub(super) fn pages_for(typed: &str, list: &str) -> Vec<Page> {
     pages.collect()
 }
 
-/// What stands in the first bracket of a key.
+/// Returns the text in the first bracket of a key.
 fn index_of(key: &str) -> Option<&str> {
     let (_, rest) = key.split_once('[')?;
     Some(rest.split(']').next().unwrap_or(rest).trim())

@@ -1,4 +1,4 @@
-//! Which questions there are, and who answers them.
+//! The requests of clients and their handlers.
 
 use gen_lsp_types::{
     CallHierarchyIncomingCallsRequest, CallHierarchyOutgoingCallsRequest,
@@ -19,12 +19,12 @@ use super::{actions, calls, commands, completion, custom, hints, hover, lens, na
 /// Answers a question with parameters that may be anything.
 pub(super) type Handler = fn(&View, Value) -> Result<Value, Refusal>;
 
-/// What a question needs.
+/// Input of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Needs {
     /// The texts.
     Texts,
-    /// What a check of the text finds that the question is about.
+    /// A result of the check of the text.
     Check,
     /// Time: no other question may wait for it.
     Time,

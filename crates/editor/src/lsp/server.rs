@@ -38,13 +38,13 @@ use super::view::View;
 use super::worker::{Cancel, Worker};
 use frictcomp_host::SharedMap;
 
-/// How long nothing has to happen before the server looks whether something is due.
+/// Time without events after which the server looks for due work.
 const IDLE: Duration = Duration::from_secs(3600);
 
 /// Questions that wait for a check; more are refused.
 const MOST_WAITING: usize = 1000;
 
-/// How the client took its leave.
+/// Form of the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shutdown {
     /// It asked for the end, and then ended the server.

@@ -1,4 +1,4 @@
-//! What the user of an editor chose (R12.4, R12.7).
+//! Settings of the user of an editor (R12.4, R12.7).
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ pub(super) const MAX_BLOCKS: u64 = 500_000;
 /// Whether an outline, definitions, references, folding and renaming are offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
-    /// What ISG's extension does not offer itself; all of it where the client says that it is absent.
+    /// Features that ISG's extension lacks; all of them where the client says that it is absent.
     #[default]
     Auto,
     /// They are.

@@ -15,7 +15,7 @@ const MOST_PASSES: u32 = 64;
 pub(super) struct StateSet {
     /// The states; `None` where the axis is not listed.
     states: Vec<Option<State>>,
-    /// What is possible where a state is unknown because ways differ (R14.2).
+    /// Possible states where a state is unknown because ways differ (R14.2).
     possible: Vec<PossibleStates>,
 }
 
@@ -80,7 +80,7 @@ const NONE: u32 = u32::MAX;
 struct Visit {
     before: SetIndex,
     after: SetIndex,
-    /// How often; 0 where the block was not executed.
+    /// Number of executions; 0 for a block that was not executed.
     times: u32,
     /// The next pass with other states.
     next: u32,
@@ -110,7 +110,7 @@ pub(super) struct Pass<'a> {
     pub(super) before: &'a StateSet,
     /// The states after it.
     pub(super) after: &'a StateSet,
-    /// How often.
+    /// Number of executions.
     pub(super) times: u32,
 }
 
@@ -302,7 +302,8 @@ impl StateBook {
         })
     }
 
-    /// What becomes possible for an axis where ways meet; only that it is unknown where passes differ.
+    /// Returns the states that become possible for an axis where ways join; only `unknown` where
+    /// passes differ.
     fn meets(&self, axis: usize, passes: &[(SetIndex, SetIndex)], file: &str) -> Option<String> {
         let joined = passes.iter().filter_map(|(before, after)| {
             let (before, after) = (self.set(*before), self.set(*after));

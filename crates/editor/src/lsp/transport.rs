@@ -19,10 +19,10 @@ const LONGEST: u64 = 1 << 30;
 /// The longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
 
-/// How many messages wait for the server before the client has to.
+/// Number of messages that wait for the server before the client has to.
 const AHEAD: usize = 64;
 
-/// How long the last messages may take to be written.
+/// Time limit for writing the last messages.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A client at the other end of standard input and output.

@@ -1,4 +1,5 @@
-//! Which open texts use which files, so that a change is looked up and not looked for (R12.16).
+//! The open texts by the files that they use, so that a change is looked up and not searched for
+//! (R12.16).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,14 +10,14 @@ use super::documents::{Document, Kind};
 /// The URIs of texts.
 type Uris = BTreeSet<String>;
 
-/// What the checks of the open texts have read and looked for.
+/// Files that the checks of the open texts have read and looked for.
 #[derive(Debug, Default)]
 pub(super) struct Users {
     /// The texts whose checks read a file.
     readers: BTreeMap<PathBuf, Uris>,
     /// The texts whose checks called a program of a name, in lower case and without its extension.
     callers: BTreeMap<String, Uris>,
-    /// What each text is in.
+    /// Files of each text.
     noted: BTreeMap<String, Noted>,
 }
 

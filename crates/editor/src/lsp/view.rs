@@ -1,4 +1,5 @@
-//! What a question is answered from: the texts and what was found in them, as they are at one moment.
+//! The snapshot from which a request is answered: the texts and the results of their checks at one
+//! moment.
 
 use std::sync::Arc;
 
@@ -13,16 +14,16 @@ use super::worker::Cancel;
 use frictcomp::text::shown_path;
 use frictcomp_host::SharedMap;
 
-/// What a question is answered from. A copy is cheap, and stays as it is.
+/// Snapshot from which a request is answered. A copy is cheap, and does not change.
 #[derive(Clone)]
 pub(super) struct View {
     /// The client.
     pub(super) client: Arc<Client>,
-    /// What it has open.
+    /// Open documents.
     pub(super) documents: Documents,
-    /// What was found in the open texts, by their URIs.
+    /// Results of the checks of the open texts, by their URIs.
     pub(super) analyses: SharedMap<String, Arc<Analysis>>,
-    /// Which programs of the project call which.
+    /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
     /// Whether the client still wants to know.
     pub(super) cancel: Cancel,
@@ -37,7 +38,7 @@ impl View {
         }
     }
 
-    /// What was found in an open text.
+    /// Returns the result of the check of an open text.
     pub(super) fn analysis(&self, uri: &Uri) -> Option<&Analysis> {
         self.analyses.get(&uri.0).map(AsRef::as_ref)
     }
@@ -47,7 +48,8 @@ impl View {
         self.documents.get(uri).map(AsRef::as_ref)
     }
 
-    /// What was found in a text, and in others that use it, in the order of their URIs.
+    /// Returns the results of the checks of a text, and of others that use it, in the order of
+    /// their URIs.
     pub(super) fn analyses_of(&self, document: &Document) -> Vec<(&str, &Analysis)> {
         let analyses = self.analyses.iter();
         let analyses = analyses.map(|(uri, analysis)| (uri.as_str(), analysis.as_ref()));

@@ -2,7 +2,7 @@
 
 use frictcomp::diagnostic::{Advice, Budget};
 
-/// How an editor words advice; `None` where the general words will do.
+/// Words advice for an editor; `None` where the general words will do.
 pub(super) fn editor(advice: &Advice) -> Option<String> {
     Some(match advice {
         Advice::RaiseBudget(Budget::Blocks) => {

@@ -1,4 +1,4 @@
-//! What a control answered.
+//! The answers of a control.
 
 use std::collections::BTreeMap;
 
@@ -16,13 +16,13 @@ pub struct Answer {
     pub axis: String,
     /// The build that the programs were written for.
     pub build: Option<CncBuild>,
-    /// What follows from it.
+    /// Conclusion from it.
     pub verdict: AnswerVerdict,
-    /// What it was concluded from, or why nothing is.
+    /// Evidence for the conclusion, or the reason for none.
     pub evidence: String,
 }
 
-/// What follows from an answer.
+/// Conclusion from an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnswerVerdict {
     /// The control follows the reading.
@@ -156,7 +156,7 @@ fn value(values: &Values, word: &str) -> Result<bool, String> {
     }
 }
 
-/// What must have been so for the answer to count.
+/// Checks a condition for the answer to count.
 fn require(values: &Values, (word, wanted): (&str, bool), otherwise: &str) -> Result<(), String> {
     if value(values, word)? == wanted {
         Ok(())

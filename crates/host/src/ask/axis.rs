@@ -13,6 +13,7 @@ pub struct AskedAxis {
     pub index: usize,
     /// The build of the control.
     pub build: Option<CncBuild>,
-    /// How far it may move, in mm or degrees, from where it stands in the positive direction and back.
+    /// Permitted travel in mm or degrees, from the present position in the positive direction and
+    /// back.
     pub travel: f64,
 }

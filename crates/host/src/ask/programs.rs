@@ -12,7 +12,7 @@ use frictcomp::readings::{Question, Way};
 /// The word with which each line of an answer begins.
 pub(super) const TAG: &str = "frictcomp-ask";
 
-/// What stands for a build that nobody gave.
+/// Mark for a build that was not given.
 const NO_BUILD: &str = "?";
 
 /// A program that asks.
@@ -26,16 +26,16 @@ pub struct AskedFile {
     pub text: String,
 }
 
-/// What a question needs, in plain words.
+/// Instructions for a question, in plain words.
 pub(super) struct Script {
-    /// What must be so before.
+    /// Conditions before the run.
     before: String,
-    /// What moves.
+    /// Motion.
     moves: String,
     /// The programs; where there are two, what is done between them.
     parts: Vec<String>,
     between: &'static str,
-    /// How the answer is read.
+    /// Way to read the answer.
     read: String,
 }
 
@@ -132,7 +132,7 @@ const STATE: &str = "V.A.FRICT_COMP_ACTIVE.@";
 
 const NOTHING_MOVES: &str = "nothing";
 
-/// What an axis needs on which the state itself is looked at.
+/// Requirement on an axis whose state itself is examined.
 const ACTIVE: &str = "the axis has P-AXIS-00522 = 1 and a value list that the control took; nothing has \
     switched it since the start of the control; message.txt is empty";
 
@@ -170,7 +170,7 @@ fn spanning(between: &'static str) -> Script {
     }
 }
 
-/// What is done for a question; `None` where nothing can be run.
+/// Returns the instructions for a question; `None` where there is nothing to run.
 fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
     if question.facts().way == Way::Recording {
         let (part, moves) = motion(question, axis);
@@ -266,7 +266,7 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
     })
 }
 
-/// What stands beside the programs: how all of it is done, and the notes that need no program.
+/// Returns the text beside the programs: the whole procedure, and the notes that need no program.
 pub fn readme(axis: &AskedAxis) -> String {
     let mut text = String::from(
         "Programs that ask the control what its documents leave open.\n\n\
@@ -306,7 +306,7 @@ pub fn readme(axis: &AskedAxis) -> String {
     text
 }
 
-/// What each answer to a question begins with.
+/// Returns the beginning of each answer to a question.
 pub(super) fn tag(question: Question, axis: &AskedAxis) -> String {
     let build = axis
         .build

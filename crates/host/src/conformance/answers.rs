@@ -1,4 +1,4 @@
-//! What a control answered, beside what is expected (R15.11).
+//! The answers of a control beside the expectations (R15.11).
 
 use std::collections::BTreeMap;
 
@@ -54,7 +54,7 @@ impl Answers {
         }
     }
 
-    /// How many there are.
+    /// Returns the number of answers.
     pub fn len(&self) -> usize {
         self.states.len() + self.refusals.len()
     }
@@ -93,7 +93,7 @@ impl Answers {
         }
     }
 
-    /// What differs from some expectations; `None` where none of them is answered.
+    /// Returns the differences from some expectations; `None` where none of them is answered.
     fn judge(&self, case: &Case, expected: &[Expectation]) -> Option<Vec<Mismatch>> {
         let refused = self.refusals.get(&case.name);
         let mut is_answered = refused.is_some();

@@ -19,7 +19,7 @@ use frictcomp::text::shown_path;
 pub struct CaseError {
     /// The file of the case.
     pub file: PathBuf,
-    /// What is wrong with it.
+    /// The fault.
     pub message: String,
 }
 
@@ -33,7 +33,7 @@ pub struct CaseFile {
     pub text: String,
 }
 
-/// When a state is looked at.
+/// Moment at which a state is examined.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Moment {
     /// After the last execution of the block that begins on this line.
@@ -51,14 +51,14 @@ impl fmt::Display for Moment {
     }
 }
 
-/// What is expected at one point.
+/// Expectation at one point.
 #[derive(Debug, Clone)]
 pub enum Expectation {
     /// The state of a kind on an axis.
     State {
         /// The file with the block, or the main program that ends.
         program: String,
-        /// When it is looked at.
+        /// Moment of the examination.
         after: Moment,
         /// The axis.
         axis: String,
@@ -96,21 +96,21 @@ pub struct Case {
     pub rule: String,
     /// The document that says so; `None` where it is assumed.
     pub source: Option<String>,
-    /// What it shows, in one sentence.
+    /// Subject in one sentence.
     pub about: String,
     /// Programs and lists.
     pub files: Vec<CaseFile>,
-    /// What runs, in this order: names of programs, `reset` and `restart`.
+    /// Sequence of the run: names of programs, `reset` and `restart`.
     pub run: Vec<String>,
     /// The machine as a `frictcomp.toml`.
     pub machine: String,
-    /// What holds in any case.
+    /// Expectations in any case.
     pub expected: Vec<Expectation>,
-    /// What holds under each reading, where the documents leave it open.
+    /// Expectations under each reading, where the documents leave it open.
     pub readings: Vec<(Alternative, Vec<Expectation>)>,
 }
 
-/// What happens between two programs.
+/// Events between two programs.
 pub(super) const BETWEEN: [&str; 2] = ["reset", "restart"];
 
 /// The tables of a `frictcomp.toml` in a case.

@@ -1,4 +1,4 @@
-//! What came out of a case.
+//! The outcome of a case.
 
 use std::path::PathBuf;
 
@@ -7,31 +7,31 @@ use std::path::PathBuf;
 pub struct Mismatch {
     /// The file of the case.
     pub file: PathBuf,
-    /// What is expected, and under which reading.
+    /// Expected state, with the reading.
     pub expected: String,
-    /// What was found.
+    /// Found state.
     pub found: String,
 }
 
-/// What came out of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone, Default)]
 pub struct CaseOutcome {
     /// Whether the documents leave it open.
     pub is_undecided: bool,
-    /// What does not hold; nothing where the case holds.
+    /// Failed expectations; none where the case holds.
     pub failed: Vec<Mismatch>,
 }
 
-/// What came out of all cases.
+/// Outcome of all cases.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
-    /// How many there are.
+    /// Number of cases.
     pub cases: usize,
-    /// How many hold, with those that are undecided and hold under both readings.
+    /// Number of cases that hold, with those that are undecided and hold under both readings.
     pub held: usize,
-    /// How many the documents leave open.
+    /// Number of cases that the documents leave open.
     pub undecided: usize,
-    /// What does not hold.
+    /// Failed expectations.
     pub failed: Vec<Mismatch>,
 }
 

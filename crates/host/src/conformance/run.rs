@@ -34,7 +34,7 @@ struct Seen {
     states: Vec<(String, Kind, State)>,
 }
 
-/// What a run of a case showed.
+/// Result of the run of a case.
 #[derive(Default)]
 struct Run {
     seen: Vec<Seen>,
@@ -149,7 +149,7 @@ fn states(view: StateView<'_>) -> Vec<(String, Kind, State)> {
     view.axes().flat_map(of_axis).collect()
 }
 
-/// What was found where an expectation does not hold.
+/// Returns the state found where an expectation does not hold.
 fn found(expected: &Expectation, run: &Run, machine: &Machine) -> Option<String> {
     match expected {
         Expectation::State {

@@ -17,7 +17,7 @@ pub struct ReplayPlace {
     pub line: u32,
 }
 
-/// What tells that a change of the machine is the one of the dry run.
+/// Evidence that a change of the machine is the one of the dry run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReplayedBy {
     /// The line of the program.
@@ -51,7 +51,7 @@ pub struct MatchedChange {
     pub t_s: f64,
     /// Whether friction compensation is active from there on.
     pub active: bool,
-    /// What tells that both are the same.
+    /// Evidence that both are the same.
     pub by: ReplayedBy,
 }
 
@@ -62,15 +62,15 @@ pub struct Disagreement {
     pub at: Option<ReplayPlace>,
     /// The time of the recording in seconds.
     pub t_s: f64,
-    /// What the machine did: `active` or `inactive`.
+    /// Recorded state: `active` or `inactive`.
     pub recorded: &'static str,
-    /// What the dry run says: `active`, `inactive` or `unknown`.
+    /// State of the dry run: `active`, `inactive` or `unknown`.
     pub dry_run: &'static str,
     /// In words.
     pub why: String,
     /// The rules of the open questions on which the block depends.
     pub rests_on: Vec<&'static str>,
-    /// What the state of the dry run depends on and is not known.
+    /// Unknown values on which the state of the dry run depends.
     pub unknown: Vec<String>,
 }
 
@@ -81,16 +81,16 @@ pub struct ReplayedAxis {
     pub name: String,
     /// The changes in which both agree, before the disagreement where there is one.
     pub changes: Vec<MatchedChange>,
-    /// Where they do not.
+    /// The first disagreement.
     pub disagreement: Option<Disagreement>,
 }
 
-/// What both are compared by.
+/// Measure by which both are compared.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     /// Blocks are known by their block numbers, not by their lines.
     pub(super) by_number: bool,
-    /// What positions may differ by, in mm or degrees.
+    /// Tolerance of positions, in mm or degrees.
     pub(super) tolerance: f64,
     /// The rules of the open questions on which the state at the start depends.
     pub(super) of_start: &'static [&'static str],

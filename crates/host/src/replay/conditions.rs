@@ -1,4 +1,4 @@
-//! What only the machine knows, and the answers that are tried.
+//! The conditions that only the machine knows, and the answers that are tried.
 
 use std::sync::Arc;
 
@@ -108,7 +108,7 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// What is open, each with the answers that differ.
+/// Open condition, with the answers that differ.
 enum Knob {
     Variable { name: String, values: Vec<f64> },
     Level(u8),

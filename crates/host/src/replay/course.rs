@@ -19,7 +19,7 @@ use frictcomp::timeline::{EndedBy, PositionFrame, Record, Row, StateView};
 /// Executed blocks at most; they are kept until the recording is laid beside them.
 const MAX_STEPS: usize = 4_000_000;
 
-/// What the dry run of all programs showed.
+/// Course of the dry run of all programs.
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) steps: Vec<Step>,
@@ -50,7 +50,7 @@ pub(super) struct AxisCourse {
     /// Whether friction compensation is active at first; `None` where it is unknown.
     pub(super) start: Option<bool>,
     pub(super) switches: Vec<Switch>,
-    /// Where it stands, in mm or degrees of the machine.
+    /// Position in mm or degrees of the machine.
     position: Option<f64>,
 }
 
@@ -60,9 +60,9 @@ pub(super) struct Switch {
     pub(super) at: usize,
     /// Whether friction compensation is active from there on; `None` where it is unknown.
     pub(super) to: Option<bool>,
-    /// Where the axis stands before and after the block, where that is known.
+    /// Positions of the axis before and after the block, where they are known.
     pub(super) positions: Option<[f64; 2]>,
-    /// What the state depends on where it is unknown.
+    /// Value on which an unknown state depends.
     pub(super) unknown: Option<String>,
 }
 
@@ -148,7 +148,7 @@ impl Course {
         self.stand(row);
     }
 
-    /// Where the axes stand after a block.
+    /// Notes the positions of the axes after a block.
     fn stand(&mut self, row: &Row<'_>) {
         let last = self.steps.len().saturating_sub(1);
         for (axis, name) in row.state.axes() {
@@ -165,7 +165,7 @@ impl Course {
         }
     }
 
-    /// What a block on one of several ways changes is unknown.
+    /// Notes that the changes of a block on one of several ways are unknown.
     fn branch(&mut self, row: &Row<'_>) {
         let at = self.steps.len().saturating_sub(1);
         for change in row.changes.iter().filter(|it| it.kind == Kind::Frict) {

@@ -1,4 +1,4 @@
-//! What a machine did, from a recording of the states of friction compensation, beside the dry run of its
+//! The comparison of a recording of the states of friction compensation with the dry run of the
 //! programs (R15.20).
 
 mod beside;

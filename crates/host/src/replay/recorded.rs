@@ -14,7 +14,7 @@ use frictcomp_recordings::trace::{
 /// 0.1 µm in a millimetre.
 const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
 
-/// Which channels are what.
+/// Meaning of the channels.
 #[derive(Debug, Clone, Default)]
 pub struct ReplayChannels {
     /// The channel of the times, and units of channels.
@@ -31,7 +31,7 @@ pub struct ReplayChannels {
     pub program: Option<String>,
 }
 
-/// What was recorded of all axes.
+/// Recording of all axes.
 #[derive(Debug, Clone)]
 pub struct StateRecording {
     /// Each axis whose state was recorded.
@@ -40,7 +40,7 @@ pub struct StateRecording {
     pub(super) by_number: bool,
 }
 
-/// What was recorded of an axis.
+/// Recording of an axis.
 #[derive(Debug, Clone)]
 pub struct RecordedAxis {
     /// Its name.
@@ -305,7 +305,7 @@ impl Samples<'_> {
         times.ok_or_else(|| TraceError::NoTimes(self.path.to_owned()))
     }
 
-    /// What a channel holds at two times; `None` where it had not begun.
+    /// Returns the values of a channel at two times; `None` where it had not begun.
     fn around(
         &self,
         channel: ChannelIndex,

@@ -10,27 +10,27 @@ use crate::input::Input;
 use frictcomp::readings::Question;
 use frictcomp::session::SessionOptions;
 
-/// What is laid beside a recording.
+/// Programs to compare with a recording.
 pub struct Replay<'a> {
     /// The programs, one after the other.
     pub inputs: &'a [Input],
     /// Their machine.
     pub loaded: &'a LoadedMachine,
-    /// How they run.
+    /// Options of their run.
     pub options: SessionOptions,
-    /// What positions may differ by, in mm or degrees.
+    /// Tolerance of positions, in mm or degrees.
     pub tolerance: f64,
 }
 
-/// What came out of it.
+/// Result of the comparison.
 #[derive(Debug, Clone)]
 pub struct Replayed {
     /// Each axis of the recording.
     pub axes: Vec<ReplayedAxis>,
     /// The conditions that the recording decides.
     pub decided: Vec<TriedCondition>,
-    /// How many combinations of answers to the conditions of the programs were tried, and how many of them
-    /// agree with the recording.
+    /// Number of combinations of answers to the conditions of the programs that were tried, and of
+    /// those that agree with the recording.
     pub ways: [usize; 2],
     /// Why the dry run does not reach the end of the programs.
     pub stopped: Option<String>,

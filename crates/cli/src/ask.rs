@@ -271,7 +271,7 @@ fn told(answers: &[Answer]) -> String {
     text
 }
 
-/// What the reading in force rests on, in words.
+/// Returns the basis of the reading in force, in words.
 fn basis(question: Question, machine: &Machine, build: Option<CncBuild>) -> String {
     let readings = &machine.readings;
     let name = readings.name(question);

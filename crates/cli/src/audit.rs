@@ -86,13 +86,13 @@ pub(super) struct AuditArgs {
     execution: ExecutionArgs,
 }
 
-/// How often each program runs.
+/// Number of runs of each program.
 const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
 
 /// Programs that are named of those that one block mends.
 const MOST_NAMES: usize = 20;
 
-/// Which programs are changed.
+/// Programs to change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Fix {
     /// Those that leave an axis away from its start-up state: a command before the end
@@ -227,7 +227,7 @@ impl AuditArgs {
         self.fail_on.status(&counts)
     }
 
-    /// What happens in a given order.
+    /// Follows the programs in a given order.
     fn follow(
         &self,
         order: &Path,
@@ -367,7 +367,7 @@ fn say_roots(changes: &[MendedProgram]) {
     }
 }
 
-/// What `--write` would do.
+/// Returns the effect of `--write` in words.
 fn to_write(changes: &[MendedProgram]) -> String {
     let files = changes.iter().filter_map(|change| change.file.as_ref());
     let blocks: usize = files.clone().map(|file| file.changes).sum();

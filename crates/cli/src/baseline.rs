@@ -28,7 +28,7 @@ pub(super) struct BaselineArgs {
     baseline: Option<PathBuf>,
 }
 
-/// What makes two findings the same, wherever their block stands in its file.
+/// Key by which two findings are the same, wherever their block is in its file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct Finding {
     file: String,
@@ -58,19 +58,19 @@ struct BaselineFile {
     unlisted: BTreeMap<String, u64>,
 }
 
-/// What is done with findings.
+/// Treatment of findings.
 #[derive(Default)]
 pub(super) struct Baseline {
     /// The findings that are known and were not met yet, or those that are written.
     findings: BTreeMap<Finding, u64>,
     unlisted: BTreeMap<String, u64>,
     purpose: Purpose,
-    /// How many findings were known, and how many of them are errors.
+    /// Number of known findings, and of errors among them.
     known: u64,
     errors: u64,
 }
 
-/// What a baseline is there for.
+/// Purpose of a baseline.
 #[derive(Default)]
 enum Purpose {
     /// There is none: everything is listed.

@@ -24,7 +24,7 @@ pub(super) struct MotionChannels {
 }
 
 impl MotionChannels {
-    /// What the user says about the channels.
+    /// Returns the user's selection of channels.
     pub(super) fn selection(&self) -> ChannelSelection {
         ChannelSelection {
             time: self.time.clone(),
@@ -50,7 +50,7 @@ pub(super) struct AxisChannels {
 }
 
 impl AxisChannels {
-    /// What the user says about the channels.
+    /// Returns the user's selection of channels.
     pub(super) fn selection(&self) -> ChannelSelection {
         ChannelSelection {
             axis: self.axis.clone(),
@@ -80,7 +80,7 @@ enum Compensation {
 }
 
 impl TorqueArgs {
-    /// What is known of the torque, with what the user says about it.
+    /// Returns the known properties of the torque, with those given by the user.
     pub(super) fn measured(&self, recorded: Measured) -> Measured {
         let said = self.compensation.map(|state| match state {
             Compensation::On => Switched::On,

@@ -229,7 +229,7 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, cons
 /// A program and the machine that it runs on.
 type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
-/// How many programs are checked since a revision.
+/// Returns the number of programs checked since a revision, in words.
 fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
     match changed {
         0 => format!("none of {all} programs differs from `{revision}` or reaches one that does"),
@@ -237,7 +237,7 @@ fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
     }
 }
 
-/// What is checked: paths, and the revision with its name where only what changed is.
+/// Subject of the check: paths, and the revision with its name where only changed programs count.
 struct Since {
     paths: Vec<PathBuf>,
     revision: Option<(String, Revision)>,
@@ -368,7 +368,7 @@ impl CheckArgs {
         mains.iter().filter(|is_main| !**is_main).count()
     }
 
-    /// What each program has to say by itself, in their order.
+    /// Returns the messages of each program by itself, in their order.
     fn checked<'a>(&self, jobs: Vec<Job<'a>>, failures: &mut Failures) -> Vec<Checked<'a>> {
         let workers = self.jobs.unwrap_or_else(processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
@@ -392,7 +392,7 @@ impl CheckArgs {
         all
     }
 
-    /// Which of the programs count by themselves.
+    /// Returns the programs that count by themselves.
     fn mains(&self, checked: &[Checked<'_>]) -> Vec<bool> {
         if self.all {
             return vec![true; checked.len()];
@@ -405,7 +405,7 @@ impl CheckArgs {
     }
 }
 
-/// What is said of programs that were checked only in their callers.
+/// Returns the remark on programs that were checked only in their callers.
 fn in_callers_remark(programs: usize) -> String {
     match programs {
         0 => String::new(),
@@ -425,10 +425,10 @@ struct Checked<'a> {
     found: Found,
 }
 
-/// What a program has to say.
+/// Messages of a program.
 struct Found {
     findings: Findings,
-    /// How many more messages there are, by severity (R2.85).
+    /// Number of further messages, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
     /// Its feed moves without compensation, by axes.
     uncompensated: Vec<(String, Uncompensated)>,

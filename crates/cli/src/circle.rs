@@ -147,7 +147,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// Which channels of a recorded circle are its positions.
+/// Returns the channels of a recorded circle that are its positions.
 fn channels(args: &CircleArgs) -> CircleChannels {
     CircleChannels {
         names: [args.x_channel.clone(), args.y_channel.clone()],
@@ -158,7 +158,7 @@ fn channels(args: &CircleArgs) -> CircleChannels {
     }
 }
 
-/// What is simulated, and where the value lists come from.
+/// Returns the simulation, and the origin of the value lists.
 fn simulation(
     args: &CircleArgs,
     registry: &FileRegistry,

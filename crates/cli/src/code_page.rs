@@ -22,8 +22,8 @@ const UNICODE: u16 = 65001;
 pub(super) struct CodePage(u16);
 
 impl CodePage {
-    /// That of the console that a pipe leads back to; `None` where text in UTF-8 is right: in files, on
-    /// a terminal, without a console, outside Windows.
+    /// Returns the code page of the console that a pipe leads back to; `None` where text in UTF-8
+    /// is right: in files, on a terminal, without a console, outside Windows.
     pub(super) fn behind(stream: &impl Stream) -> Option<Self> {
         Self::new(console::of_pipe(stream)?)
     }
@@ -61,7 +61,7 @@ impl CodePage {
     }
 }
 
-/// What stands for a letter that a code page lacks.
+/// Returns the replacement of a letter that a code page lacks.
 fn in_ascii(letter: char) -> String {
     let sign = match letter {
         '◄' | '⟨' => "<",

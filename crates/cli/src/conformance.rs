@@ -38,11 +38,11 @@ pub(super) struct ConformanceArgs {
     result: ResultArgs,
 }
 
-/// What the answers of a control say besides the totals.
+/// Verdicts on the answers of a control besides the totals.
 #[derive(Default)]
 struct Answered {
     unanswered: usize,
-    /// Which reading the control follows.
+    /// Readings that the control follows.
     readings: Vec<(String, &'static str)>,
 }
 

@@ -1,4 +1,4 @@
-//! Where results and messages go: results to stdout, messages to stderr (R9.27).
+//! The destinations of results and messages: results to stdout, messages to stderr (R9.27).
 
 use std::io::{self, IsTerminal, Write};
 
@@ -35,15 +35,15 @@ pub(super) enum Color {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Console {
     color: Color,
-    /// What `--width` says.
+    /// Value of `--width`.
     width: Option<usize>,
     remarks: Remarks,
     written: Written,
-    /// What `--force` lets every output take the place of.
+    /// Files that every output may replace by `--force`.
     forced: Option<Replaces>,
 }
 
-/// What goes to standard output.
+/// Contents of standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Written {
     /// Text for people.
@@ -52,7 +52,7 @@ pub(super) enum Written {
     Records,
 }
 
-/// What becomes of remarks beside the results.
+/// Treatment of remarks besides the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Remarks {
     Said,
@@ -111,7 +111,7 @@ impl Console {
         Self { forced, ..self }
     }
 
-    /// What an output may take the place of.
+    /// Returns the files that an output may replace.
     pub(super) fn replaces(self, replaces: Replaces) -> Replaces {
         self.forced.unwrap_or(replaces)
     }
@@ -141,7 +141,7 @@ impl Console {
         }
     }
 
-    /// How text looks in a file.
+    /// Returns the appearance of text in a file.
     pub(super) fn file_look(self) -> Look {
         let paint = match self.color {
             Color::Always => Paint::Styled,

@@ -144,7 +144,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
-/// What ends a contour before the program ends.
+/// Checks for a reason to end a contour before the program ends.
 fn check(contour: &mut ProgramContour<ContourRecorder<'_>>) -> Result<(), Failure> {
     match contour.sink().take_error() {
         Some(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -209,7 +209,7 @@ impl ContourArgs {
         })
     }
 
-    /// What is kept or written while the contour is made.
+    /// Returns the recorder of the parts kept or written while the contour is made.
     fn recorder<'a>(
         &self,
         options: &ContourOptions,
@@ -231,7 +231,7 @@ impl ContourArgs {
     }
 }
 
-/// What there is to say: errors of the program, remarks on the trace.
+/// Returns the messages: errors of the program, remarks on the trace.
 fn said(contour: &ProgramContour<ContourRecorder<'_>>, loaded: &LoadedMachine) -> Vec<Diagnostic> {
     let (errors, remarks) = contour.diagnostics();
     let mut said = errors.to_vec();

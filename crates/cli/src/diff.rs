@@ -150,7 +150,8 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
-/// Whose machine both versions run on, where that is no matter of course (R17.4).
+/// Returns the remark on the owner of the machine of both versions, where it is not obvious
+/// (R17.4).
 fn remark(machine: &MachineOfVersions) -> Option<String> {
     let taken = shown_path(machine.new.origin.as_ref()?);
     match &machine.owner {
@@ -190,7 +191,7 @@ pub(super) fn contours(
     })
 }
 
-/// What a version switches.
+/// Returns the switches of a version.
 pub(super) fn version_of(
     args: &DiffArgs,
     input: &Input,

@@ -212,7 +212,7 @@ fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<P
     pairs
 }
 
-/// What comparisons need.
+/// Inputs of comparisons.
 struct Comparer<'a> {
     args: &'a DiffArgs,
     revision: &'a str,

@@ -64,7 +64,7 @@ fn parse_slave(text: &str) -> Result<SlaveOfAxis, String> {
     })
 }
 
-/// What is known besides the lists.
+/// Returns the sources besides the lists.
 fn evidence(args: &DriveArgs, registry: &FileRegistry) -> Result<Evidence, Failure> {
     let mut evidence = Evidence::default();
     let disk = Disk::default();
@@ -100,7 +100,7 @@ fn unread(error: &XmlError) -> Failure {
     )
 }
 
-/// What is known about the drives of a list.
+/// Returns the evidence on the drives of a list.
 fn drives(report: &ListsReport, evidence: &Evidence) -> Vec<DriveReport> {
     let of_axis = |axis: &str| report.accepted.iter().find(|it| it.axis == axis);
     let drives = report.reports.iter().map(|axis| {

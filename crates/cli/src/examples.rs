@@ -2,7 +2,7 @@
 
 use clap::Command;
 
-/// What a command shows that it can do, by its name below the tool.
+/// Examples of a command, by its name below the tool.
 struct Examples {
     command: &'static [&'static str],
     lines: [&'static str; 2],
@@ -213,10 +213,10 @@ const COMMISSION: [&str; 2] = [
     "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
 ];
 
-/// What the tool itself shows.
+/// Examples of the tool itself.
 const FIRST: [&str; 2] = ["frictcomp run mill.nc", "frictcomp check programs"];
 
-/// What the exit status says, below the tool's own help.
+/// Meaning of the exit status, below the tool's own help.
 const STATUS: &str = "Exit status: 0 no message at --fail-on or above, 1 at least one, \
                       2 frictcomp could not do its work.";
 

@@ -1,4 +1,4 @@
-//! What limits a dry run on the command line.
+//! The limits of a dry run on the command line.
 
 use std::num::NonZeroU64;
 
@@ -46,7 +46,7 @@ pub(super) struct ExecutionArgs {
 }
 
 impl ExecutionArgs {
-    /// How programs run.
+    /// Returns the options of programs.
     pub(super) fn run(&self, stop: StopPolicy) -> Options {
         let limits = Limits::default();
         let limits = Limits {

@@ -1,4 +1,4 @@
-//! What the exit status says (R9.26).
+//! The meaning of the exit status (R9.26).
 
 /// Nothing at or above `--fail-on` was said.
 pub(super) const CLEAN: u8 = 0;

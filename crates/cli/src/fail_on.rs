@@ -47,7 +47,7 @@ impl FailOn {
         }
     }
 
-    /// What is said about states that are not known, where they give the status 1.
+    /// Returns the remark on unknown states, where they give the status 1.
     pub(super) fn unknown_remark(self, unknown: &BTreeSet<String>) -> Option<String> {
         let named: Vec<&str> = unknown.iter().map(String::as_str).collect();
         let named = named.join(", ");
@@ -66,7 +66,7 @@ impl FailOn {
     }
 }
 
-/// How a kind of an axis is named where its state is not known.
+/// Returns the name of a kind of an axis whose state is unknown.
 pub(super) fn of_axis(axis: &str, kind: Kind) -> String {
     format!("`{kind}` of `{axis}`")
 }

@@ -21,7 +21,7 @@ pub(super) fn shown(path: &Path) -> String {
 pub(super) struct Failure {
     /// One sentence in lower case.
     pub(super) message: String,
-    /// What to do.
+    /// Advice.
     pub(super) help: Vec<String>,
     /// The lines of a configuration or list that are the reason.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -68,7 +68,7 @@ impl From<HostError> for Failure {
     }
 }
 
-/// What to do on the command line, where the host has no advice of its own.
+/// Returns the advice in options of the command line, where the host has none of its own.
 fn options_for(error: &HostError) -> Option<String> {
     let help = match error {
         HostError::ReplacesSource { .. } => "name another file, or use `--force` to replace it",

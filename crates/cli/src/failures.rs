@@ -1,11 +1,11 @@
-//! What could not be done of several things; the rest is done all the same (R9.77).
+//! Failures among several things; the rest is done all the same (R9.77).
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use frictcomp_host::HostError;
 
-/// What could not be done of several things.
+/// Failures among several things.
 #[derive(Debug, Default)]
 pub(super) struct Failures(Vec<Failure>);
 
@@ -28,7 +28,7 @@ impl Failures {
         others.0.into_iter().for_each(|it| self.push(it));
     }
 
-    /// What could be done, without the rest, which is kept.
+    /// Returns the results, and keeps the failures.
     pub(super) fn keep<T>(&mut self, (done, errors): (T, Vec<HostError>)) -> T {
         for error in errors {
             self.push(error.into());

@@ -70,7 +70,7 @@ struct Bench<'a> {
     registry: FileRegistry,
     agreed: GoldenResults,
     files: Vec<GoldenFile>,
-    /// What to say of files that are no programs.
+    /// Remark on files that are not programs.
     passed_over: String,
 }
 
@@ -212,7 +212,7 @@ impl GoldenArgs {
     }
 }
 
-/// What is agreed on of one program.
+/// Returns the agreed result of one program.
 fn result(
     program: &Input,
     (args, machines): (&GoldenArgs, &mut Machines),

@@ -181,7 +181,7 @@ fn status_of(arguments: Vec<OsString>) -> u8 {
     })
 }
 
-/// What a command writes, as its `--format` says.
+/// Returns the contents that a command writes by its `--format`.
 fn written(matches: &ArgMatches) -> Written {
     let Some((_, command)) = matches.subcommand() else {
         let format = matches.try_get_raw("format").ok().flatten();

@@ -35,8 +35,8 @@ impl SharedReport {
     }
 }
 
-/// What hears the records of a run: the timeline, the digest for a page, and who asks for the most
-/// severe message.
+/// Listeners to the records of a run: the timeline, the digest for a page, and the search for the
+/// most severe message.
 #[derive(Debug)]
 pub(super) struct Listeners<'a> {
     report: &'a SharedReport,

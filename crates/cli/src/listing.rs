@@ -95,7 +95,7 @@ impl ListingArgs {
 pub(super) struct Lister<'a> {
     args: &'a ListingArgs,
     listing: Listing<Box<dyn Write + Send>>,
-    /// Where the counts go, in place of the list.
+    /// Destination of the counts, in place of the list.
     counted: Option<Target>,
     counts: BTreeMap<(Code, Severity), u64>,
     /// Feed moves without compensation, by the names of the axes.
@@ -151,7 +151,7 @@ impl Lister<'_> {
         self.unknown.extend(states);
     }
 
-    /// What is said about them, where they count for the exit status.
+    /// Returns the remark on unknown states, where they count for the exit status.
     pub(super) fn unknown_remark(&self) -> Option<String> {
         self.args.fail_on.unknown_remark(&self.unknown)
     }
@@ -209,7 +209,7 @@ impl Lister<'_> {
         })
     }
 
-    /// What the list adds up to.
+    /// Returns the totals of the list.
     pub(super) fn tally(&self) -> &Tally {
         self.listing.tally()
     }
@@ -220,7 +220,7 @@ impl Lister<'_> {
         status.max(self.args.fail_on.unknown_status(&self.unknown))
     }
 
-    /// How to read more about what was said, once (R9.79).
+    /// Returns the hint to more about the messages, once (R9.79).
     pub(super) fn hint(&self) -> Option<String> {
         let codes = self.counts.keys();
         let most_severe =
@@ -229,7 +229,7 @@ impl Lister<'_> {
     }
 }
 
-/// Where a code is explained (R9.79).
+/// Returns the hint to the page of a code (R9.79).
 pub(super) fn explain(code: Code) -> String {
     format!("`frictcomp explain {code}` says more about {code}")
 }
@@ -271,7 +271,7 @@ fn record(code: Code, severity: Severity, count: u64) -> Value {
     })
 }
 
-/// What the programs cut with an axis without compensation.
+/// Returns the moves of an axis without compensation in the programs.
 fn cost(axis: &str, of: &Uncompensated) -> Option<String> {
     let text = feed_moves_text(&of.moves, of.axis_type)?;
     let plural = if of.programs == 1 { "" } else { "s" };
@@ -289,7 +289,7 @@ fn cost_record(axis: &str, of: &Uncompensated) -> Value {
     record
 }
 
-/// What to say of files that are no programs.
+/// Returns the remark on files that are not programs.
 pub(super) fn passed_over(files: u64) -> String {
     match files {
         0 => String::new(),
@@ -298,7 +298,7 @@ pub(super) fn passed_over(files: u64) -> String {
     }
 }
 
-/// What was found, in one line.
+/// Returns the totals in one line.
 pub(super) fn total(tally: &Tally) -> String {
     let count = |number: u64, noun: &str| {
         let plural = if number == 1 { "" } else { "s" };

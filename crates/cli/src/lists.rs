@@ -70,7 +70,7 @@ fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
     Ok(value_curves(&accepted).render(Frame::Alone))
 }
 
-/// What to say of lists that are named and are not there.
+/// Returns the remark on named lists that do not exist.
 fn lacking(missing: usize) -> String {
     match missing {
         0 => String::new(),

@@ -94,7 +94,7 @@ impl MachineArgs {
     }
 }
 
-/// What `--allow-outside` says.
+/// Returns the meaning of `--allow-outside`.
 pub(super) fn outside_policy(is_allowed: bool) -> OutsidePolicy {
     if is_allowed {
         OutsidePolicy::Allowed

@@ -1,4 +1,4 @@
-//! What `check --fix` changes and `check --diff` shows (R9.82).
+//! Changes by `check --fix`, shown by `check --diff` (R9.82).
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -22,7 +22,7 @@ use frictcomp_host::{
 };
 use frictcomp_report::{TextChange, render_unified};
 
-/// How often a change may call for another one.
+/// Number of rounds of changes that call for others.
 const MOST_PASSES: usize = 10;
 
 /// Which changes of the programs are applied or shown.
@@ -110,8 +110,8 @@ impl Bench<'_> {
         }
     }
 
-    /// What the safe changes make of the programs. What a program calls stays as it is, unless it is
-    /// one of the programs itself.
+    /// Applies the safe changes to the programs. Called programs stay as they are, unless they are
+    /// among the programs themselves.
     fn mended(&mut self, failures: &mut Failures) -> Vec<MendedFile> {
         let mut found = Vec::new();
         for (name, fixes) in self.safe_fixes(failures).of_files() {
@@ -171,7 +171,7 @@ fn changes(count: usize) -> String {
     }
 }
 
-/// What changes make of files, as a unified diff.
+/// Returns the changes of files as a unified diff.
 pub(super) fn differences<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> String {
     let mut output = String::new();
     for file in files {

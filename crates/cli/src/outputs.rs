@@ -1,5 +1,5 @@
-//! What a command writes: results to standard output or to files, which take their place at the end
-//! (R9.70).
+//! The outputs of a command: results to standard output or to files, which take their place at the
+//! end (R9.70).
 
 use std::io::Write;
 use std::path::Path;

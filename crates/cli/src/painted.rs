@@ -19,7 +19,7 @@ pub(super) fn painted(text: &str, look: Look, style: fn(&str) -> Style) -> Strin
     painted
 }
 
-/// What came, what went and where, in a difference.
+/// Returns the style of a line of a difference: added, removed, or its place.
 pub(super) fn difference(line: &str) -> Style {
     match line.as_bytes().first() {
         Some(b'+') => AnsiColor::Green.on_default(),

@@ -129,7 +129,7 @@ impl RunArgs {
         self.format.report(target.writer, options)
     }
 
-    /// What the user gave for the run, for the HTML report.
+    /// Returns the user's options of the run, for the HTML report.
     fn given<'a>(&'a self, loaded: &'a LoadedMachine) -> GivenForRun<'a> {
         GivenForRun {
             machine: loaded.origin.as_deref(),
@@ -168,7 +168,7 @@ impl RunArgs {
     }
 }
 
-/// What is set up before the first program runs.
+/// Preparation of the first program.
 struct Start<'a> {
     programs: Programs<'a>,
     loaded: &'a LoadedMachine,

@@ -1,4 +1,4 @@
-//! Which codes count, for one call (R9.72).
+//! The codes that count, for one call (R9.72).
 
 use clap::Args;
 
@@ -22,7 +22,7 @@ pub(super) struct SeverityArgs {
 }
 
 impl SeverityArgs {
-    /// Which codes count.
+    /// Returns the codes that count.
     pub(super) fn filter(&self) -> Result<CodeFilter, Failure> {
         let mut filter = CodeFilter::default();
         filter.ignore.clone_from(&self.ignore);

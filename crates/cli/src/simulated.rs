@@ -1,4 +1,4 @@
-//! What drives the path of a program, on the command line.
+//! The drives of the path of a program, on the command line.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -71,7 +71,7 @@ impl SimulationArgs {
         }
     }
 
-    /// What a contour on a machine needs, with files named so.
+    /// Returns the setup of a contour on a machine, with the naming of files.
     pub(super) fn setup(
         &self,
         (loaded, naming): (&LoadedMachine, Naming),
@@ -108,7 +108,7 @@ impl SimulationArgs {
     }
 }
 
-/// What a figure may change in µm.
+/// Tolerance of a figure in µm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tolerance(f64);
 

@@ -13,7 +13,7 @@ pub(super) struct Meant {
     report: Option<PathBuf>,
 }
 
-/// How the command was started.
+/// Form in which the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Start {
     /// By a shell or another program.

@@ -1,4 +1,4 @@
-//! Where the axes stand before a program, on the command line.
+//! The positions of axes before a program, on the command line.
 
 use clap::Args;
 
@@ -15,7 +15,7 @@ pub(super) struct StartArgs {
 }
 
 impl StartArgs {
-    /// What was given.
+    /// Returns the positions as given.
     pub(super) fn given(&self) -> &[(String, f64)] {
         &self.start
     }

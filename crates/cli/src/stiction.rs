@@ -84,7 +84,7 @@ impl StictionArgs {
     }
 }
 
-/// What to do about values that give no result.
+/// Returns the advice on values that give no result.
 fn help(error: &StictionError) -> &'static str {
     match error {
         StictionError::Nothing | StictionError::TooFew { .. } => {

@@ -11,7 +11,7 @@ use super::console::Console;
 use super::failure::{Failure, shown};
 use frictcomp_host::{ChangedFile, Disk};
 
-/// How long it must be quiet after a save: editors write a file in several steps.
+/// Pause after a save before a run: editors write a file in several steps.
 const QUIET: Duration = Duration::from_millis(100);
 
 /// Files that are saved while somebody watches.

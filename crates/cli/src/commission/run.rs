@@ -134,7 +134,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
-/// What the report has beyond the results.
+/// Returns the contents of the report beyond the results.
 fn acceptance(
     args: &RunArgs,
     report: &ResultsReport,

@@ -115,7 +115,7 @@ const OF_PROGRAMS: [&str; 15] = [
 ];
 
 impl CurrentArgs {
-    /// How the rows of a trace become cycles.
+    /// Returns the options of the way from rows of a trace to cycles.
     pub(super) fn trace_options(&self) -> Result<TraceOptions, Failure> {
         let resampling = if self.resample {
             Resampling::Done

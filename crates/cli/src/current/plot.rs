@@ -1,4 +1,4 @@
-//! What both forms of the command draw and say.
+//! Pictures and messages of both forms of the command.
 
 use std::path::Path;
 

@@ -115,7 +115,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }
 
-/// What the command line chooses over what the machine selects.
+/// Returns the reading: options of the command line over the selection of the machine.
 fn reading(args: &CurrentArgs, loaded: &LoadedMachine) -> Reading {
     args.reading.over(Reading::from(&loaded.machine.readings))
 }

@@ -84,7 +84,7 @@ fn write_csv(
     writer.flush()
 }
 
-/// What a picture says of a switch.
+/// Returns the state that a picture shows for a switch.
 fn state(switched: Switched) -> State {
     match switched {
         Switched::On => State::Active,

@@ -15,7 +15,7 @@ use frictcomp_report::pictures::AxisSample;
 /// Cycles between two looks at the clock.
 const STEP: u64 = 1 << 16;
 
-/// What a table shows, and of what.
+/// Subject and columns of a table.
 pub(super) struct TableOptions<'a> {
     pub(super) names: &'a [String],
     pub(super) columns: &'a [Column],
@@ -33,7 +33,7 @@ pub(super) struct Table {
     watch: Arc<Watch>,
     program: String,
     tracker: LineTracker,
-    /// When and at which line the trace begins, and begins anew.
+    /// Times and lines at which the trace begins, and begins anew.
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
     seen: Vec<Vec<State>>,
@@ -66,7 +66,7 @@ impl Table {
         table
     }
 
-    /// When and at which line the trace begins, and begins anew.
+    /// Returns the times and lines at which the trace begins, and begins anew.
     pub(super) fn begins(&self) -> &[(f64, u32)] {
         &self.begins
     }

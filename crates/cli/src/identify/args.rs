@@ -81,7 +81,7 @@ pub(crate) struct IdentifyArgs {
 }
 
 impl IdentifyArgs {
-    /// What a recording tells.
+    /// Returns the values identified in a recording.
     pub(super) fn identified(
         &self,
         trace: &Path,

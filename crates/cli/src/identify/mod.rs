@@ -88,7 +88,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     Ok(exit::CLEAN)
 }
 
-/// What recorded circles tell, and their value list.
+/// Returns the values identified on recorded circles, and their value list.
 fn circles(
     args: &IdentifyArgs,
     recordings: Vec<AxisRecording>,
@@ -119,7 +119,7 @@ fn circles(
     Ok(report)
 }
 
-/// What is wanted, by the options.
+/// Returns the options of an identification.
 fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
     const MOST: usize = 20;
     const LARGEST: f64 = 50.0;

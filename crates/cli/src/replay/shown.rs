@@ -9,7 +9,7 @@ use frictcomp_host::replay::{
 };
 use frictcomp_report::visible_line;
 
-/// What people read.
+/// Returns the result as text.
 pub(super) fn text(replayed: &Replayed) -> String {
     let mut text = String::new();
     for axis in &replayed.axes {
@@ -108,7 +108,7 @@ fn word(change: &MatchedChange) -> &'static str {
     if change.active { "active" } else { "inactive" }
 }
 
-/// What programs read.
+/// Returns the result as JSON.
 pub(super) fn document(replayed: &Replayed) -> Value {
     let axes = replayed.axes.iter();
     let axes: Map<String, Value> = axes.map(|it| (it.name.clone(), of_axis(it))).collect();

@@ -1,6 +1,6 @@
 //! The names that a block defines and uses: programs, jump labels, files.
 
-use super::ast::{Block, CallName, CallScope, Flow, Item, JumpTarget, Operand};
+use super::ast::{Block, BlockReference, CallName, CallScope, Flow, Item, Operand};
 use crate::text::Span;
 
 /// Kind of a named thing.
@@ -104,22 +104,22 @@ impl Names<'_> {
     }
 
     /// The labels that a statement names, in their order.
-    fn targets(&mut self, targets: [Option<&JumpTarget>; 2], statement: Span) {
+    fn targets(&mut self, targets: [Option<&BlockReference>; 2], statement: Span) {
         let mut from = statement.range().start;
         for target in targets.into_iter().flatten() {
             match target {
-                JumpTarget::Label(span) => {
+                BlockReference::Label(span) => {
                     self.label(*span, Role::Use);
                     from = span.range().end;
                 }
-                JumpTarget::Number(Operand::Number(value)) => {
+                BlockReference::Number(Operand::Number(value)) => {
                     let Some(span) = number_in(self.text, from..statement.range().end) else {
                         return;
                     };
                     from = span.range().end;
                     self.add(Named::Label, Role::Use, (numbered(*value), span));
                 }
-                JumpTarget::Number(_) | JumpTarget::Variable(_) => {}
+                BlockReference::Number(_) | BlockReference::Variable(_) => {}
             }
         }
     }

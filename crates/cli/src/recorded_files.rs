@@ -1,5 +1,6 @@
 //! The recordings in a folder.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
@@ -11,10 +12,19 @@ const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
 /// The recordings of a folder, by their names.
 pub(super) fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| {
-        Failure::new(format!(
+        let failure = Failure::new(format!(
             "cannot read the folder `{}`: {error}",
             shown_path(folder)
-        ))
+        ));
+        match error.kind() {
+            ErrorKind::NotFound => {
+                failure.with_help("make the folder, and put the recordings into it")
+            }
+            ErrorKind::NotADirectory => {
+                failure.with_help("name a folder with recordings, not a file")
+            }
+            _ => failure,
+        }
     };
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {

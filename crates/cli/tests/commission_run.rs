@@ -550,5 +550,8 @@ fn without_a_plan_there_is_nothing_to_read() {
     let folder = planned();
     std::fs::remove_dir(folder.path().join("m/recordings")).expect("removed");
     let (status, text) = run(folder.path(), &[]);
-    assert!(status == Some(2) && text.contains("recordings"), "{text}");
+    assert!(
+        status == Some(2) && text.contains("make the folder, and put the recordings into it"),
+        "{text}"
+    );
 }

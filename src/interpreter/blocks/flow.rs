@@ -20,7 +20,7 @@ use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::plain::Truth;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::text::Span;
 
 /// The counter of a `$FOR` and what it is compared with.
@@ -329,14 +329,14 @@ impl Interpreter {
 
     fn jump(
         &mut self,
-        target: &JumpTarget,
+        target: &BlockReference,
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = match target {
-            JumpTarget::Number(operand) => self.value(*operand, at)?,
-            JumpTarget::Label(name) => Value::Text(name.of(at.text).into()),
-            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
+            BlockReference::Number(operand) => self.value(*operand, at)?,
+            BlockReference::Label(name) => Value::Text(name.of(at.text).into()),
+            BlockReference::Variable(place) => self.value(Operand::Expression(*place), at)?,
         };
         let label = match &value {
             Value::Number(number) => LabelName::numbered(*number),
@@ -360,7 +360,7 @@ impl Interpreter {
             None if at.macro_depth == 0
                 && matches!(
                     target,
-                    JumpTarget::Number(Operand::Number(_)) | JumpTarget::Label(_)
+                    BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_)
                 ) =>
             {
                 // Said before the program began.

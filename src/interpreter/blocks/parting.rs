@@ -22,7 +22,7 @@ use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Flow, Item, JumpTarget, Operand};
+use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
 use crate::text::Span;
 
 impl Interpreter {
@@ -181,7 +181,7 @@ impl Interpreter {
             }
         }
         let (target, span) = jump?;
-        if let JumpTarget::Variable(_) = target {
+        if let BlockReference::Variable(_) = target {
             return None;
         }
         let exit = self.exit(&target, at).ok()?;
@@ -348,13 +348,13 @@ impl Interpreter {
     /// Returns the target of a jump that is not taken.
     pub(in crate::interpreter) fn exit(
         &mut self,
-        target: &JumpTarget,
+        target: &BlockReference,
         at: &BlockContext<'_>,
     ) -> Result<Exit, Box<Fault>> {
         let value = match target {
-            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
-            JumpTarget::Number(operand) => self.value(*operand, at)?,
-            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
+            BlockReference::Label(name) => return Ok(Exit::label(name.of(at.text))),
+            BlockReference::Number(operand) => self.value(*operand, at)?,
+            BlockReference::Variable(place) => self.value(Operand::Expression(*place), at)?,
         };
         Ok(match value {
             Value::Number(number) => Exit::Label(LabelName::numbered(number)),

@@ -10,7 +10,7 @@ use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::step::{Destination, PendingLabel, Step};
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::Fault;
-use crate::syntax::ast::{CallScope, JumpTarget, Levels, Operand, Return, Sequence};
+use crate::syntax::ast::{BlockReference, CallScope, Levels, Operand, Return, Sequence};
 use crate::text::Span;
 
 impl Interpreter {
@@ -74,15 +74,15 @@ impl Interpreter {
     /// Returns the label that a target names; `None` where it is not known offline.
     fn label_of(
         &mut self,
-        target: JumpTarget,
+        target: BlockReference,
         at: &BlockContext<'_>,
     ) -> Result<Option<LabelName>, Box<Fault>> {
         let value = match target {
-            JumpTarget::Label(name) => {
+            BlockReference::Label(name) => {
                 return Ok(Some(LabelName::Text(name.of(at.text).to_owned())));
             }
-            JumpTarget::Number(operand) => self.value(operand, at)?,
-            JumpTarget::Variable(place) => self.value(Operand::Expression(place), at)?,
+            BlockReference::Number(operand) => self.value(operand, at)?,
+            BlockReference::Variable(place) => self.value(Operand::Expression(place), at)?,
         };
         match value {
             Value::Number(number) => Ok(rounded(number).map(LabelName::Number)),

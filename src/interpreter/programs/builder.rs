@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
-use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::syntax::{
     BlockReader, ControlBlock, FastPath, Fault, LostRemarks, Part, Stretch, control_part,
     is_statement,
@@ -385,10 +385,10 @@ impl Builder {
         }
     }
 
-    fn jump(&mut self, target: &JumpTarget, at: Statement<'_>) {
+    fn jump(&mut self, target: &BlockReference, at: Statement<'_>) {
         let label = match target {
-            JumpTarget::Number(Operand::Number(number)) => LabelName::numbered(*number),
-            JumpTarget::Label(name) => LabelName::Text(name.of(at.text).to_owned()),
+            BlockReference::Number(Operand::Number(number)) => LabelName::numbered(*number),
+            BlockReference::Label(name) => LabelName::Text(name.of(at.text).to_owned()),
             _ => return,
         };
         self.jumps.push(Jump {

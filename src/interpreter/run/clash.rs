@@ -34,8 +34,9 @@ impl Says {
     fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Target> {
         let differs = |(target, value): &&(Target, Value)| {
             let mut known = other.is.iter();
+            let mut ruled_out = other.is_not.iter();
             known.any(|(of, other)| of == target && other != value)
-                || other.is_not.contains(&(target.clone(), value.clone()))
+                || ruled_out.any(|(of, other)| of == target && other == value)
         };
         let is_ruled_out = |pair: &&(Target, Value)| other.is.contains(pair);
         let found = self.is.iter().find(differs);

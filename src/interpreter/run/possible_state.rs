@@ -271,6 +271,9 @@ fn change_of(answer: &Answer, way: &Way, conditions: &[Condition]) -> Option<Way
 fn condition_of(condition: &Condition, answer: Answer, changed: Option<WayChange>) -> WayCondition {
     let (file, line) = (condition.place.file.clone(), condition.place.start().line);
     let of = |sides: u64| {
+        if let ([only], true) = (condition.texts.as_slice(), sides & 1 != 0) {
+            return Arc::clone(only);
+        }
         let texts = condition.texts.iter().enumerate();
         let texts = texts.filter(|(place, _)| sides & (1 << place) != 0);
         let texts: Vec<&str> = texts.map(|(_, text)| &**text).collect();

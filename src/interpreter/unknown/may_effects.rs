@@ -30,8 +30,8 @@ use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::ast::{
-    Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
-    Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
+    Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
+    Hash as HashCommand, Item, Levels, Node, Operand, Owner, Word,
 };
 use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number};
 use crate::text::Span;
@@ -229,8 +229,8 @@ impl MayEffects<'_> {
         let (unit, entry) = self.place;
         let index = self.run.programs.index(unit);
         match flow {
-            Flow::Goto(JumpTarget::Label(name)) => self.exit(Exit::label(name.of(at.text))),
-            Flow::Goto(JumpTarget::Number(Operand::Number(number))) => {
+            Flow::Goto(BlockReference::Label(name)) => self.exit(Exit::label(name.of(at.text))),
+            Flow::Goto(BlockReference::Number(Operand::Number(number))) => {
                 self.exit(Exit::Label(LabelName::numbered(*number)));
             }
             Flow::Goto(_) => self.exit(Exit::AnyLabel),

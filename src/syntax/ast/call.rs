@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::expression::{Expression, Operand};
-use super::flow::JumpTarget;
+use super::flow::BlockReference;
 use crate::text::Span;
 
 /// `LL NAME`, `L file.nc`, `L CYCLE [NAME=… @P1=…]`.
@@ -84,9 +84,9 @@ pub struct Sequence {
     /// The program; the one that is executed where it is left out.
     pub name: Option<CallName>,
     /// The first block.
-    pub first: JumpTarget,
+    pub first: BlockReference,
     /// The last block.
-    pub last: Option<JumpTarget>,
+    pub last: Option<BlockReference>,
     /// Whether the call itself ends the sequence, too.
     pub end_tag: bool,
     /// Number of passes; one where it is left out.
@@ -101,7 +101,7 @@ pub struct Return {
     /// Over how many programs.
     pub levels: Levels,
     /// To which block, where that is not the next one.
-    pub target: Option<JumpTarget>,
+    pub target: Option<BlockReference>,
     /// The whole.
     pub span: Span,
 }

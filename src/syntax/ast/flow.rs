@@ -52,12 +52,12 @@ pub enum Flow {
     /// `$CONTINUE`.
     Continue,
     /// `$GOTO`.
-    Goto(JumpTarget),
+    Goto(BlockReference),
 }
 
-/// Target of `$GOTO`.
+/// Reference to a block: by its number, its label, or a variable that holds the label.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum JumpTarget {
+pub enum BlockReference {
     /// `N20`.
     Number(Operand),
     /// `[NAME]`, the name without its brackets.

@@ -11,4 +11,4 @@ mod flow;
 pub use block::{Address, Assignment, Block, Declaration, Effect, Hash, Item, Number, Word};
 pub use call::{Call, CallForm, CallName, CallScope, GCall, Levels, Repetition, Return, Sequence};
 pub use expression::{BinaryOperator, Expression, Function, Node, Operand, Owner, Target};
-pub use flow::{Flow, JumpTarget};
+pub use flow::{BlockReference, Flow};

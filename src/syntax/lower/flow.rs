@@ -4,7 +4,7 @@ use pest::iterators::Pair;
 
 use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
-use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
+use crate::syntax::ast::{BlockReference, Effect, Expression, Flow, Item, Operand, Target};
 use crate::syntax::keywords::FLOW_WORDS;
 use crate::syntax::{expression, fault::Fault, grammar::Rule};
 use crate::text::Span;
@@ -40,7 +40,7 @@ impl Lowering<'_> {
                 Rule::unread_rest => {
                     let value = self.unread_condition(span_of(&part), word);
                     if rule == Rule::flow_goto {
-                        return Flow::Goto(JumpTarget::Variable(value));
+                        return Flow::Goto(BlockReference::Variable(value));
                     }
                     if rule == Rule::flow_for && targets.is_empty() {
                         let span = span_of(&part);
@@ -51,15 +51,17 @@ impl Lowering<'_> {
                 Rule::goto_number => {
                     let value = part.into_inner().next();
                     let value = value.map(|value| expression::lower(value, 0, self.block));
-                    return Flow::Goto(JumpTarget::Number(value.unwrap_or(Operand::Number(0.0))));
+                    return Flow::Goto(BlockReference::Number(
+                        value.unwrap_or(Operand::Number(0.0)),
+                    ));
                 }
                 Rule::goto_label => {
                     let name = part.into_inner().next().map(|name| span_of(&name));
-                    return Flow::Goto(JumpTarget::Label(name.unwrap_or_default()));
+                    return Flow::Goto(BlockReference::Label(name.unwrap_or_default()));
                 }
                 Rule::variable => {
                     let place = expression::place(part, 0, self.block);
-                    return Flow::Goto(JumpTarget::Variable(place));
+                    return Flow::Goto(BlockReference::Variable(place));
                 }
                 _ => {}
             }
@@ -166,6 +168,6 @@ fn meant(word: &str, place: Expression, span: Span) -> Flow {
         "$UNTIL" => Flow::Until(value),
         "$BREAK" => Flow::Break,
         "$CONTINUE" => Flow::Continue,
-        _ => Flow::Goto(JumpTarget::Variable(place)),
+        _ => Flow::Goto(BlockReference::Variable(place)),
     }
 }

@@ -3,7 +3,7 @@
 use pest::iterators::Pair;
 
 use super::lowering::{Lowering, not_closed, not_understood, span_of};
-use crate::syntax::ast::{Effect, Item, JumpTarget, Levels, Operand, Return, Sequence};
+use crate::syntax::ast::{BlockReference, Effect, Item, Levels, Operand, Return, Sequence};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
@@ -77,13 +77,13 @@ impl Lowering<'_> {
     }
 
     /// `N10`, `[LABEL]`.
-    fn jump_target(&mut self, pair: Pair<'_, Rule>) -> JumpTarget {
+    fn jump_target(&mut self, pair: Pair<'_, Rule>) -> BlockReference {
         let is_label = pair.as_rule() == Rule::target_label;
         let inner = pair.into_inner().next();
         match inner {
-            Some(inner) if is_label => JumpTarget::Label(span_of(&inner)),
-            Some(inner) => JumpTarget::Number(expression::lower(inner, 0, self.block)),
-            None => JumpTarget::Number(Operand::Number(0.0)),
+            Some(inner) if is_label => BlockReference::Label(span_of(&inner)),
+            Some(inner) => BlockReference::Number(expression::lower(inner, 0, self.block)),
+            None => BlockReference::Number(Operand::Number(0.0)),
         }
     }
 }

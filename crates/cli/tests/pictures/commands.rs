@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::assert_sound;
+use super::{assert_sound, parse, texts};
 
 /// Runs the tool in a folder and gives the picture that it draws there.
 fn drawn(folder: &Path, arguments: &[&str]) -> String {

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use frictcomp::interpreter::{
-    EndedBy, Event, Interpreter, Limits, Options, ResumeError, RunOutcome, Snapshot, StopPolicy,
+    EndedBy, Event, Interpreter, Limits, Options, ResumeError, RunOutcome, SearchedBlock, Snapshot,
+    StopPolicy,
 };
 use frictcomp::machine::Machine;
 use frictcomp::text::{SourceFile, TextLines};
@@ -67,6 +68,11 @@ N50 M30
 /// Jumps that depend on what only the machine knows.
 const WAYS: &str = "X[COMP OFF FRICT]\nL CYCLE [NAME=c.cyc @P1=1 @P2=1 MODAL_BLOCK]\n$IF V.E.A $GOTO N90\n\
                 $IF V.E.B\nM30\n$ENDIF\n$FOR P1=1,99,1\nV.S.N[P1]=P1\n$ENDFOR\nX1\nN90: M30\n";
+/// Both sides of skip levels, conditions, cases and a loop, on the way to a searched block.
+const SIDES: &str = "/1 X[COMP OFF FRICT]\n$IF V.E.A==1\nY[COMP ON FRICT]\n$ENDIF\n$SWITCH V.E.B\n$CASE 1\n\
+                 Y[COMP OFF FRICT]\n$CASE 2\nX[COMP ON FRICT]\n$DEFAULT\nB[COMP ON FRICT]\n$ENDSWITCH\n$WHILE V.E.C\nX[COMP ON FRICT]\n\
+                 $IF V.E.D>2\nY[COMP OFF FRICT]\n$ENDIF\n$ENDWHILE\n$IF V.E.A==2\nY[COMP ON FRICT]\n\
+                 $ENDIF\nN90 X1\nM30\n";
 const CYCLE: &str = "G1 @X@P1\n$IF @P2>1\nX[COMP OFF FRICT]\nL deep.nc\n$ENDIF\nM17\n";
 const DEEP: &str = "V.S.COUNT = 7\nX[COMP ON FRICT]\n";
 
@@ -74,6 +80,7 @@ fn file(name: &str) -> Option<SourceFile> {
     let text = match name {
         "a.nc" => MAIN,
         "ways.nc" => WAYS,
+        "sides.nc" => SIDES,
         "c.cyc" => CYCLE,
         "deep.nc" => DEEP,
         "start.nc" => "N1 X[COMP ON FRICT]\nM17",
@@ -246,28 +253,50 @@ fn stopped() -> Snapshot {
     snapshot(&run)
 }
 
-/// A run of another program that is stopped where jumps are open that the control may have taken.
-fn stopped_with_open_ways() -> Snapshot {
+/// A run of a program that is stopped after some events.
+fn stopped_after(events: usize, name: &str, options: Options) -> Snapshot {
     let compensation = machine().compensation();
-    let mut run = Interpreter::new(machine(), compensation, options());
-    let mut left = 150;
-    let source = SourceFile::new("ways.nc", WAYS);
+    let mut run = Interpreter::new(machine(), compensation, options);
+    let mut seen = 0;
+    let source = file(name).expect("a program");
     let outcome = run.program(source, &mut find, &mut |_: Event<'_>| {
-        left -= 1;
-        if left == 0 {
+        seen += 1;
+        if seen >= events {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
     });
     assert_eq!(outcome, RunOutcome::Paused);
-    let saved = snapshot(&run);
+    snapshot(&run)
+}
+
+/// A run that is stopped where jumps are open that the control may have taken.
+fn stopped_with_open_ways() -> Snapshot {
+    let saved = stopped_after(150, "ways.nc", options());
     let ways = &document(&saved)["state"]["track"]["ways"];
     assert!(
         ways["open"][0].is_object() && ways["end"].is_object(),
         "{ways}"
     );
     saved
+}
+
+/// A run that is stopped on one of several sides, inside a loop and before its searched block.
+fn stopped_on_sides() -> Snapshot {
+    let searched = "N90".parse::<SearchedBlock>().expect("a block number");
+    let options = options().with_search(searched);
+    let is_full = |saved: &Snapshot| {
+        let state = &document(saved)["state"];
+        let track = &state["track"];
+        track["searching"].is_object()
+            && track["readings"][0].is_object()
+            && track["loops"][0]["covered"].is_object()
+            && state["pending"][0].is_object()
+            && state["conditions"][3].is_object()
+    };
+    let mut stops = (10..40).map(|events| stopped_after(events, "sides.nc", options));
+    stops.find(is_full).expect("a stop with everything")
 }
 
 fn document(snapshot: &Snapshot) -> Value {
@@ -278,9 +307,9 @@ fn resume(snapshot: Snapshot) -> Result<Interpreter, ResumeError> {
     Interpreter::resume(machine(), options(), snapshot, &mut file)
 }
 
-/// The run with another value at a place, a JSON pointer, as somebody would write it on purpose.
-fn forged(place: &str, value: Value) -> Result<Interpreter, ResumeError> {
-    let mut document = document(&stopped());
+/// A run with another value at a place, a JSON pointer, as somebody would write it on purpose.
+fn forged(saved: &Snapshot, place: &str, value: Value) -> Result<Interpreter, ResumeError> {
+    let mut document = document(saved);
     *document.pointer_mut(place).expect(place) = value;
     let snapshot: Snapshot = serde_json::from_value(document).expect("the right shape");
     resume(snapshot.sealed_anew())
@@ -307,7 +336,39 @@ fn a_snapshot_that_names_what_is_not_there_is_refused() {
         ("/executed", json!([[], [], [], [], [], []])),
         ("/files", json!([])),
     ] {
-        let refused = forged(place, value);
+        let refused = forged(&stopped(), place, value);
+        assert!(
+            matches!(refused, Err(ResumeError::Damaged(_))),
+            "{place}: {:?}",
+            refused.err()
+        );
+    }
+}
+
+#[test]
+fn sides_of_conditions_that_are_not_there_are_refused() {
+    let saved = stopped_on_sides();
+    assert!(resume(saved.clone()).is_ok());
+    let state = &document(&saved)["state"];
+    let texts = json!(vec!["V.E.A"; 70]);
+    let answers = json!(vec![json!({"is": [], "is_not": []}); 70]);
+    let reached = json!([[{"condition": 90, "sides": 1, "of": 2}]]);
+    for (place, value) in [
+        ("/conditions/0/texts", texts),
+        ("/conditions/0/place/first_line", json!(u32::MAX)),
+        ("/track/readings/0/answers", answers),
+        ("/track/readings/0/condition", json!(90)),
+        ("/track/reach", reached.clone()),
+        ("/track/loops/0/covered/track/reach", reached.clone()),
+        (
+            "/track/loops/0/covered/control/compensation/axes",
+            json!([]),
+        ),
+        ("/track/searching/compensation/axes", json!([])),
+        ("/pending/0/track/reach", reached),
+    ] {
+        assert_ne!(state.pointer(place), Some(&value), "{place}");
+        let refused = forged(&saved, &format!("/state{place}"), value);
         assert!(
             matches!(refused, Err(ResumeError::Damaged(_))),
             "{place}: {:?}",
@@ -338,7 +399,7 @@ fn numbers(document: &Value, place: &str, found: &mut Vec<String>) {
 #[test]
 fn any_number_of_a_snapshot_may_be_wrong() {
     let options = options().with_limits(Limits::default().with_blocks(2000));
-    for saved in [stopped(), stopped_with_open_ways()] {
+    for saved in [stopped(), stopped_with_open_ways(), stopped_on_sides()] {
         let whole = document(&saved);
         let mut places = Vec::new();
         numbers(&whole["state"], "/state", &mut places);

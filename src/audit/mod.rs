@@ -1,4 +1,4 @@
-//! What the order of programs does (chapter 10 of the rules).
+//! The effect of the order of programs (chapter 10 of the rules).
 //!
 //! The state of compensation outlives a program, so an archive is more than its programs: what one
 //! leaves, another finds. Each program is taken as a function from the states that it finds to the

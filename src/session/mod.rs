@@ -280,7 +280,7 @@ impl Session {
         }
     }
 
-    /// What the programs needed from the machine, or what was passed over: names with their places,
+    /// The values that the programs needed from the machine, or the words passed over: names with their places,
     /// sorted, each once, 20 000 of them at most. Empty unless [`Options::notes`](crate::interpreter::Options::notes) asks for them.
     pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
         self.notes

@@ -1,4 +1,4 @@
-//! What editors show of programs, lists and configurations.
+//! Language server and debug adapter for programs, lists and configurations.
 //!
 //! [`lsp`] is the language server, which shows messages, states and fixes while one types; [`dap`] is the
 //! debug adapter, which executes a program block by block. Both are given where they read and write:

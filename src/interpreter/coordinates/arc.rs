@@ -33,7 +33,7 @@ impl Arc {
     /// The arc from one place of its plane to another.
     ///
     /// # Errors
-    /// What keeps the ends and the centre from making an arc.
+    /// The reason why the ends and the centre make no arc.
     pub fn between(&self, places: [[f64; 2]; 2]) -> Result<ArcShape, &'static str> {
         let [start, end] = places;
         let chord = [end[0] - start[0], end[1] - start[1]];

@@ -61,8 +61,9 @@ impl ContouringCommand {
         }
     }
 
-    /// The parameters in the bracket of the command; `number` gives the value of an expression.
-    /// What a bracket does not name keeps its value from `before`, unless the bracket names a mode.
+    /// Returns the parameters in the bracket of the command; `number` gives the value of an expression.
+    /// A value that is not named is that of `before`; in a bracket of `#CONTOUR MODE` with a mode, and in
+    /// any bracket of `#HSC`, it is the default.
     pub(in crate::interpreter) fn parameters(
         self,
         before: Contouring,

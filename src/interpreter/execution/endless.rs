@@ -3,7 +3,7 @@
 //! A run depends on its state and on nothing else. Where a loop is repeated and the state is what
 //! it was some passes ago, every further pass does what those did: the loop is known to be
 //! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
-//! What is compared is all of the state, so what a pass can see need not be known.
+//! The whole state is compared, so it need not be known what a pass reads.
 //!
 //! Where a value that is not known offline may lead out of such a loop, the loop is not endless:
 //! the run goes on where that way goes (R2.51, R2.52).

@@ -16,8 +16,8 @@ use crate::text::SourceFile;
 /// A run between two blocks, to be saved and resumed (R9.30 is about what outlives programs; this
 /// is about the middle of one).
 ///
-/// What comes back is not trusted: a snapshot of another version, of other texts or of another
-/// machine, and one that is not as it was saved, is refused by [`Interpreter::resume`].
+/// A snapshot is not trusted: [`Interpreter::resume`] refuses one of another version, of changed texts
+/// or of a machine with other axes, and one that is not as it was saved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     schema: u32,
@@ -65,7 +65,7 @@ pub enum ResumeError {
 
 impl Snapshot {
     /// The number of the format that is written and read.
-    pub const SCHEMA: u32 = 6;
+    pub const SCHEMA: u32 = 7;
 
     /// The number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {

@@ -5,9 +5,12 @@ use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::path::Track;
+use crate::interpreter::run::path::{Loop, Track};
+use crate::interpreter::run::possible::Possible;
+use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::step::{Request, Step};
+use crate::interpreter::run::untouched::Untouched;
 use crate::interpreter::run::ways::Ways;
 use crate::text::Place;
 
@@ -23,26 +26,50 @@ type Doubt = Result<(), &'static str>;
 impl Interpreter {
     /// Whether everything that the state names is there.
     pub(in crate::interpreter) fn check_state(&self) -> Doubt {
-        self.check_axes()?;
-        self.check_counters()?;
-        self.check_frames(&self.state.control)?;
-        self.check_calls()?;
-        self.check_ways(&self.state.track.ways)?;
-        self.check_paths()?;
         let state = &self.state;
+        holds(
+            state.occurred.len() == self.machine.axes.len(),
+            "occurrences of other axes",
+        )?;
+        let mut conditions = state.conditions.iter();
+        let asked = conditions.all(|it| it.fits() && is_somewhere(&it.place));
+        holds(asked, "a condition with too many answers")?;
+        self.check_counters()?;
+        self.check_parked()?;
+        self.check_path(&state.control, &state.track)?;
+        let ended = state.ended.iter().map(|ended| &ended.path);
+        for path in state.pending.iter().chain(ended) {
+            self.check_path(&path.control, &path.track)?;
+        }
         let begins = !self.programs.units().is_empty()
             || (state.control.frames.is_empty() && state.parked.is_none());
         holds(begins, "a run without a file")
     }
 
-    fn check_axes(&self) -> Doubt {
-        let axes = self.machine.axes.len();
-        let occurred = &self.state.occurred;
-        holds(occurred.len() == axes, "occurrences of other axes")?;
-        self.check_axes_of(&self.state.control)
+    /// A way through the program, and its loops with the states at their beginnings.
+    fn check_path(&self, control: &ControlState, track: &Track) -> Doubt {
+        let is_machine = control.compensation.fits(self.machine.axis_setups());
+        holds(is_machine, "a way on another machine")?;
+        self.check_axes(control)?;
+        self.check_possible(&control.possible, &control.untouched)?;
+        self.check_frames(control)?;
+        holds(
+            self.has_cycles(&control.cycles),
+            "a cycle that is not there",
+        )?;
+        self.check_ways(&track.ways)?;
+        let named = track.reach.conditions().chain(track.readings.conditions());
+        self.check_conditions(named)?;
+        let readings = track.readings.fit();
+        holds(readings, "a condition with too many answers")?;
+        track
+            .searching
+            .as_deref()
+            .map_or(Ok(()), |before| self.check_search(before))?;
+        track.loops.iter().try_for_each(|it| self.check_loop(it))
     }
 
-    fn check_axes_of(&self, control: &ControlState) -> Doubt {
+    fn check_axes(&self, control: &ControlState) -> Doubt {
         let axes = self.machine.axes.len();
         let described = control.described.iter().map(|described| &described.before);
         let mut modals = described.chain([&control.modal]);
@@ -51,51 +78,34 @@ impl Interpreter {
             "positions of other axes",
         )?;
         holds(control.couplings.fits(axes), "a coupling of other axes")?;
-        holds(control.channel_axes.fits(axes), "a name of another axis")?;
-        let conditions = self.state.conditions.len();
-        let possible =
-            control.possible.fits(axes, conditions) && control.untouched.fits(axes, conditions);
-        holds(possible, "a condition that is not there")
+        holds(control.channel_axes.fits(axes), "a name of another axis")
     }
 
-    /// The other ways through the program, and those that have ended.
-    fn check_paths(&self) -> Doubt {
-        let ended = self.state.ended.iter().map(|ended| &ended.path);
-        for path in self.state.pending.iter().chain(ended) {
-            let is_machine = path.control.compensation.fits(self.machine.axis_setups());
-            holds(is_machine, "a way on another machine")?;
-            self.check_axes_of(&path.control)?;
-            self.check_frames(&path.control)?;
-            let cycles = self.has_cycles(&path.control.cycles);
-            holds(cycles, "a cycle that is not there")?;
-            self.check_ways(&path.track.ways)?;
-            self.check_track(&path.track)?;
-        }
-        self.check_track(&self.state.track)
+    fn check_possible(&self, possible: &Possible, untouched: &Untouched) -> Doubt {
+        let axes = self.machine.axes.len();
+        let conditions = self.state.conditions.len();
+        let fit = possible.fits(axes, conditions) && untouched.fits(axes, conditions);
+        holds(fit, "a condition that is not there")
     }
 
-    fn check_track(&self, track: &Track) -> Doubt {
+    fn check_conditions(&self, mut named: impl Iterator<Item = u32>) -> Doubt {
         let conditions = self.state.conditions.len();
-        let mut named = track.reach.conditions();
-        let is_known = named.all(|condition| (condition as usize) < conditions);
-        holds(is_known, "a condition that is not there")?;
-        let mut loops = track.loops.iter();
-        let loops = loops.all(|known| {
-            let before = known.covered.as_ref();
-            known.fits(MOST_COUNTED)
-                && self.has(known.program())
-                && before.is_none_or(|before| {
-                    self.check_axes_of(&before.control).is_ok()
-                        && self.check_frames(&before.control).is_ok()
-                        && self.has_cycles(&before.control.cycles)
-                        && before
-                            .track
-                            .reach
-                            .conditions()
-                            .all(|it| (it as usize) < conditions)
-                })
-        });
-        holds(loops, "a loop in a program that is not there")
+        let known = named.all(|condition| (condition as usize) < conditions);
+        holds(known, "a condition that is not there")
+    }
+
+    fn check_search(&self, before: &BeforeSearch) -> Doubt {
+        let is_machine = before.compensation.fits(self.machine.axis_setups());
+        holds(is_machine, "a block search on another machine")?;
+        self.check_possible(&before.possible, &before.untouched)
+    }
+
+    fn check_loop(&self, it: &Loop) -> Doubt {
+        let known = it.fits(MOST_COUNTED) && self.has(it.program());
+        holds(known, "a loop in a program that is not there")?;
+        it.covered.as_deref().map_or(Ok(()), |covered| {
+            self.check_path(&covered.control, &covered.track)
+        })
     }
 
     fn check_counters(&self) -> Doubt {
@@ -120,12 +130,8 @@ impl Interpreter {
         holds(frames, "a block that is not there")
     }
 
-    fn check_calls(&self) -> Doubt {
+    fn check_parked(&self) -> Doubt {
         let state = &self.state;
-        holds(
-            self.has_cycles(&state.control.cycles),
-            "a cycle that is not there",
-        )?;
         let parked = match &state.parked {
             Some(Step::Jump(entry)) => state
                 .control

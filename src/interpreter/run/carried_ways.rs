@@ -55,12 +55,13 @@ impl CarriedWays {
         self.states.is_empty()
     }
 
-    /// Whether every axis is one of the machine, and every condition is there.
+    /// Returns whether every axis is one of the machine, and every condition is there with few enough
+    /// answers.
     pub fn fits(&self, machine: &Machine) -> bool {
         let conditions = self.conditions.len();
-        self.states
-            .iter()
-            .all(|state| machine.find(&state.axis).is_some() && state.ways.fits(conditions))
+        let mut states = self.states.iter();
+        self.conditions.iter().all(Condition::fits)
+            && states.all(|it| machine.find(&it.axis).is_some() && it.ways.fits(conditions))
     }
 
     /// The conditions, and the states of those kinds that are unknown.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::{Clash, Condition, ConditionKind};
+use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
 use super::way_set::{Answer, Way};
 use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::target::{Place, Target};
@@ -175,6 +175,11 @@ impl Readings {
     /// Some values are others from here on.
     pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Target) -> bool) {
         self.0.retain(|it| !it.reads.iter().any(&is_other));
+    }
+
+    /// Whether each answer of each has a bit.
+    pub(in crate::interpreter) fn fit(&self) -> bool {
+        self.0.iter().all(|it| it.answers.len() <= MAX_ANSWERS)
     }
 
     pub(in crate::interpreter) fn clear(&mut self) {

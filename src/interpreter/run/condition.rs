@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::comp::Kind;
 use crate::text::Place;
 
+/// Answers of one condition, which have a bit each.
+pub(in crate::interpreter) const MAX_ANSWERS: usize = 60;
+
 /// Kind of the asking statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum ConditionKind {
@@ -68,6 +71,11 @@ impl Condition {
             earlier.is_some()
         });
         copy
+    }
+
+    /// Whether each of its answers has a bit.
+    pub(in crate::interpreter) fn fits(&self) -> bool {
+        self.texts.len() < MAX_ANSWERS
     }
 
     /// Whether it asks the same at the same place, whichever time.

@@ -9,8 +9,9 @@ use crate::interpreter::coordinates::moving::Certainty;
 
 /// The coupling groups of a run.
 ///
-/// Where a coupling command may or may not have been executed, no group is known any more until it
-/// is redefined, and every axis that a group ever named may be coupled or not.
+/// After a coupling command that may or may not have been executed, no group is known until it is
+/// redefined. Every axis that a group ever named may then be coupled, or may be as soon as a group is
+/// enabled, where only definitions changed and no group was in force.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Couplings {
     groups: BTreeMap<String, Group>,
@@ -32,7 +33,7 @@ pub(in crate::interpreter) struct Couplings {
     /// Axes that may follow any other one.
     #[serde(default)]
     strays: BTreeSet<AxisIndex>,
-    /// Rises with every change.
+    /// Rises with every change of what may be in force or defined.
     version: u64,
 }
 
@@ -156,7 +157,7 @@ impl Couplings {
         self.version
     }
 
-    /// Whether a group in force couples the axis.
+    /// Returns whether the axis is coupled by a group in force, may be, or is not.
     pub(in crate::interpreter) fn of(&self, axis: AxisIndex) -> Coupling {
         if self.holding.contains_key(&axis) {
             Coupling::Active

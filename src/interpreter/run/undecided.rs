@@ -78,7 +78,7 @@ impl Told {
     }
 
     /// Whether a message names anything that none of another block about the same value named before.
-    /// What a loop brings up again at its own place is counted, not withheld (R2.85).
+    /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
     pub(in crate::interpreter) fn is_new(
         &mut self,
         cause: &str,

@@ -37,7 +37,7 @@ pub enum WayCondition {
         #[serde(skip_serializing_if = "Option::is_none")]
         changed: Option<WayChange>,
     },
-    /// What a program leaves that only the machine has (R2.83).
+    /// State of an axis after a call of a program that only the machine has (R2.83).
     Call {
         /// The file of the call.
         file: Arc<str>,
@@ -96,7 +96,7 @@ pub struct Asked {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub struct WayChange {
-    /// What changes.
+    /// Name of the value that changes.
     #[serde(serialize_with = "as_text")]
     pub name: Arc<str>,
     /// The file of the earlier condition.

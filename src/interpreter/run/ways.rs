@@ -1,9 +1,9 @@
 //! Ways that the control may go and the dry run does not (R2.51, R2.52): a jump, a return or a
 //! program end that depends on a value which is not known offline.
 //!
-//! Where such a way leaves, it is remembered with the state of that moment. Where it meets the way
-//! of the dry run again, everything in which both may differ becomes unknown. A way that would end
-//! the program is met at program end.
+//! Such a way is kept with the state in which it leaves. At the block where it joins the way of the
+//! dry run again, everything in which the two may differ becomes unknown. A way that would end the
+//! program joins at program end.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::clash::{Reading, Says, is_compared};
-use crate::interpreter::run::condition::{Condition, ConditionKind};
+use crate::interpreter::run::condition::{Condition, ConditionKind, MAX_ANSWERS};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{Asked, BranchSide};
@@ -30,9 +30,6 @@ pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
 
 /// Conditions on values of the program whose answers are remembered; older ones are asked anew.
 const MAX_ASKED: usize = 64;
-
-/// Answers of one condition.
-const MAX_ANSWERS: usize = 60;
 
 /// Number of questions at a place before its earlier answers are dropped.
 const MAX_ROUNDS: u8 = 4;
@@ -303,7 +300,7 @@ impl Interpreter {
         let Some(known) = conditions.get_mut(place) else {
             return;
         };
-        known.time += 1;
+        known.time = known.time.saturating_add(1);
         known.clashes.clear();
         if is_again || !is_compared(question.kind) {
             track.readings.wait_for(asking);
@@ -339,7 +336,7 @@ impl Interpreter {
                 continue;
             }
             last = Some(number);
-            wanted.round = wanted.round.max(known.round + 1);
+            wanted.round = wanted.round.max(known.round.saturating_add(1));
             let mut named = self.state.track.reach.conditions();
             let mut possible = self.state.control.possible.conditions();
             let mut untouched = self.state.control.untouched.conditions();

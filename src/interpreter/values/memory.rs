@@ -192,7 +192,7 @@ impl Memory {
     }
 
     /// Everything that a program can write may have been written: nothing is known any more.
-    /// What only the machine holds is not the program's.
+    /// Values that only the machine holds are kept.
     pub(in crate::interpreter) fn havoc_all(&mut self, cause: &Arc<str>) {
         self.havoc_parameters(cause);
         self.unknown_names = Some(cause.clone());

@@ -1,4 +1,4 @@
-//! What may be written next: words of a COMP command, axes, parameters and keys (R12.6, R12.11).
+//! Completions: words of a COMP command, axes, parameters and keys (R12.6, R12.11).
 //!
 //! An editor may take what it shows first for Enter. So nothing is offered but what begins as the word
 //! that is typed and is longer, each with the range that it replaces; only inside a COMP bracket a

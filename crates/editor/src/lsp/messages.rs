@@ -196,8 +196,8 @@ fn reach(known: &mut Message, message: &Message) {
     }
 }
 
-/// What the client was told, text by text. Each check brings messages about its text and about others;
-/// a text shows its own ones first, then those of other checks, each once.
+/// Diagnostics published to the client, by text. A check reports on its own text and on others; a text
+/// shows its own first, then those of other checks, each once.
 #[derive(Debug, Default)]
 pub(super) struct PublishedDiagnostics {
     by_check: BTreeMap<String, ByText>,

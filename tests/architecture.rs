@@ -75,6 +75,7 @@ const ROOMS: [(&str, &[&str]); 26] = [
             "text",
             "diagnostic",
             "comp",
+            "readings",
             "syntax",
             "machine",
             "interpreter",

@@ -6,9 +6,11 @@
 mod alternative;
 mod facts;
 mod question;
+mod question_set;
 mod selected;
 
 pub use alternative::Alternative;
 pub use facts::{QuestionFacts, Way};
 pub use question::Question;
+pub use question_set::QuestionSet;
 pub use selected::{Basis, Confirmation, Readings};

@@ -34,6 +34,7 @@ use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
 pub use crate::lint::Maker;
 use crate::lint::{History, Linter, Told};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
+use crate::readings::QuestionSet;
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
 use feed_moves::FeedMoveCounter;
@@ -204,6 +205,7 @@ impl Session {
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
                 footing: Footing::Known,
+                rests_on: QuestionSet::default(),
                 feed_moves: FeedMoveCounter::new(axes),
                 unknown: BTreeSet::new(),
             },
@@ -422,6 +424,7 @@ impl Session {
             opaque: self.interpreter.opaque(),
             axes: axes.collect(),
             footing: self.tally.footing,
+            rests_on: self.tally.rests_on.union(self.interpreter.rests_on()),
             state,
         }))
     }

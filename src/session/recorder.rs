@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
+use crate::readings::{Question, QuestionSet};
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
@@ -41,6 +42,8 @@ pub(super) struct Tally {
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
     pub(super) footing: Footing,
+    /// The open questions on whose readings messages rest (R15.3).
+    pub(super) rests_on: QuestionSet,
     pub(super) feed_moves: FeedMoveCounter,
     /// The configured kinds that were unknown at a program's end or where their axis moved.
     pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
@@ -52,9 +55,15 @@ impl Tally {
     }
 
     /// Takes note of what the run assumes, whether or not the user wants to hear it.
-    fn note_footing(&mut self, said: &[Diagnostic]) {
-        if said.iter().any(|diagnostic| diagnostic.code == Code::Fc902) {
-            self.footing = Footing::Assumed;
+    fn note_footing<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) {
+        for diagnostic in said {
+            match diagnostic.code {
+                Code::Fc401 => self.rests_on.insert(Question::Reset),
+                Code::Fc405 => self.rests_on.insert(Question::WithMotion),
+                Code::Fc409 => self.rests_on.insert(Question::LookAhead),
+                Code::Fc902 => self.footing = Footing::Assumed,
+                _ => {}
+            }
         }
     }
 }
@@ -255,6 +264,7 @@ impl Recorder<'_> {
         self.tally.note_footing(executed.diagnostics);
         let before = self.said.len();
         self.linter.block(executed, &mut self.said);
+        self.tally.note_footing(self.said.iter().skip(before));
         if let Some(ways) = executed.branch {
             // FC403 says by itself on which ways.
             let lints = self.said.iter_mut().skip(before);
@@ -398,6 +408,8 @@ impl Recorder<'_> {
             })
             .collect();
         let left = self.linter.end(ended);
+        let lints = left.iter().map(|left| &left.note.diagnostic);
+        self.tally.note_footing(lints);
         let (levels, allows) = (self.levels, &mut self.allows);
         let mut judge = |note: &mut EndNote| {
             if !levels.weigh(&mut note.diagnostic) {

@@ -11,6 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{EndedBy, Modal, Motion, PossibleStates, WayCondition, ways_in_words};
 use crate::lint::EndNote;
 use crate::machine::Machine;
+use crate::readings::QuestionSet;
 use crate::text::Position;
 
 /// The number of the record format.
@@ -226,6 +227,8 @@ pub struct Summary<'a> {
     pub axes: Vec<AxisSummary>,
     /// Basis of the states.
     pub footing: Footing,
+    /// The open questions on whose readings results rest (R15.3).
+    pub rests_on: QuestionSet,
     /// The state that is left.
     pub state: StateView<'a>,
 }

@@ -157,6 +157,26 @@ fn labels_that_are_wrong() {
 }
 
 #[test]
+fn a_label_in_the_other_form_is_named() {
+    // R2.42
+    for (program, cure) in [
+        (
+            "$GOTO [N40]\nN40: M30",
+            "the label `N40`: write `$GOTO N40`",
+        ),
+        (
+            "$GOTO N40\n[N40]\nM30",
+            "the label `[N40]`: write `$GOTO [N40]`",
+        ),
+        ("$GOTO N40\nN40 M30", "write the label with a colon, `N40:`"),
+        ("$GOTO [N4X]\nN4: M30", "write `[N4X]` at the start"),
+    ] {
+        let said = Bench::new().said(program);
+        assert!(said.contains(cure), "{program}: {said}");
+    }
+}
+
+#[test]
 fn unbalanced_blocks() {
     // R2.43
     assert_snapshot!(Bench::new().run(&["X1\nN10 $IF 1\n$FOR P1=1,2,1\n$ENDIF\nM30"]), @"

@@ -31,6 +31,7 @@ use frictcomp_host::{
     LoadedMachine, Naming, Revision, SingleRun, find_programs, in_order, is_source, main_programs,
     processors, run_alone,
 };
+use frictcomp_report::assumptions::ReadingsInForce;
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
 /// Print all messages of all programs; each program runs from the start of the control
@@ -201,6 +202,8 @@ fn check(
         let beside = in_callers_remark(in_callers) + &passed_over(found.passed_over);
         console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
+        let rests_on = listing.tally().rests_on.in_words();
+        rests_on.iter().for_each(|said| console.remark(said));
     }
     if let Some(remark) = listing.unknown_remark() {
         console.remark(&remark);
@@ -353,6 +356,7 @@ impl CheckArgs {
                 listing.feed_moves(axis, &moves);
             }
             listing.unknown(found.unknown);
+            listing.rests_on(found.rests_on);
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, baseline.unlisted(*severity, *more));
             }
@@ -434,6 +438,8 @@ struct Found {
     uncompensated: Vec<(String, Uncompensated)>,
     /// The states that are not known at its end or where their axis moves.
     unknown: BTreeSet<String>,
+    /// The readings on which its results rest.
+    rests_on: ReadingsInForce,
     /// The files that it executed to their end.
     executed_to_end: Vec<String>,
 }
@@ -451,8 +457,10 @@ fn check_file(
     };
     let mut findings = Findings::default();
     let mut uncompensated = Vec::new();
+    let mut rests_on = ReadingsInForce::default();
     let mut sink = |record: &Record<'_>| {
         if let Record::Summary(summary) = record {
+            rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
             let axes = summary.uncompensated();
             uncompensated.extend(axes.map(|axis| {
                 let of = summary.state.machine.axis(axis.axis);
@@ -473,5 +481,6 @@ fn check_file(
         unsaid,
         uncompensated,
         unknown,
+        rests_on,
     })
 }

@@ -18,6 +18,7 @@ use frictcomp::drive_interface::DriveReport;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
 use frictcomp::timeline::{FeedMoves, SCHEMA};
+use frictcomp_report::assumptions::ReadingsInForce;
 use frictcomp_report::drives::drive_record;
 use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
 
@@ -149,6 +150,11 @@ impl Lister<'_> {
     /// Takes states that are not known.
     pub(super) fn unknown(&mut self, states: BTreeSet<String>) {
         self.unknown.extend(states);
+    }
+
+    /// Adds readings on which the results rest (R15.3).
+    pub(super) fn rests_on(&mut self, readings: ReadingsInForce) {
+        self.listing.rests_on(readings);
     }
 
     /// Returns the remark on unknown states, where they count for the exit status.

@@ -10,6 +10,8 @@
 
 #[path = "../../recordings/tests/identify/plant.rs"]
 mod plant;
+#[path = "commission_run/refused.rs"]
+mod refused;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -420,138 +422,6 @@ fn check_report(folder: &Path) {
     let (status, text) = run(folder, &["--html", "r.html", "--before", "Z=zero.lis"]);
     assert!(
         status == Some(2) && text.contains("`--before` names `Z`"),
-        "{text}"
-    );
-}
-
-/// R16.9: recordings that do not fit together make no list, each with its reason.
-#[test]
-fn what_speaks_against_a_list_is_named() {
-    let good = friction(0, 1.0);
-    let rows = |change: &dyn Fn(&[f64]) -> String, head: &str| {
-        let mut text = format!("{head}\n");
-        for line in good.lines().skip(1) {
-            let cells: Vec<f64> = line
-                .split(',')
-                .map(|it| it.parse().expect("a number"))
-                .collect();
-            writeln!(text, "{}", change(&cells)).expect("text");
-        }
-        text
-    };
-    let head = "t,v,x,torque";
-    let slow = rows(
-        &|it| format!("{:.5},{},{},{}", it[0] / 0.9, it[1] * 0.9, it[2], it[3]),
-        head,
-    );
-    let switched = rows(
-        &|it| format!("{},{},{},{},1", it[0], it[1], it[2], it[3]),
-        "t,v,x,torque,comp",
-    );
-    let still = rows(
-        &|it| format!("{},{},{},{}", it[0], it[1], it[2], (it[0] * 1e6) as i64 % 7),
-        head,
-    );
-    let after = good
-        .lines()
-        .enumerate()
-        .filter(|(at, _)| *at == 0 || *at > 18_000);
-    let unsigned = after.map(|(_, it)| it).collect::<Vec<_>>().join("\n");
-    let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
-    for (files, words) in [
-        (
-            vec![("a.csv", &slow)],
-            "not used: it was driven at 90.0 % of the planned speeds",
-        ),
-        (
-            vec![("a.csv", &switched)],
-            "not used: its program has compensation off, and the recording says otherwise",
-        ),
-        (vec![("a.csv", &still)], "not used:"),
-        (
-            vec![("a.csv", &unsigned)],
-            "not used: it has no signature; say `--role a.csv=NUMBER`",
-        ),
-        (vec![("a.csv", &torqueless)], "torque"),
-        (
-            vec![("a.csv", &good), ("b.csv", &friction(0, 1.2))],
-            "b.csv and a.csv differ by",
-        ),
-    ] {
-        let folder = planned();
-        for (name, text) in files {
-            put(folder.path(), name, text);
-        }
-        let (status, text) = run(folder.path(), &[]);
-        assert_eq!(status, Some(1), "{words}: {text}");
-        assert!(
-            text.contains(words) && text.contains("X: no list"),
-            "{words}: {text}"
-        );
-        assert!(!folder.path().join("m/lists").exists(), "{words}");
-    }
-    let folder = planned();
-    put(folder.path(), "a.csv", &unsigned);
-    let (_, text) = run(folder.path(), &["--role", "a.csv=1"]);
-    assert!(text.contains("X: provisional list"), "{text}");
-    put(folder.path(), "a.csv", &good);
-    let (_, text) = run(folder.path(), &["--role", "a.csv=2"]);
-    assert!(
-        text.contains("its strokes are the number 1, and `--role` says 2")
-            && text.contains("Y: no list"),
-        "{text}"
-    );
-}
-
-/// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
-/// are exchanged are found by the strokes.
-#[test]
-fn channels_of_the_wrong_axis_are_found() {
-    let track = friction(0, 1.0);
-    let mut text = String::from("t;A.v [mm/s];A.torque;B.v [mm/s];B.torque\n");
-    for line in track.lines().skip(1) {
-        let cells: Vec<f64> = line
-            .split(',')
-            .map(|it| it.parse().expect("a number"))
-            .collect();
-        writeln!(text, "{};{};{};0;0", cells[0], cells[1] / 1000.0, cells[3]).expect("text");
-    }
-    for ([a, b], words) in [
-        (["X", "Y"], "X: provisional list"),
-        (["Y", "X"], "two axes are mixed"),
-    ] {
-        let folder = planned();
-        put(
-            folder.path(),
-            "both.csv",
-            &text
-                .replace("A.", &format!("{a}."))
-                .replace("B.", &format!("{b}.")),
-        );
-        let channels = ["--velocity", "%.v", "--torque", "%.torque"];
-        let (status, said) = run(folder.path(), &channels);
-        assert!(status == Some(1) && said.contains(words), "{said}");
-    }
-}
-
-/// R16.2: without a plan, or without recordings, nothing is invented.
-#[test]
-fn without_a_plan_there_is_nothing_to_read() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::create_dir(folder.path().join("m")).expect("a folder");
-    let (status, text) = run(folder.path(), &[]);
-    assert!(
-        status == Some(2) && text.contains("has no `plan-1.json`"),
-        "{text}"
-    );
-    std::fs::write(folder.path().join("m/plan-1.json"), "{}").expect("written");
-    let (status, text) = run(folder.path(), &[]);
-    assert!(status == Some(2) && text.contains("is no plan"), "{text}");
-    let folder = planned();
-    std::fs::remove_dir(folder.path().join("m/recordings")).expect("removed");
-    let (status, text) = run(folder.path(), &[]);
-    assert!(
-        status == Some(2) && text.contains("make the folder, and put the recordings into it"),
         "{text}"
     );
 }

@@ -1,5 +1,7 @@
 //! Questions to the control, and the agreed behaviour as data.
 
+#[path = "questions/basis.rs"]
+mod basis;
 #[path = "questions/control.rs"]
 mod control;
 mod folder;

@@ -19,7 +19,7 @@ const NOT_CONFIGURED: &str = "N10 Z[COMP ON FRICT]\nN20 Y[COMP OFF FRICT]\nN30 M
 
 #[test]
 fn records_have_their_keys_in_order() {
-    // R9.10, R9.12, R9.13, R9.14
+    // R9.10, R9.12, R9.13, R9.14, R15.3
     let bench = Bench::new(&[("a.nc", NOT_CONFIGURED)]);
     let lines = bench.records(&["--keep-going", "a.nc"]);
     let states = r#""friction":{"X":"active","Y":"active","Z":"unconfigured"}}"#;
@@ -45,7 +45,8 @@ fn records_have_their_keys_in_order() {
     assert_eq!(lines[7], format!("{end}{left}"));
     let summary =
         r#"{"record":"summary","programs":1,"blocks":3,"errors":1,"warnings":1,"opaque":{},"#;
-    assert_eq!(lines[8], format!("{summary}{left}"));
+    let rests_on = r#""rests_on":[{"rule":"R1.28","reading":"kept","meaning":"a reset keeps the state","basis":"assumed"}],"#;
+    assert_eq!(lines[8], format!("{summary}{rests_on}{left}"));
     // The same as one document.
     let document = json(&bench.stdout(&["run", "--keep-going", "--format", "json", "a.nc"]));
     assert!(document.to_string().contains("P-ERR-70495"));

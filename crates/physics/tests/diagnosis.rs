@@ -149,8 +149,13 @@ fn said(faults: &[Deviation], noise_um: f64, turns: Turns) -> Vec<Finding> {
     found
 }
 
+/// The findings as JSON names them.
 fn names(findings: &[Finding]) -> String {
-    let named: Vec<String> = findings.iter().map(|it| format!("{it:?}")).collect();
+    let name = |it: &Finding| serde_json::to_value(it).expect("a name");
+    let named = findings.iter().map(name);
+    let named: Vec<String> = named
+        .map(|it| it.as_str().expect("a name").to_owned())
+        .collect();
     if named.is_empty() {
         return "–".to_owned();
     }

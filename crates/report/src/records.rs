@@ -6,6 +6,7 @@ use frictcomp::timeline::{
     End, Join, Possible, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL,
 };
 
+use super::assumptions::ReadingsInForce;
 use super::strings::{integer, optional, separated, string};
 use super::view::View;
 
@@ -185,6 +186,8 @@ impl Encoder {
         if summary.uncompensated().next().is_some() {
             uncompensated(out, summary);
         }
+        let rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
+        append_rests_on(out, &rests_on);
         self.close(out, summary.state);
     }
 
@@ -349,6 +352,15 @@ fn append_possible(out: &mut Vec<u8>, possible: Possible<'_>) {
     if !possible.is_empty() {
         out.extend_from_slice(b",\"possible\":");
         let _ = serde_json::to_writer(out, &possible);
+    }
+}
+
+/// Appends `rests_on` where results rest on readings of open questions (R15.3).
+pub(crate) fn append_rests_on(out: &mut Vec<u8>, rests_on: &ReadingsInForce) {
+    if !rests_on.is_empty() {
+        out.extend_from_slice(b",\"rests_on\":");
+        // Memory takes every byte, and the readings are texts.
+        let _ = serde_json::to_writer(out, rests_on);
     }
 }
 

@@ -65,7 +65,7 @@ impl Interpreter {
     /// The refusal of a command that the selected readings say the control does not take (R1.8, R1.25,
     /// R1.26).
     fn read_as_refused(
-        &self,
+        &mut self,
         command: &CompCommand,
         axis: AxisIndex,
         at: &BlockContext<'_>,
@@ -99,9 +99,11 @@ impl Interpreter {
                     && !compensation.is_parameterised(axis, Kind::Frict),
             ),
         ];
-        let readings = &self.machine.readings;
-        let mut refused = cases.into_iter();
-        let found = refused.find(|(asked, _, applies)| *applies && readings.takes_second(*asked));
+        let mut asked = cases.into_iter().filter(|(_, _, applies)| *applies);
+        let found = asked.find(|(question, ..)| {
+            self.state.rests_on.insert(*question);
+            self.machine.readings.takes_second(*question)
+        });
         found.map(|(question, what, _)| CompensationError::ReadAsRefused {
             axis: command.axis.clone(),
             what,
@@ -184,6 +186,7 @@ impl Interpreter {
         if let Some((first, kinds)) = opposite {
             let keywords: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
             let name = &command.axis;
+            self.state.rests_on.insert(Question::OrderInBlock);
             let first_wins = self.machine.readings.takes_second(Question::OrderInBlock);
             let winner = if first_wins { "the first" } else { "this" };
             let fault = Fault::new(

@@ -155,6 +155,7 @@ impl Interpreter {
         }
         let doubts = self.scratch.doubted.len();
         let reading = self.machine.readings.of(Question::MachineData);
+        self.state.rests_on.insert(Question::MachineData);
         for (axis, kinds) in lost {
             match reading {
                 Some(Alternative::First) if !friction || enables(text) => {

@@ -11,6 +11,7 @@ pub(super) mod items;
 pub(super) mod pace;
 pub(super) mod parting;
 pub(super) mod probing;
+pub(super) mod required;
 pub(super) mod resolve;
 pub(super) mod sequence;
 pub(super) mod skipping;

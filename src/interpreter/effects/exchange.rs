@@ -116,10 +116,12 @@ impl Interpreter {
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
             if let Some(Meaning::Axis(axis)) = meaning
-                && self.machine.readings.takes_second(Question::AxisExchange)
                 && self.was_released(axis)
             {
-                self.return_to_start(axis);
+                self.state.rests_on.insert(Question::AxisExchange);
+                if self.machine.readings.takes_second(Question::AxisExchange) {
+                    self.return_to_start(axis);
+                }
             }
             let names = &mut self.state.control.channel_axes.names;
             let own = self.machine.find(name);

@@ -402,17 +402,27 @@ impl Builder {
     fn check_jumps(&mut self) {
         for jump in std::mem::take(&mut self.jumps) {
             if self.index.label(jump.section, jump.label.clone()).is_none() {
-                let help = match &jump.label {
-                    LabelName::Number(number) => {
-                        format!("write the label with a colon, `N{number}:`, in the same program")
-                    }
-                    LabelName::Text(name) => {
-                        format!("write `[{name}]` at the start of the block to jump to")
-                    }
-                };
+                let help = self.help_for_label(jump.section, &jump.label);
                 let message = format!("jump label `{}` does not exist in this program", jump.label);
                 let fault = Fault::new(Code::Fc209, jump.span, message).with_help(help);
                 self.refuse(jump.entry, fault);
+            }
+        }
+    }
+
+    /// Returns the cure for a missing label, which may be there in the other form.
+    fn help_for_label(&self, section: usize, label: &LabelName) -> String {
+        let other = label.in_other_form();
+        let other = other.filter(|it| self.index.label(section, it.clone()).is_some());
+        match (label, other) {
+            (_, Some(other)) => {
+                format!("this program has the label `{other}`: write `$GOTO {other}`")
+            }
+            (LabelName::Number(number), None) => {
+                format!("write the label with a colon, `N{number}:`, in the same program")
+            }
+            (LabelName::Text(name), None) => {
+                format!("write `[{name}]` at the start of the block to jump to")
             }
         }
     }

@@ -72,6 +72,17 @@ impl LabelName {
     pub(in crate::interpreter) fn numbered(number: f64) -> Self {
         rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
     }
+
+    /// Returns the label of a block number for a text label such as `[N40]`, and the reverse.
+    pub(in crate::interpreter) fn in_other_form(&self) -> Option<Self> {
+        match self {
+            Self::Number(number) => Some(Self::Text(format!("N{number}"))),
+            Self::Text(text) => {
+                let number = text.strip_prefix(['N', 'n'])?;
+                number.parse().ok().map(Self::Number)
+            }
+        }
+    }
 }
 
 impl std::fmt::Display for LabelName {

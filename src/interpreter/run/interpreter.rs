@@ -25,6 +25,7 @@ use crate::interpreter::values::value::Value;
 use crate::interpreter::values::variable::set_name;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::machine::{AxisSet, Machine, Setting};
+use crate::readings::QuestionSet;
 use crate::syntax::SkipLevels;
 use crate::syntax::ast::Block;
 
@@ -166,6 +167,7 @@ impl Interpreter {
             last: None,
             parked: None,
             told: Told::default(),
+            rests_on: QuestionSet::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
         interpreter.define_machine_macros();
@@ -265,6 +267,11 @@ impl Interpreter {
     /// Returns the words passed over, with their number.
     pub fn opaque(&self) -> &BTreeMap<String, u64> {
         &self.state.opaque
+    }
+
+    /// Returns the open questions on whose readings the results so far rest (R15.3).
+    pub fn rests_on(&self) -> QuestionSet {
+        self.state.rests_on
     }
 
     /// The position of an axis after the last block: the programmed coordinate in mm or degrees.

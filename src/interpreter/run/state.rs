@@ -12,6 +12,7 @@ use super::step::Step;
 use super::undecided::Told;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
+use crate::readings::QuestionSet;
 
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,4 +47,6 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) parked: Option<Step>,
     /// The unknown values that messages were about.
     pub(in crate::interpreter) told: Told,
+    /// The open questions on whose readings results rest (R15.3).
+    pub(in crate::interpreter) rests_on: QuestionSet,
 }

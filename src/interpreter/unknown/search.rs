@@ -55,6 +55,9 @@ impl Interpreter {
         let Some(before) = self.state.track.searching.take() else {
             return;
         };
+        if !self.differing_since(&before).is_empty() {
+            self.state.rests_on.insert(Question::BlockSearch);
+        }
         match self.machine.readings.of(Question::BlockSearch) {
             Some(Alternative::First) => {}
             Some(Alternative::Second) => {

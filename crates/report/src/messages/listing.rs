@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
+use crate::assumptions::ReadingsInForce;
 use crate::diagnostics::Look;
 use crate::output::Output;
 use frictcomp::diagnostic::{Diagnostic, Severity};
@@ -42,6 +43,11 @@ impl<W: Write> Listing<W> {
         if more > 0 {
             *self.tally.counts.entry(severity).or_default() += more;
         }
+    }
+
+    /// Adds readings on which the results rest (R15.3).
+    pub fn rests_on(&mut self, readings: ReadingsInForce) {
+        self.tally.rests_on.extend(readings);
     }
 
     /// Returns the counts so far.

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::json;
-use crate::records::append_diagnostic;
+use crate::records::{append_diagnostic, append_rests_on};
 use crate::strings::integer;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 
@@ -86,5 +86,6 @@ fn append_tally(out: &mut Vec<u8>, tally: &Tally) {
     integer(out, tally.of(Severity::Warning));
     out.extend_from_slice(b",\"infos\":");
     integer(out, tally.of(Severity::Info));
+    append_rests_on(out, &tally.rests_on);
     out.push(b'}');
 }

@@ -48,7 +48,7 @@ impl MessageFormat for Sarif {
     }
 
     /// The rules that were named come after the results.
-    fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {
+    fn close(&mut self, out: &mut Vec<u8>, tally: &Tally) {
         let rules: Vec<Value> = Code::ALL
             .iter()
             .filter(|code| self.used.contains(code))
@@ -61,11 +61,14 @@ impl MessageFormat for Sarif {
                 })
             })
             .collect();
-        let tool = json!({ "driver": {
+        let mut tool = json!({ "driver": {
             "name": env!("CARGO_PKG_NAME"),
             "version": env!("CARGO_PKG_VERSION"),
             "rules": rules,
         }});
+        if !tally.rests_on.is_empty() {
+            tool["properties"] = json!({ "restsOn": tally.rests_on });
+        }
         if self.results > 0 {
             out.extend_from_slice(b"\n      ");
         }

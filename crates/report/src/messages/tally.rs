@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::assumptions::ReadingsInForce;
 use frictcomp::diagnostic::Severity;
 
 /// Number of files examined, and of diagnostics of each severity.
@@ -11,6 +12,8 @@ pub struct Tally {
     pub files: u64,
     /// Diagnostics by severity.
     pub counts: BTreeMap<Severity, u64>,
+    /// The readings of open questions on which the results rest (R15.3).
+    pub rests_on: ReadingsInForce,
 }
 
 impl Tally {

@@ -179,6 +179,7 @@ impl<'a> Player<'a> {
             opaque: &opaque,
             axes: axes.collect(),
             footing: frictcomp::timeline::Footing::Known,
+            rests_on: frictcomp::readings::QuestionSet::default(),
             state: view,
         };
         let _ = self.sink.record(&Record::Summary(&summary));

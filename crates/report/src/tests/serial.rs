@@ -223,6 +223,7 @@ fn play(parts: &Parts, mut take: impl FnMut(&Record<'_>)) {
         opaque: &parts.opaque,
         axes: Vec::new(),
         footing: frictcomp::timeline::Footing::Known,
+        rests_on: frictcomp::readings::QuestionSet::default(),
         state,
     }));
 }

@@ -4,6 +4,7 @@ use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
 use crate::advice::{all_home, axis_advice, error_advice, is_home};
+use crate::assumptions::ReadingsInForce;
 use crate::diagnostics::Look;
 use crate::feed_moves::feed_moves_text;
 use crate::strings::grouped;
@@ -190,6 +191,9 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         Paragraph::new(Style::new(), text).write(out, look);
     } else if out.len() == bare && is_all_home {
         Paragraph::new(DIM, all_home(&summary.axes, summary.footing)).write(out, look);
+    }
+    if let Some(text) = ReadingsInForce::of(summary.rests_on, summary.state.machine).in_words() {
+        Paragraph::new(DIM, &text).write(out, look);
     }
     for axis in &summary.axes {
         let of = summary.state.machine.axis(axis.axis);

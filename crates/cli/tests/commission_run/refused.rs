@@ -1,0 +1,281 @@
+//! Recordings and lists that `frictcomp commission run` does not take, each with its reason (R16.9).
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use super::{
+    FEEDS, PLAN, call, circles, deviations, friction, list_in, planned, provisional, put, run, said,
+};
+
+/// A recording with other rows under another head.
+fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> String {
+    let mut text = format!("{head}\n");
+    for line in recording.lines().skip(1) {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|it| it.parse().expect("a number"))
+            .collect();
+        writeln!(text, "{}", change(&cells)).expect("text");
+    }
+    text
+}
+
+/// R16.9: recordings that do not fit together make no list, each with its reason.
+#[test]
+fn what_speaks_against_a_list_is_named() {
+    let good = friction(0, 1.0);
+    let rows = |change: &dyn Fn(&[f64]) -> String, head: &str| changed(&good, head, change);
+    let head = "t,v,x,torque";
+    let slow = rows(
+        &|it| format!("{:.5},{},{},{}", it[0] / 0.9, it[1] * 0.9, it[2], it[3]),
+        head,
+    );
+    let switched = rows(
+        &|it| format!("{},{},{},{},1", it[0], it[1], it[2], it[3]),
+        "t,v,x,torque,comp",
+    );
+    let still = rows(
+        &|it| format!("{},{},{},{}", it[0], it[1], it[2], (it[0] * 1e6) as i64 % 7),
+        head,
+    );
+    let after = good
+        .lines()
+        .enumerate()
+        .filter(|(at, _)| *at == 0 || *at > 18_000);
+    let unsigned = after.map(|(_, it)| it).collect::<Vec<_>>().join("\n");
+    let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
+    // One direction is heavier the faster it goes; friction rises by a third from row to row.
+    let heavier = |it: &[f64]| 1.0 + 0.8 * (-it[1] / 50_000.0).clamp(0.0, 1.0);
+    let uneven = rows(
+        &|it| format!("{},{},{},{}", it[0], it[1], it[2], it[3] * heavier(it)),
+        head,
+    );
+    let seconds = good.lines().count() as f64 / 1000.0;
+    let drifting = rows(
+        &|it| {
+            let torque = it[3] * (1.0 + it[0] / seconds / 3.0);
+            format!("{},{},{},{torque:.0}", it[0], it[1], it[2])
+        },
+        head,
+    );
+    for (files, words) in [
+        (
+            vec![("a.csv", &slow)],
+            "not used: it was driven at 90.0 % of the planned speeds",
+        ),
+        (
+            vec![("a.csv", &switched)],
+            "not used: its program has compensation off, and the recording says otherwise",
+        ),
+        (vec![("a.csv", &still)], "not used:"),
+        (
+            vec![("a.csv", &unsigned)],
+            "not used: it has no signature; say `--role a.csv=NUMBER`",
+        ),
+        (vec![("a.csv", &torqueless)], "torque"),
+        (
+            vec![("a.csv", &uneven)],
+            "of the friction beyond a constant offset: one list fits neither",
+        ),
+        (
+            vec![("a.csv", &drifting)],
+            "while it was recorded: repeat it warm",
+        ),
+        (
+            vec![("a.csv", &good), ("b.csv", &friction(0, 1.2))],
+            "b.csv and a.csv differ by",
+        ),
+    ] {
+        let folder = planned();
+        for (name, text) in files {
+            put(folder.path(), name, text);
+        }
+        let (status, text) = run(folder.path(), &[]);
+        assert_eq!(status, Some(1), "{words}: {text}");
+        assert!(
+            text.contains(words) && text.contains("X: no list"),
+            "{words}: {text}"
+        );
+        assert!(!folder.path().join("m/lists").exists(), "{words}");
+    }
+    let folder = planned();
+    put(folder.path(), "a.csv", &unsigned);
+    let (_, text) = run(folder.path(), &["--role", "a.csv=1"]);
+    assert!(text.contains("X: provisional list"), "{text}");
+    put(folder.path(), "a.csv", &good);
+    let (_, text) = run(folder.path(), &["--role", "a.csv=2"]);
+    assert!(
+        text.contains("its strokes are the number 1, and `--role` says 2")
+            && text.contains("Y: no list"),
+        "{text}"
+    );
+}
+
+/// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
+/// are exchanged are found by the strokes.
+#[test]
+fn channels_of_the_wrong_axis_are_found() {
+    let track = friction(0, 1.0);
+    let mut text = String::from("t;A.v [mm/s];A.torque;B.v [mm/s];B.torque\n");
+    for line in track.lines().skip(1) {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|it| it.parse().expect("a number"))
+            .collect();
+        writeln!(text, "{};{};{};0;0", cells[0], cells[1] / 1000.0, cells[3]).expect("text");
+    }
+    for ([a, b], words) in [
+        (["X", "Y"], "X: provisional list"),
+        (["Y", "X"], "two axes are mixed"),
+    ] {
+        let folder = planned();
+        put(
+            folder.path(),
+            "both.csv",
+            &text
+                .replace("A.", &format!("{a}."))
+                .replace("B.", &format!("{b}.")),
+        );
+        let channels = ["--velocity", "%.v", "--torque", "%.torque"];
+        let (status, said) = run(folder.path(), &channels);
+        assert!(status == Some(1) && said.contains(words), "{said}");
+    }
+}
+
+/// R16.2: without a plan, or without recordings, nothing is invented.
+#[test]
+fn without_a_plan_there_is_nothing_to_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("m")).expect("a folder");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(
+        status == Some(2) && text.contains("has no `plan-1.json`"),
+        "{text}"
+    );
+    std::fs::write(folder.path().join("m/plan-1.json"), "{}").expect("written");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(status == Some(2) && text.contains("is no plan"), "{text}");
+    let folder = planned();
+    std::fs::remove_dir(folder.path().join("m/recordings")).expect("removed");
+    let (status, text) = run(folder.path(), &[]);
+    assert!(
+        status == Some(2) && text.contains("make the folder, and put the recordings into it"),
+        "{text}"
+    );
+}
+
+/// R16.9: of a gantry one motor is read, and no list is made of its torque.
+#[test]
+fn a_gantry_gets_no_list_of_one_motor() {
+    let folder = planned();
+    let path = folder.path().join("m/plan-1.json");
+    let plan = std::fs::read_to_string(&path).expect("a plan");
+    let mut plan: serde_json::Value = serde_json::from_str(&plan).expect("a record");
+    plan["plan"]["axes"][0]["followers"] = serde_json::json!(["X2"]);
+    std::fs::write(&path, plan.to_string()).expect("written");
+    put(folder.path(), "a.csv", &friction(0, 1.0));
+    let (status, text) = run(folder.path(), &[]);
+    let words = "a gantry: the motors of X2 share the friction";
+    assert!(status == Some(1) && text.contains(words), "{text}");
+    assert!(!folder.path().join("m/lists").exists());
+}
+
+/// The rows of a recording of circles up to the first clockwise one.
+fn counter_clockwise(recording: &str) -> String {
+    let mut angle = 0.0_f64;
+    let mut turned = 0.0;
+    let mut kept = String::new();
+    for line in recording.lines() {
+        let cells: Vec<f64> = line.split(',').filter_map(|it| it.parse().ok()).collect();
+        if let [_, x, y] = cells[..] {
+            let now = y.atan2(x - 50.0);
+            let step = (now - angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+            angle = now;
+            if ((x - 50.0).hypot(y) - 40.0).abs() < 0.05 {
+                turned += step;
+            }
+            if turned > TAU && step < -1e-4 {
+                break;
+            }
+        }
+        writeln!(kept, "{line}").expect("text");
+    }
+    kept
+}
+
+/// R16.9: circles of one direction or without times are not used; those at another feed count with what was
+/// driven.
+#[test]
+fn circles_count_with_what_was_driven() {
+    let folder = planned();
+    let folder = folder.path();
+    let whole = circles(folder, "m/03-circle-2000.nc", &deviations(2000.0, None));
+    let slower = changed(&whole, "t,x,y", &|it| {
+        format!("{:.5},{},{}", it[0] / 0.9, it[1], it[2])
+    });
+    for (text, words) in [
+        (counter_clockwise(&whole), "one direction is missing"),
+        (
+            slower,
+            "driven at 1800 mm/min in place of 2000: 22.50 mm/s² count",
+        ),
+    ] {
+        put(folder, "c.csv", &text);
+        let (status, said) = run(folder, &[]);
+        assert!(status == Some(1) && said.contains(words), "{words}: {said}");
+    }
+}
+
+/// R16.9: a list that adds too much, that has changed since, whose friction or feeds are not recorded.
+#[test]
+fn lists_that_are_not_accepted_say_why() {
+    let folder = planned();
+    let folder = folder.path();
+    put(folder, "x.csv", &friction(0, 1.0));
+    run(folder, &[]);
+    let mut strong = std::fs::read_to_string(folder.join(provisional(folder, "X"))).expect("text");
+    for (at, point) in list_in(&folder.join(provisional(folder, "X")))
+        .table
+        .iter()
+        .enumerate()
+    {
+        let key = format!("frict_comp.table[{at}].out");
+        let lines = strong.lines().map(|line| {
+            if line.trim().starts_with(&key) {
+                format!("{key} {}", (point.output * 2.0).round())
+            } else {
+                line.to_owned()
+            }
+        });
+        strong = lines.collect::<Vec<_>>().join("\n");
+    }
+    std::fs::write(folder.join("strong.lis"), &strong).expect("written");
+    let lists = ["--value-list", "X=strong.lis", "--value-list", "Y=zero.lis"];
+    let output = call(folder, &[&PLAN[..], &["m"], &lists[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let feed = FEEDS[0];
+    for (name, program) in [
+        ("off.csv", "m/03-circle-2000.nc"),
+        ("on.csv", "m/66-circle-2000.nc"),
+    ] {
+        put(
+            folder,
+            name,
+            &circles(folder, program, &deviations(feed, None)),
+        );
+    }
+    let (status, text) = run(folder, &[]);
+    assert_eq!(status, Some(1), "{text}");
+    for words in [
+        "the list of X adds 2.0",
+        "times the measured friction; 1.3 are the most",
+        "the friction of Y is not known",
+        "F3000 is not recorded both off and on",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    std::fs::write(folder.join("strong.lis"), strong + "\n# changed\n").expect("written");
+    let (_, text) = run(folder, &[]);
+    let words = "the list of X that was recorded is no longer `strong.lis`";
+    assert!(text.contains(words), "{text}");
+}

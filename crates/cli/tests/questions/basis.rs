@@ -1,0 +1,111 @@
+//! Every output says on which readings of open questions its results rest (R15.3).
+
+use super::folder::{Bench, json};
+use super::{MACHINE, bench};
+use serde_json::{Value, json as value};
+
+/// Y has no friction compensation, Z has no value list; X and Y are required to be compensated.
+const AXES: &str =
+    "\n[[axis]]\nname = \"Y\"\nnumber = 2\n\n[[axis]]\nname = \"Z\"\nnumber = 3\nenable = true\n";
+
+/// What the summary of a run says that its results rest on.
+fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> {
+    let records = bench.records(arguments);
+    let summary = records.iter().map(|it| json(it));
+    let summary = summary.last().expect("a summary");
+    let named = summary["rests_on"].as_array().cloned().unwrap_or_default();
+    let text = |it: &Value, key: &str| it[key].as_str().unwrap_or_default().to_owned();
+    let named = named.iter();
+    named
+        .map(|it| (text(it, "rule"), text(it, "reading"), text(it, "basis")))
+        .collect()
+}
+
+/// R15.3: a result rests on a question where its answer decides something, and only there.
+#[test]
+fn a_result_names_the_readings_that_decide_it() {
+    let bench = bench();
+    bench.write("frictcomp.toml", &format!("{MACHINE}{AXES}"));
+    for (program, rules) in [
+        (
+            "X[COMP OFF FRICT]\nG1 X1 F100\nX[COMP ON FRICT]\nM30\n",
+            &[][..],
+        ),
+        ("X[COMP OFF FRICT]\nM30\n", &["R1.28"]),
+        ("X[comp off frict]\nX[COMP ON FRICT]\nM30\n", &["R1.8"]),
+        (
+            "X[COMP OFF FRICT] G1 X5 F100\nX[COMP ON FRICT]\nM30\n",
+            &["R1.9"],
+        ),
+        ("Y[COMP OFF FRICT]\nM30\n", &["R1.25"]),
+        ("X[COMP OFF FRICT] X[COMP ON FRICT]\nM30\n", &["R1.31"]),
+        (
+            "G1 X1 F100\nX2\nX[COMP OFF FRICT]\nX3\nX[COMP ON FRICT]\nM30\n",
+            &["R1.57"],
+        ),
+        (
+            "X[COMP OFF FRICT]\n#PUT AX [X]\n#CALL AX [X,1]\nX[COMP ON FRICT]\nM30\n",
+            &["R2.70"],
+        ),
+        // Neither reading is taken.
+        (
+            "#MACHINE DATA [AX=X P-AXIS-00001=1]\nX[COMP ON FRICT]\nM30\n",
+            &[],
+        ),
+    ] {
+        bench.write("a.nc", program);
+        let found = rests_on(&bench, &["a.nc"]);
+        let found: Vec<_> = found.iter().map(|(rule, ..)| rule.as_str()).collect();
+        assert_eq!(found, rules, "{program}");
+    }
+}
+
+/// R15.3, R2.96: a selected reading of a block search decides what follows.
+#[test]
+fn a_selected_reading_of_a_search_is_named() {
+    let bench = bench();
+    bench.write(
+        "a.nc",
+        "N10 X[COMP OFF FRICT]\nN20 G1 X5 F100\nN30 X[COMP ON FRICT]\nM30\n",
+    );
+    let searched = ["--from", "N20", "a.nc"];
+    assert!(rests_on(&bench, &searched).is_empty());
+    let selected = format!("{MACHINE}[reading]\n\"R2.96\" = \"decoded\"\n");
+    bench.write("frictcomp.toml", &selected);
+    let all = [("R2.96", "decoded", "selected")];
+    let all = all.map(|(rule, reading, basis)| (rule.into(), reading.into(), basis.into()));
+    assert_eq!(rests_on(&bench, &searched), all);
+}
+
+/// R15.3: text, JSON and SARIF of `check` say whether a reading is assumed, selected or confirmed, and
+/// on which build.
+#[test]
+fn every_format_says_the_basis() {
+    let bench = bench();
+    bench.write("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+    let said =
+        |bench: &Bench| String::from_utf8(bench.call(&["check", "a.nc"]).stderr).expect("text");
+    let assumed =
+        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` asks the control)";
+    assert!(said(&bench).contains(assumed), "{}", said(&bench));
+    let run = bench.stdout(&["run", "a.nc"]);
+    assert!(run.contains(assumed), "{run}");
+    let answer = "[reading]\n\"R1.28\" = \"kept\"\n[confirmed]\n\
+        \"R1.28\" = { build = \"3.1.3081.5\", date = \"2026-01-31\" }\n";
+    bench.write("frictcomp.toml", &format!("{MACHINE}{answer}"));
+    assert!(
+        said(&bench)
+            .contains("Rests on R1.28, confirmed on V3.1.3081.05: a reset keeps the state\n")
+    );
+    let confirmed = value!([{
+        "basis": "confirmed", "rule": "R1.28", "reading": "kept",
+        "meaning": "a reset keeps the state",
+        "build": "V3.1.3081.05", "date": "2026-01-31",
+    }]);
+    let check = |format: &str| json(&bench.stdout(&["check", "--format", format, "a.nc"]));
+    let records = check("json");
+    let records = records["records"].as_array().expect("records").clone();
+    assert_eq!(records.last().expect("a summary")["rests_on"], confirmed);
+    let sarif = check("sarif");
+    assert_eq!(sarif["runs"][0]["tool"]["properties"]["restsOn"], confirmed);
+}

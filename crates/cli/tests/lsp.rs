@@ -11,6 +11,8 @@ mod lifecycle;
 mod lsp_client;
 #[path = "lsp/messages.rs"]
 mod messages;
+#[path = "lsp/pulled.rs"]
+mod pulled;
 #[path = "lsp/scripts.rs"]
 mod scripts;
 #[path = "lsp/shown.rs"]

@@ -37,6 +37,8 @@ export class Server implements vscode.Disposable {
         error: () => ({ action: ErrorAction.Shutdown, handled: true }),
         closed: () => ({ action: CloseAction.DoNotRestart, message: "frictcomp has ended; `frictcomp: Restart the Language Server` starts it again." }),
       },
+      // Messages are asked for on each change, too, which the client leaves out unless it is told.
+      diagnosticPullOptions: { onChange: true },
       initializationFailedHandler: () => false,
       initializationOptions: { frictcomp: this.settings() },
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.lis,frictcomp.toml}") },

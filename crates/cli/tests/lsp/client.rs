@@ -168,6 +168,23 @@ impl Client {
         }
     }
 
+    /// Asks for the messages on a text.
+    #[track_caller]
+    pub(crate) fn pull(&mut self, uri: &str, known: Option<&Value>) -> Value {
+        let mut params = json!({ "textDocument": { "uri": uri } });
+        if let Some(known) = known {
+            params["previousResultId"] = known["resultId"].clone();
+        }
+        self.ask("textDocument/diagnostic", &params)
+    }
+
+    /// Answers the next request of the server of a method.
+    #[track_caller]
+    pub(crate) fn does(&mut self, method: &str) {
+        let id = self.asked(method).id;
+        self.send(Response::new_ok(id, Value::Null));
+    }
+
     /// Waits until a text is checked: a question about it is answered after that.
     pub(crate) fn settle(&mut self, uri: &str) {
         self.ask(

@@ -1,10 +1,11 @@
 //! The capabilities of the server.
 
 use gen_lsp_types::{
-    CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, ExecuteCommandOptions,
-    InitializeResult, RenameOptions, RenameProvider, SaveOptions, ServerCapabilities, ServerInfo,
-    TextDocumentContent, TextDocumentContentOptions, TextDocumentSyncKind, TextDocumentSyncOptions,
-    WorkspaceFoldersServerCapabilities, WorkspaceOptions,
+    CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, DiagnosticOptions,
+    DiagnosticProvider, ExecuteCommandOptions, InitializeResult, RenameOptions, RenameProvider,
+    SaveOptions, ServerCapabilities, ServerInfo, TextDocumentContent, TextDocumentContentOptions,
+    TextDocumentSyncKind, TextDocumentSyncOptions, WorkspaceFoldersServerCapabilities,
+    WorkspaceOptions,
 };
 
 use super::client::Client;
@@ -61,6 +62,7 @@ pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {
                 ..ExecuteCommandOptions::default()
             }),
             inlay_hint_provider: Some(true.into()),
+            diagnostic_provider: client.pulls_diagnostics().then(diagnostics),
             workspace: Some(WorkspaceOptions {
                 workspace_folders: Some(WorkspaceFoldersServerCapabilities::default()),
                 text_document_content: Some(TextDocumentContent::Options(
@@ -75,6 +77,15 @@ pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {
             version: Some(env!("CARGO_PKG_VERSION").to_owned()),
         }),
     }
+}
+
+/// Returns the support for requests for messages: those on a text depend on others.
+fn diagnostics() -> DiagnosticProvider {
+    let options = DiagnosticOptions {
+        inter_file_dependencies: true,
+        ..DiagnosticOptions::default()
+    };
+    options.into()
 }
 
 /// Returns the support for renaming; a client with the ability is told first whether there is a

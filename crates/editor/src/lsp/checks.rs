@@ -115,6 +115,11 @@ impl Checks {
         self.running.take().map(|(uri, _)| uri)
     }
 
+    /// Whether no check is running or due.
+    pub(super) fn are_done(&self) -> bool {
+        self.running.is_none() && self.due.is_empty()
+    }
+
     /// Whether a check of a text is still to come.
     pub(super) fn is_awaited(&self, uri: &str) -> bool {
         let is_running = self

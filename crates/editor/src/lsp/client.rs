@@ -60,6 +60,15 @@ impl Client {
         lenses.and_then(|it| it.refresh_support) == Some(true)
     }
 
+    /// Whether it asks for messages, and again when it is told to.
+    pub(super) fn pulls_diagnostics(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        let refreshing = workspace.and_then(|it| it.diagnostics.as_ref());
+        let document = self.capabilities.text_document.as_ref();
+        document.is_some_and(|it| it.diagnostic.is_some())
+            && refreshing.and_then(|it| it.refresh_support) == Some(true)
+    }
+
     /// Whether it asks what can be renamed before it asks for a new name.
     pub(super) fn prepares_renames(&self) -> bool {
         let document = self.capabilities.text_document.as_ref();

@@ -2,6 +2,7 @@
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use gen_lsp_types::{
     Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
@@ -15,6 +16,7 @@ use super::encoding::whole_line;
 use super::pages::page_uri;
 use frictcomp::diagnostic::{Advice, Code, Diagnostic, Severity};
 use frictcomp::text::Place;
+use frictcomp_host::SharedMap;
 
 /// The source that an editor shows beside a message.
 const SOURCE: &str = "frictcomp";
@@ -30,6 +32,9 @@ const MAX_PROGRAMS: usize = 20;
 
 /// Messages of a check, by the URIs of the texts that they are about.
 pub(super) type ByText = BTreeMap<String, Vec<Message>>;
+
+/// Messages on each text, by their URIs; a copy is cheap.
+pub(super) type Shown = SharedMap<String, Arc<[Message]>>;
 
 /// Makes messages for a client.
 #[derive(Clone, Copy)]
@@ -203,7 +208,7 @@ pub(super) struct PublishedDiagnostics {
     by_check: BTreeMap<String, ByText>,
     /// Messages of checks of other texts on a text, with the number of those checks.
     by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
-    shown: ByText,
+    shown: Shown,
 }
 
 /// Key of a message: its place, its cause, and the rest that tells it from others.
@@ -234,11 +239,16 @@ impl PublishedDiagnostics {
         let concerned = self.take(check);
         let changed = self.changed(concerned.clone());
         for uri in concerned {
-            if self.shown.get(&uri).is_some_and(Vec::is_empty) {
+            if self.shown.get(&uri).is_some_and(|it| it.is_empty()) {
                 self.shown.remove(&uri);
             }
         }
         changed
+    }
+
+    /// Messages on each text.
+    pub(super) fn shown(&self) -> &Shown {
+        &self.shown
     }
 
     /// Takes away the messages of a check: the texts that they were about.
@@ -280,8 +290,8 @@ impl PublishedDiagnostics {
                     Entry::Occupied(at) => reach(&mut now[*at.get()], message),
                 }
             }
-            if self.shown.get(&uri) != Some(&now) {
-                self.shown.insert(uri.clone(), now.clone());
+            if self.shown.get(&uri).map(AsRef::as_ref) != Some(now.as_slice()) {
+                self.shown.insert(uri.clone(), now.as_slice().into());
                 changed.insert(uri, now);
             }
         }

@@ -17,6 +17,7 @@ mod client;
 mod commands;
 mod completion;
 mod custom;
+mod delivery;
 mod documents;
 mod encoding;
 mod hints;

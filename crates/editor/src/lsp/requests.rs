@@ -3,9 +3,10 @@
 use gen_lsp_types::{
     CallHierarchyIncomingCallsRequest, CallHierarchyOutgoingCallsRequest,
     CallHierarchyPrepareRequest, CodeActionRequest, CodeLensRequest, CodeLensResolveRequest,
-    CompletionRequest, DefinitionRequest, DocumentSymbolRequest, ExecuteCommandRequest,
-    FoldingRangeRequest, HoverRequest, InlayHintRequest, PrepareRenameRequest, ReferencesRequest,
-    RenameRequest, Request, TextDocumentContentRequest, WorkspaceSymbolRequest,
+    CompletionRequest, DefinitionRequest, DocumentDiagnosticRequest, DocumentSymbolRequest,
+    ExecuteCommandRequest, FoldingRangeRequest, HoverRequest, InlayHintRequest,
+    PrepareRenameRequest, ReferencesRequest, RenameRequest, Request, TextDocumentContentRequest,
+    WorkspaceSymbolRequest,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -14,7 +15,9 @@ use serde_json::Value;
 use super::custom::{StatesRequest, TimelineRequest};
 use super::refusal::Refusal;
 use super::view::View;
-use super::{actions, calls, commands, completion, custom, hints, hover, lens, navigation, pages};
+use super::{
+    actions, calls, commands, completion, custom, delivery, hints, hover, lens, navigation, pages,
+};
 
 /// Answers a question with parameters that may be anything.
 pub(super) type Handler = fn(&View, Value) -> Result<Value, Refusal>;
@@ -43,7 +46,7 @@ pub(super) fn handler(method: &str) -> Option<(Needs, Handler)> {
     Some((known.needs, known.handler))
 }
 
-static KNOWN: [Known; 20] = [
+static KNOWN: [Known; 21] = [
     known::<HoverRequest>(Needs::Check, |view, params| {
         answer(view, params, hover::hover)
     }),
@@ -58,6 +61,9 @@ static KNOWN: [Known; 20] = [
     }),
     known::<CodeActionRequest>(Needs::Check, |view, params| {
         answer(view, params, actions::code_actions)
+    }),
+    known::<DocumentDiagnosticRequest>(Needs::Check, |view, params| {
+        answer(view, params, delivery::report)
     }),
     known::<StatesRequest>(Needs::Check, |view, params| {
         answer(view, params, custom::states)

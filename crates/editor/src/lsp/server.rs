@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use gen_lsp_types::{
-    CodeLensRefreshRequest, DidChangeConfigurationParams, DidChangeTextDocumentParams,
-    DidChangeWatchedFilesParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    InitializeParams, InlayHintRefreshRequest, Notification as _, PublishDiagnosticsNotification,
-    PublishDiagnosticsParams, Request as _, Uri,
+    CodeLensRefreshRequest, DiagnosticRefreshRequest, DidChangeConfigurationParams,
+    DidChangeTextDocumentParams, DidChangeWatchedFilesParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, InitializeParams, InlayHintRefreshRequest, Notification as _,
+    PublishDiagnosticsNotification, PublishDiagnosticsParams, Uri,
 };
 use lsp_server::{
     Connection, ErrorCode, Message, Notification, ReqQueue, Request, RequestId, Response,
@@ -26,9 +26,10 @@ use super::asked::{self, Asked};
 use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
+use super::delivery::{CheckedFor, Delivery};
 use super::documents::{Document, Documents, Kind, is_of_a_user};
 use super::log::log;
-use super::messages::{ByText, PublishedDiagnostics, Translator};
+use super::messages::{ByText, Translator};
 use super::project_calls::ProjectCalls;
 use super::refusal::Refusal;
 use super::requests::{Handler, Needs, handler};
@@ -125,7 +126,7 @@ struct Server<'c> {
     calls: ProjectCalls,
     analyses: SharedMap<String, Arc<Analysis>>,
     users: Users,
-    published: PublishedDiagnostics,
+    delivery: Delivery,
     checks: Checks,
     checking: Worker<Job>,
     answering: Worker<Question>,
@@ -153,7 +154,7 @@ impl<'c> Server<'c> {
             calls,
             analyses: SharedMap::default(),
             users: Users::default(),
-            published: PublishedDiagnostics::default(),
+            delivery: Delivery::default(),
             checks: Checks::default(),
             checking: checking(sender.clone())?,
             answering: answering("answers", sender.clone())?,
@@ -174,6 +175,10 @@ impl<'c> Server<'c> {
             let now = Instant::now();
             while let Some(uri) = self.checks.due(now) {
                 self.begin_check(&uri);
+            }
+            let is_settled = self.checks.are_done() && !self.is_shut_down;
+            if is_settled && self.delivery.take_outdated() {
+                self.refresh::<DiagnosticRefreshRequest>();
             }
             let wait = self.checks.wait(now).unwrap_or(IDLE);
             select! {
@@ -272,6 +277,7 @@ impl<'c> Server<'c> {
                 client: Arc::clone(&self.client),
                 documents: self.documents.clone(),
                 analyses: self.analyses.clone(),
+                shown: self.delivery.shown().clone(),
                 calls: self.calls.clone(),
                 cancel,
             },
@@ -341,6 +347,8 @@ impl<'c> Server<'c> {
         let document = self.documents.open(params.text_document, languages);
         self.analyses.remove(&document.uri.0);
         self.users.forget(&document.uri.0);
+        let translator = translator(&self.client, &self.documents);
+        self.publish(self.delivery.opened(translator, &document.uri.0));
         self.expect_check(&document, Outdated::Now);
         self.expect_users(&document);
     }
@@ -374,8 +382,9 @@ impl<'c> Server<'c> {
         self.analyses.remove(&uri.0);
         self.users.forget(&uri.0);
         self.checks.forget(&uri.0);
-        let changed = self.published.remove(&uri.0);
-        self.publish(changed);
+        let translator = translator(&self.client, &self.documents);
+        let messages = self.delivery.closed(translator, &uri.0);
+        self.publish(messages);
         self.expect_users(&document);
         self.answer_waiting(&uri);
     }
@@ -488,34 +497,34 @@ impl<'c> Server<'c> {
         let (Some(analysis), Some(document)) = (analysis, self.documents.get(&uri)) else {
             return;
         };
-        let view = Translator {
-            client: &self.client,
-            documents: &self.documents,
-        };
-        let messages = view.messages(document, &analysis);
+        let translator = translator(&self.client, &self.documents);
+        let messages = translator.messages(document, &analysis);
         let earlier = self.analyses.get(&uri.0).map(|earlier| earlier.version);
-        let is_by_others = earlier == Some(analysis.version);
+        let why = match earlier == Some(analysis.version) {
+            true => CheckedFor::Others,
+            false => CheckedFor::Itself,
+        };
         self.users.note(document, &analysis);
         self.analyses.insert(uri.0.clone(), Arc::new(*analysis));
-        let changed = self.published.put(&uri.0, messages);
-        self.publish(changed);
+        let messages = self.delivery.checked(translator, (&uri.0, why), messages);
+        self.publish(messages);
         self.answer_waiting(&uri);
-        if is_by_others {
+        if why == CheckedFor::Others {
             // The text itself did not change, so the client has no reason to ask again.
-            let hints = (
-                self.client.refreshes_inlay_hints(),
-                InlayHintRefreshRequest::METHOD,
-            );
-            let lenses = (
-                self.client.refreshes_code_lenses(),
-                CodeLensRefreshRequest::METHOD,
-            );
-            for (_, method) in [hints, lenses].into_iter().filter(|(wanted, _)| *wanted) {
-                let outgoing = &mut self.queue.outgoing;
-                let request = outgoing.register(method.to_string(), (), Asked::Refresh);
-                self.send(request);
+            if self.client.refreshes_inlay_hints() {
+                self.refresh::<InlayHintRefreshRequest>();
+            }
+            if self.client.refreshes_code_lenses() {
+                self.refresh::<CodeLensRefreshRequest>();
             }
         }
+    }
+
+    /// Tells the client to ask again for what it shows.
+    fn refresh<R: gen_lsp_types::Request<Params = ()>>(&mut self) {
+        let outgoing = &mut self.queue.outgoing;
+        let request = outgoing.register(R::METHOD.to_string(), (), Asked::Refresh);
+        self.send(request);
     }
 
     fn answer_waiting(&mut self, uri: &Uri) {
@@ -549,6 +558,10 @@ impl<'c> Server<'c> {
             self.send(Notification::new(method, params));
         }
     }
+}
+
+fn translator<'a>(client: &'a Client, documents: &'a Documents) -> Translator<'a> {
+    Translator { client, documents }
 }
 
 fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {

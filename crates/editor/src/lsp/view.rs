@@ -8,7 +8,7 @@ use gen_lsp_types::{Position, Uri};
 use super::analysis::{Analysis, Run};
 use super::client::Client;
 use super::documents::{Document, Documents};
-use super::messages::Translator;
+use super::messages::{Shown, Translator};
 use super::project_calls::ProjectCalls;
 use super::worker::Cancel;
 use frictcomp::text::shown_path;
@@ -23,6 +23,8 @@ pub(super) struct View {
     pub(super) documents: Documents,
     /// Results of the checks of the open texts, by their URIs.
     pub(super) analyses: SharedMap<String, Arc<Analysis>>,
+    /// Messages on the texts, by their URIs.
+    pub(super) shown: Shown,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
     /// Whether the client still wants to know.

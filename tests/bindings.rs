@@ -230,10 +230,13 @@ fn every_package_says_where_its_sources_are_and_can_be_published() {
         );
     }
     let build = read("dist/build");
-    assert!(
-        build.contains("--remap-path-prefix=$home=")
-            && build.contains("names_no_folder \"$executable\"")
-    );
+    for line in [
+        "--remap-path-prefix=$home=",
+        "names_no_folder \"$executable\"",
+        "names_no_folder \"$file\"",
+    ] {
+        assert!(build.contains(line), "{line}");
+    }
 }
 
 #[test]

@@ -99,3 +99,78 @@ fn what_a_workflow_runs_is_named_by_its_content() {
         }
     }
 }
+
+#[test]
+fn a_wheel_runs_on_old_systems_and_has_its_notices() {
+    // R13.10
+    let build = read("bindings/python/build");
+    assert!(build.contains("--zig --compatibility manylinux_2_28"));
+    let project: toml::Table = read("bindings/python/pyproject.toml")
+        .parse()
+        .expect("TOML");
+    let licences = project["project"]["license-files"].as_array();
+    let licences = licences.expect("files").iter();
+    let names: Vec<&str> = licences.filter_map(toml::Value::as_str).collect();
+    assert!(names.contains(&"THIRD-PARTY-LICENSES*.txt"), "{names:?}");
+    let release = read("dist/build");
+    for made in [
+        "aarch64-unknown-linux-gnu",
+        "sdist",
+        "licenses/THIRD-PARTY-LICENSES.txt",
+    ] {
+        assert!(release.contains(made), "{made}");
+    }
+}
+
+#[test]
+fn two_builds_can_be_the_same_bytes() {
+    // R13.10: `dist/compare` makes them; nothing in an archive has the time of the build.
+    let build = read("dist/build");
+    for line in [
+        "--mtime=\"@$SOURCE_DATE_EPOCH\"",
+        "touch --no-dereference --date=\"@$SOURCE_DATE_EPOCH\"",
+        "export SOURCE_DATE_EPOCH TZ=UTC",
+    ] {
+        assert!(build.contains(line), "{line}");
+    }
+    assert!(read("scripts/full").contains("dist/compare"));
+}
+
+#[test]
+fn windows_shows_an_icon_and_a_version() {
+    // R13.10: the head of an icon file has the number of its pictures.
+    let icon = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/cli/frictcomp.ico");
+    let icon = fs::read(icon).expect("the icon");
+    assert_eq!(icon[..4], [0, 0, 1, 0]);
+    let sizes: Vec<u8> = (0..usize::from(icon[4]))
+        .map(|at| icon[6 + 16 * at])
+        .collect();
+    // 0 is 256.
+    assert_eq!(sizes, [16, 32, 48, 0]);
+    assert!(read("crates/cli/build.rs").contains("set_icon(\"frictcomp.ico\")"));
+    assert!(read("dist/build").contains("grep -qF .rsrc"));
+}
+
+#[test]
+fn a_release_is_attested_and_says_what_is_inside() {
+    // R13.10
+    let workflow = read(".github/workflows/release.yml");
+    for line in [
+        "actions/attest-build-provenance@",
+        "subject-checksums: dist/out/SHA256SUMS",
+        "id-token: write",
+        "attestations: write",
+    ] {
+        assert!(workflow.contains(line), "{line}");
+    }
+    let build = read("dist/build");
+    let parts = [
+        "crates/cli",
+        "bindings/python",
+        "bindings/web",
+        "bindings/c",
+    ];
+    for part in parts {
+        assert!(build.contains(&format!("materials {part} ")), "{part}");
+    }
+}

@@ -9,7 +9,9 @@ use arrow_ipc::reader::StreamReader;
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::{ArrowError, Field, Schema, SchemaRef};
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::types::{PyBytes, PyCapsule};
+
+use crate::failure::refused;
 
 /// The name that the `PyCapsule` interface of Arrow gives a stream.
 const STREAM: &CStr = c"arrow_array_stream";
@@ -55,8 +57,14 @@ impl Table {
         fields.map(|field| field.name().clone()).collect()
     }
 
-    /// The table as the bytes of a stream of Arrow.
-    pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, ArrowError> {
+    /// The table as the bytes of a stream of Arrow, to be pickled.
+    pub(crate) fn pickled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.to_bytes();
+        let bytes = bytes.map_err(|error| refused(error.to_string()))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    fn to_bytes(&self) -> Result<Vec<u8>, ArrowError> {
         let mut writer = StreamWriter::try_new(Vec::new(), &self.schema)?;
         for batch in &self.batches {
             writer.write(batch)?;
@@ -64,8 +72,12 @@ impl Table {
         writer.into_inner()
     }
 
-    /// The table of such bytes.
-    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, ArrowError> {
+    /// The table that was pickled.
+    pub(crate) fn unpickled(bytes: &[u8]) -> PyResult<Self> {
+        Self::from_bytes(bytes).map_err(|error| refused(error.to_string()))
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Result<Self, ArrowError> {
         let reader = StreamReader::try_new(bytes, None)?;
         Ok(Self {
             schema: reader.schema(),

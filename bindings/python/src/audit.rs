@@ -5,10 +5,12 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{AxisAudit, ProgramAudit};
 use frictcomp::text::shown_path;
-use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, MachineOptions, Machines};
+use frictcomp_host::{
+    ArchiveAuditor, AuditOptions, FileRegistry, HostError, Input, MachineOptions, Machines,
+};
 use frictcomp_report::audit::{AuditReport, MachineAudit, records};
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
 
 use crate::arrow::{Column, Table};
@@ -18,6 +20,7 @@ use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, remark_without_machine};
 use crate::messages::{PyMessage, PyMessages, Said};
+use crate::pickled::{self, Reduced};
 use crate::program::Programs;
 use crate::work::{Stop, interruptible};
 
@@ -50,11 +53,12 @@ pub(crate) fn audit(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyAudit> {
     let py = programs.py();
-    let options = AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?);
-    let programs = Programs::of(programs)?;
-    let machine = machine_options(machine)?;
-    let Audited { report, said } =
-        interruptible(py, move |stop| audited(programs, machine, options, stop))?;
+    let job = Job {
+        programs: Programs::of(programs)?,
+        machine: machine_options(machine)?,
+        options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
+    };
+    let Audited { report, said } = interruptible(py, move |stop| audited(job, stop))?;
     Ok(PyAudit {
         table: table(&report),
         records: Value::from(records(&report)).to_string(),
@@ -65,34 +69,13 @@ pub(crate) fn audit(
     })
 }
 
-fn audited(
-    programs: Programs,
-    machine: MachineOptions,
-    options: AuditOptions,
-    stop: &Stop,
-) -> Result<Audited, Failure> {
-    let machines = Machines::new(machine, &FileRegistry::default()).on_disk(&programs.disk);
-    let mut machines = machines.watched_by(Arc::new(stop.clone()));
-    let (inputs, mut errors) = programs.found(&mut machines);
-    machines.look_ahead(&inputs);
-    let (auditor, no_machine) = ArchiveAuditor::new(inputs, &mut machines, options);
-    errors.extend(no_machine);
+fn audited(job: Job, stop: &Stop) -> Result<Audited, Failure> {
+    let (auditor, mut errors) = job.auditor(Programs::found, stop);
     let (archives, unread) = auditor.audit();
     errors.extend(unread);
     if let Some(failure) = Failure::of_several(errors) {
         return Err(failure);
     }
-    let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
-        let loaded = &auditor.machines()[*machine];
-        (!loaded.machine.is_described()).then_some(input)
-    });
-    let machines = auditor.machines().iter();
-    let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
-    let said = Said {
-        messages: errors.collect(),
-        remark: remark_without_machine(undescribed),
-        ..Said::default()
-    };
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
@@ -102,8 +85,47 @@ fn audited(
         report: AuditReport {
             machines: machines.collect(),
         },
-        said,
+        said: said(&auditor),
     })
+}
+
+/// What is audited, away from Python.
+pub(crate) struct Job {
+    pub(crate) programs: Programs,
+    pub(crate) machine: MachineOptions,
+    pub(crate) options: AuditOptions,
+}
+
+/// Finds the programs among those that were given, and what gave none.
+type Find = fn(Programs, &mut Machines) -> (Vec<Input>, Vec<HostError>);
+
+impl Job {
+    /// The programs that can run on their machines, and what cannot be audited.
+    pub(crate) fn auditor(self, find: Find, stop: &Stop) -> (ArchiveAuditor, Vec<HostError>) {
+        let machines = Machines::new(self.machine, &FileRegistry::default());
+        let machines = machines.on_disk(&self.programs.disk);
+        let mut machines = machines.watched_by(Arc::new(stop.clone()));
+        let (inputs, mut errors) = find(self.programs, &mut machines);
+        machines.look_ahead(&inputs);
+        let (auditor, no_machine) = ArchiveAuditor::new(inputs, &mut machines, self.options);
+        errors.extend(no_machine);
+        (auditor, errors)
+    }
+}
+
+/// What keeps the control from taking its lists, and that no machine is described.
+pub(crate) fn said(auditor: &ArchiveAuditor) -> Said {
+    let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
+        let loaded = &auditor.machines()[*machine];
+        (!loaded.machine.is_described()).then_some(input)
+    });
+    let machines = auditor.machines().iter();
+    let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
+    Said {
+        messages: errors.collect(),
+        remark: remark_without_machine(undescribed),
+        ..Said::default()
+    }
 }
 
 /// What a program does to an axis.
@@ -181,8 +203,45 @@ fn table(report: &AuditReport) -> Table {
     Table::of(columns, &[&by[..], &inherited].concat())
 }
 
+/// What an audit is made of anew: the table, the records, the messages, the counts.
+type Pickled<'py> = (
+    Bound<'py, PyBytes>,
+    String,
+    Py<PyMessages>,
+    (usize, u64, bool),
+);
+
 #[pymethods]
 impl PyAudit {
+    #[staticmethod]
+    fn _unpickled(
+        table: &[u8],
+        records: String,
+        messages: Py<PyMessages>,
+        counted: (usize, u64, bool),
+    ) -> PyResult<Self> {
+        let (programs, hazards, has_warnings) = counted;
+        Ok(Self {
+            table: Table::unpickled(table)?,
+            records,
+            messages,
+            programs,
+            hazards,
+            has_warnings,
+        })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+        let (this, py) = (slf.get(), slf.py());
+        let arguments = (
+            this.table.pickled(py)?,
+            this.records.clone(),
+            this.messages.clone_ref(py),
+            (this.programs, this.hazards, this.has_warnings),
+        );
+        pickled::reduced(slf, arguments)
+    }
+
     /// The records of ``frictcomp audit --format ndjson``.
     #[getter]
     fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use frictcomp::Diagnostic;
 use frictcomp::session::StateError;
 use frictcomp::text::shown_path;
-use frictcomp_host::HostError;
+use frictcomp_host::{HostError, NoDrivenContour};
 use frictcomp_physics::circle::CircleError;
+use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::current::FollowError;
 use frictcomp_recordings::identify::IdentifyError;
 use pyo3::exceptions::PyValueError;
@@ -137,6 +138,23 @@ impl From<HostError> for Failure {
             file,
             diagnostics: error.diagnostics().to_vec(),
         }
+    }
+}
+
+impl From<NoDrivenContour> for Failure {
+    fn from(error: NoDrivenContour) -> Self {
+        let help = match &error {
+            NoDrivenContour::Axes(NoContour::NoAxis(unknown)) => unknown.help("its axes are"),
+            NoDrivenContour::Unstable { .. } => {
+                Some("check gains and masses of the plant".to_owned())
+            }
+            _ => None,
+        };
+        if let NoDrivenContour::Host(error) = error {
+            return error.into();
+        }
+        let failure = Self::new(error.to_string());
+        Self { help, ..failure }
     }
 }
 

@@ -15,19 +15,26 @@ use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify as find};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::identify::{IdentifyReport, render_json};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
+use frictcomp_report::pictures::friction_curve;
+use frictcomp_report::svg::Frame;
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::failure::{Failure, refused};
 use crate::json;
+use crate::pickled::{self, Reduced};
 use crate::several::Several;
 use crate::words::meant_if_given;
 use crate::work::interruptible;
 
 /// The friction of an axis, and the value list that is made of it.
 #[pyclass(frozen, name = "Identified", module = "frictcomp")]
+#[derive(Serialize, Deserialize)]
 pub(crate) struct PyIdentified {
     record: String,
+    /// The curve; there is no picture of what was found on circles.
+    svg: Option<String>,
     list: FrictionList,
     axis: Option<String>,
     from: String,
@@ -99,23 +106,15 @@ pub(crate) fn identify(
 ) -> PyResult<PyIdentified> {
     let options = options(points, max_error, feed_mm_per_min)?;
     let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
-    let mut selection = ChannelSelection {
+    let selection = ChannelSelection {
         axis,
         time,
         position,
         velocity,
         torque,
+        units: given_units(units)?,
         ..ChannelSelection::default()
     };
-    for (channel, unit) in units.unwrap_or_default() {
-        let known = Unit::parse(&unit).ok_or_else(|| {
-            refused(format!(
-                "`{unit}` is not a known unit; known are {}",
-                Unit::NAMED
-            ))
-        })?;
-        selection.units.push((channel, known));
-    }
     let recorded = Recorded {
         traces: traces.paths(),
         selection,
@@ -132,6 +131,19 @@ pub(crate) fn identify(
             recorded.at_speeds(&options)
         }
     })
+}
+
+/// The units of channels by their names.
+pub(crate) fn given_units(units: Option<HashMap<String, String>>) -> PyResult<Vec<(String, Unit)>> {
+    let units = units.unwrap_or_default().into_iter();
+    let known = units.map(|(channel, unit)| match Unit::parse(&unit) {
+        Some(known) => Ok((channel, known)),
+        None => Err(refused(format!(
+            "`{unit}` is not a known unit; known are {}",
+            Unit::NAMED
+        ))),
+    });
+    known.collect()
 }
 
 /// One recording, or several.
@@ -171,6 +183,7 @@ impl Recorded {
         };
         Ok(PyIdentified {
             record: render_json(&report),
+            svg: Some(friction_curve(&report).render(Frame::Alone)),
             list: report.identified.list(),
             unit: report.unit().to_owned(),
             faults: report.faults(),
@@ -200,6 +213,7 @@ impl Recorded {
         };
         Ok(PyIdentified {
             record: on_circles::render_json(&report),
+            svg: None,
             list: report.found.list(),
             unit: report.unit().to_owned(),
             faults: report.faults(),
@@ -241,6 +255,15 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
 
 #[pymethods]
 impl PyIdentified {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
     /// The document of ``frictcomp identify --format json``.
     #[getter]
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -261,6 +284,14 @@ impl PyIdentified {
             made,
             meant_if_given(cnc_build)?,
         ))
+    }
+
+    /// The picture of the friction curve, as ``frictcomp identify --svg`` draws it.
+    ///
+    /// ``Error`` where friction was found on circles, of which there is none.
+    fn svg(&self, py: Python<'_>) -> PyResult<&str> {
+        let svg = self.svg.as_deref();
+        svg.ok_or_else(|| Failure::new("there is no picture of friction on circles").into_error(py))
     }
 
     fn __repr__(&self) -> String {

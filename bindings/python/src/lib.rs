@@ -5,6 +5,7 @@ mod arrow;
 mod audit;
 mod check;
 mod command;
+mod contour;
 mod current;
 mod failure;
 mod identify;
@@ -14,10 +15,13 @@ mod limits;
 mod machine;
 mod messages;
 mod pickled;
+mod planner;
 mod program;
 mod run;
+mod sequence;
 mod several;
 mod simulated;
+mod start;
 mod state;
 mod states;
 mod timeline;
@@ -42,7 +46,9 @@ mod _engine {
     #[pymodule_export]
     use super::command::command;
     #[pymodule_export]
-    use super::current::{PyAxisCurrent, PyCurrents, current};
+    use super::contour::{PyContour, contour};
+    #[pymodule_export]
+    use super::current::{PyAxisCurrent, PyCurrents, current, current_of_recording};
     #[pymodule_export]
     use super::identify::{PyIdentified, identify};
     #[pymodule_export]
@@ -56,7 +62,9 @@ mod _engine {
     #[pymodule_export]
     use super::run::run;
     #[pymodule_export]
-    use super::simulated::{PyTuned, circle, tune};
+    use super::sequence::{PyAuditSequence, audit_sequence};
+    #[pymodule_export]
+    use super::simulated::{PyCircle, PyTuned, circle, tune};
     #[pymodule_export]
     use super::state::PyState;
     #[pymodule_export]

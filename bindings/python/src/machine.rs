@@ -9,7 +9,7 @@ use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
-    OutsidePolicy, switched_axes,
+    OutsidePolicy, Watcher, switched_axes,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -160,12 +160,27 @@ pub(crate) fn machine_of(
     programs: &Programs,
     left: Vec<String>,
 ) -> Result<Arc<LoadedMachine>, Failure> {
-    let mut machines = Machines::new(options, &FileRegistry::default()).on_disk(&programs.disk);
-    machines.look_ahead(&programs.inputs);
+    let mut machines = Machines::new(options, &FileRegistry::default());
     if !left.is_empty() {
         // Other runs of the same machine name the others.
         machines.expect_more(left);
     }
+    of_first(machines, programs)
+}
+
+/// The machine of a program that is watched.
+pub(crate) fn watched_machine_of(
+    options: MachineOptions,
+    programs: &Programs,
+    watcher: Arc<dyn Watcher>,
+) -> Result<Arc<LoadedMachine>, Failure> {
+    let machines = Machines::new(options, &FileRegistry::default());
+    of_first(machines.watched_by(watcher), programs)
+}
+
+fn of_first(machines: Machines, programs: &Programs) -> Result<Arc<LoadedMachine>, Failure> {
+    let mut machines = machines.on_disk(&programs.disk);
+    machines.look_ahead(&programs.inputs);
     let first = programs.inputs.first().expect("there is a program");
     Ok(machines.for_folder(first.folder())?)
 }

@@ -10,6 +10,7 @@ use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
 use frictcomp::diagnostic::{Advice, Fix, ReachedFrom};
 use frictcomp::text::Place;
 use frictcomp::{Diagnostic, Severity};
+use frictcomp_host::LoadedMachine;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList, PySlice};
@@ -92,6 +93,24 @@ pub(crate) struct Said {
 }
 
 impl Said {
+    /// Errors, and remarks on a trace with the severities of the user.
+    pub(crate) fn of_trace(
+        (errors, remarks): (&[Diagnostic], &[Diagnostic]),
+        loaded: &LoadedMachine,
+    ) -> Self {
+        let remarks = remarks.iter().filter_map(|said| {
+            let severity = loaded.levels.severity(said.code)?;
+            Some(PyMessage::of(&Diagnostic {
+                severity,
+                ..said.clone()
+            }))
+        });
+        Self {
+            messages: errors.iter().map(PyMessage::of).chain(remarks).collect(),
+            ..Self::default()
+        }
+    }
+
     /// So many more messages of a program are not listed.
     pub(crate) fn leave_out(&mut self, unsaid: &BTreeMap<Severity, u64>) {
         for (severity, more) in unsaid.iter().filter(|(_, more)| **more > 0) {

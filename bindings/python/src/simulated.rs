@@ -21,18 +21,25 @@ use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
+use frictcomp_report::pictures;
+use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_json as render_tune};
 use frictcomp_report::value_lists::render_tuned;
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::failure::{Failure, refused};
 use crate::json;
+use crate::pickled::{self, Reduced};
 use crate::several::Several;
 use crate::words::{meant, meant_if_given};
 use crate::work::{Stop, interruptible};
 
 /// Circles that are tuned at once, at most.
 const MAX_CIRCLES: usize = 32;
+
+/// The first build that reads outputs with fractions (P-COMP-00047).
+const FRACTIONS: CncBuild = CncBuild::new([3, 1, 3132, 0]);
 
 /// One value list for both axes, or one for each.
 #[derive(FromPyObject)]
@@ -43,7 +50,24 @@ pub(crate) enum Lists {
     Each(HashMap<String, PathBuf>),
 }
 
-/// A circular test: the document of ``frictcomp circle --format json``.
+/// A circular test: its figures and its picture.
+#[pyclass(frozen, name = "Circle", module = "frictcomp")]
+#[derive(Serialize, Deserialize)]
+pub(crate) struct PyCircle {
+    record: String,
+    svg: String,
+}
+
+impl From<&CircleReport> for PyCircle {
+    fn from(report: &CircleReport) -> Self {
+        Self {
+            record: render_json(report),
+            svg: pictures::circle(report).render(Frame::Alone),
+        }
+    }
+}
+
+/// A circular test, as ``frictcomp circle`` makes it.
 ///
 /// Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
 /// circles are judged instead, with the radius and the feed that were commanded.
@@ -51,8 +75,8 @@ pub(crate) enum Lists {
 #[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
 // Each is an argument of its own for Python.
 #[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
-pub(crate) fn circle<'py>(
-    py: Python<'py>,
+pub(crate) fn circle(
+    py: Python<'_>,
     radius_mm: Option<f64>,
     feed_mm_per_min: Option<f64>,
     plant: &str,
@@ -62,9 +86,9 @@ pub(crate) fn circle<'py>(
     reading: Option<&str>,
     traces: Option<Several<PathBuf>>,
     centre: Option<&str>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<PyCircle> {
     let centre: PathCentre = meant(centre)?;
-    let report = if let Some(Several(traces)) = traces {
+    if let Some(Several(traces)) = traces {
         let commanded = CommandedCircle {
             radius_mm,
             feed_mm_per_min,
@@ -75,8 +99,8 @@ pub(crate) fn circle<'py>(
                 selection: ChannelSelection::default(),
             };
             let recording = read_circles(&traces, &channels, commanded, centre)?;
-            Ok(render_json(&CircleReport::recorded(recording)))
-        })?
+            Ok(PyCircle::from(&CircleReport::recorded(recording)))
+        })
     } else {
         let usual = Circle::default();
         let circle = Circle {
@@ -94,9 +118,8 @@ pub(crate) fn circle<'py>(
                 reading,
             };
             simulated.driven(value_list, centre, stop)
-        })?
-    };
-    json::parsed(py, &report)
+        })
+    }
 }
 
 /// What is simulated.
@@ -113,7 +136,7 @@ impl Simulated {
         lists: Option<Lists>,
         centre: PathCentre,
         stop: &Stop,
-    ) -> Result<String, Failure> {
+    ) -> Result<PyCircle, Failure> {
         memory_for_simulation()?;
         let plant = find_plant(&self.plant, &FileRegistry::default())?;
         let (compensation, origin) = match lists {
@@ -133,7 +156,7 @@ impl Simulated {
         let watch = Watch::by(Arc::new(stop.clone()));
         let comparison = compare(&test, &watch).map_err(Failure::of_circle)?;
         let report = CircleReport::simulated(test, comparison.about(centre), origin);
-        Ok(render_json(&report))
+        Ok(PyCircle::from(&report))
     }
 }
 
@@ -164,9 +187,31 @@ fn seconds(py: Python<'_>, milliseconds: Option<f64>) -> PyResult<Option<f64>> {
 
 /// The parameters of a value list that leave the smallest glitch on a simulated machine.
 #[pyclass(frozen, name = "Tuned", module = "frictcomp")]
+#[derive(Serialize, Deserialize)]
 pub(crate) struct PyTuned {
-    report: TuneReport,
+    plant: String,
     record: String,
+    svg: String,
+    /// Of X and of Y, with whole outputs and with fractions; none where stiction is compensated.
+    lists: Option<[[String; 2]; 2]>,
+}
+
+impl PyTuned {
+    fn of(report: TuneReport) -> Self {
+        let axes = &report.tuned.axes;
+        let has_lists = axes.iter().all(|axis| axis.list().is_some());
+        let head = ListHead::default();
+        let lists = axes.each_ref().map(|axis| {
+            [None, Some(FRACTIONS)].map(|build| render_tuned(&report, axis, build, &head))
+        });
+        let reports = std::slice::from_ref(&report);
+        Self {
+            record: render_tune(reports),
+            svg: pictures::tuning(reports).render(Frame::Alone),
+            lists: has_lists.then_some(lists),
+            plant: report.plant,
+        }
+    }
 }
 
 /// Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm.
@@ -210,7 +255,7 @@ pub(crate) fn tune(
     let (model, reading): (FrictionModel, Reading) = (meant(model)?, meant(reading)?);
     let ranges = ranges(free.map_or_else(Vec::new, |Several(names)| names))?;
     let plant = plant.to_owned();
-    let report = interruptible(py, move |stop| {
+    interruptible(py, move |stop| {
         memory_for_simulation()?;
         let plant = find_plant(&plant, &FileRegistry::default())?;
         let name = plant.name.clone();
@@ -229,16 +274,12 @@ pub(crate) fn tune(
             aim: if robust { Aim::Robust } else { Aim::Plant },
         };
         let watch = Watch::by(Arc::new(stop.clone()));
-        Ok(TuneReport {
+        Ok(PyTuned::of(TuneReport {
             plant: name,
             model: model.as_str(),
             reading: reading.to_string(),
             tuned: search(&task, &watch).map_err(Failure::of_circle)?,
-        })
-    })?;
-    Ok(PyTuned {
-        record: render_tune(std::slice::from_ref(&report)),
-        report,
+        }))
     })
 }
 
@@ -260,7 +301,43 @@ fn ranges(free: Vec<String>) -> PyResult<Ranges> {
 }
 
 #[pymethods]
+impl PyCircle {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
+    /// The document of ``frictcomp circle --format json``.
+    #[getter]
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        json::parsed(py, &self.record)
+    }
+
+    /// The picture of the circle with its magnified deviation, as ``frictcomp circle --svg`` draws it.
+    fn svg(&self) -> &str {
+        &self.svg
+    }
+
+    fn __repr__(&self) -> &'static str {
+        "<frictcomp.Circle>"
+    }
+}
+
+#[pymethods]
 impl PyTuned {
+    #[staticmethod]
+    fn _unpickled(text: &str) -> PyResult<Self> {
+        pickled::read(text)
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<(String,)>> {
+        pickled::reduced(slf, (pickled::written(slf.get())?,))
+    }
+
     /// The document of ``frictcomp tune --format json``.
     #[getter]
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -272,27 +349,29 @@ impl PyTuned {
     /// Outputs are whole numbers unless ``cnc_build``, such as ``"3.1.3132.0"``, accepts fractions.
     #[pyo3(signature = (axis="X", *, cnc_build=None))]
     fn value_list(&self, py: Python<'_>, axis: &str, cnc_build: Option<&str>) -> PyResult<String> {
-        let mut lists = PlaneAxis::ALL.into_iter().zip(&self.report.tuned.axes);
-        let found = lists.find(|(plane, _)| plane.as_str() == axis);
-        let (_, tuned) = found.ok_or_else(|| refused("the axes are `X` and `Y`"))?;
-        if tuned.list().is_none() {
+        let Some(lists) = &self.lists else {
             return Err(Failure::new(format!(
                 "the plant `{}` compensates stiction, which has no value list",
-                self.report.plant
+                self.plant
             ))
             .with_help("enter MP1511 and MP1512 of the record in the control")
             .into_error(py));
-        }
-        let head = ListHead::default();
-        Ok(render_tuned(
-            &self.report,
-            tuned,
-            meant_if_given(cnc_build)?,
-            &head,
-        ))
+        };
+        let mut lists = PlaneAxis::ALL.into_iter().zip(lists);
+        let found = lists.find(|(plane, _)| plane.as_str() == axis);
+        let (_, [whole, fractions]) = found.ok_or_else(|| refused("the axes are `X` and `Y`"))?;
+        Ok(match Points::of_build(meant_if_given(cnc_build)?) {
+            Points::Real => fractions.clone(),
+            _ => whole.clone(),
+        })
+    }
+
+    /// The picture of the glitch before and after tuning, as ``frictcomp tune --svg`` draws it.
+    fn svg(&self) -> &str {
+        &self.svg
     }
 
     fn __repr__(&self) -> String {
-        format!("<frictcomp.Tuned for the plant '{}'>", self.report.plant)
+        format!("<frictcomp.Tuned for the plant '{}'>", self.plant)
     }
 }

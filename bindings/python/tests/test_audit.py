@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
+from pathlib import Path
 
 import pandas
 import polars
 import pytest
-from conftest import command, records
+from conftest import ROOT, command, records
 
 import frictcomp
+
+ORDER = ["probe.nc", "pocket.nc", "bore.nc", "probe.nc"]
 
 
 @pytest.mark.parametrize("folder", ["programs/demo/order", "programs/ok", "programs/demo"])
@@ -28,3 +31,27 @@ def test_an_audit_is_that_of_the_command(folder: str, kinds: str) -> None:
     (summary,) = [it for it in audit.records if it["record"] == "summary"]
     assert (audit.programs, audit.hazards) == (summary["programs"], summary["hazards"])
     assert audit.has_warnings == (command("audit", "--fail-on", "warning", *options).returncode == 1)
+
+
+def test_a_sequence_is_that_of_the_command(tmp_path: Path) -> None:
+    # R13.13
+    programs = [str(ROOT / "programs/demo/order" / name) for name in ORDER]
+    order = tmp_path / "order.txt"
+    order.write_text("\n".join(programs))
+    sequence = frictcomp.audit_sequence(iter(programs))
+    options = ["audit", "--sequence", str(order)]
+    assert sequence.records == records(*options, "--format", "ndjson")
+    assert str(sequence) == command(*options).stdout
+    assert sequence.has_warnings
+    table = polars.DataFrame(sequence)
+    assert table.columns == sequence.columns and table.height == len(sequence)
+    inherited = table.filter(polars.col("left_by").is_not_null())
+    assert inherited.select("position", "axis", "left_by").rows() == [(2, "X", programs[0])]
+    # What comes twice runs twice.
+    assert table["position"].unique().to_list() == [1, 2, 3, 4]
+
+
+def test_a_program_of_a_sequence_that_cannot_be_read_is_an_error() -> None:
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.audit_sequence(["programs/demo/order/probe.nc", "none.nc"])
+    assert caught.value.file == "none.nc"

@@ -76,3 +76,58 @@ def test_what_cannot_be_computed_is_an_error() -> None:
     assert caught.value.file == "none.lis"
     cut = frictcomp.current(REVERSAL, ["X"], max_cycles=10)
     assert 0 < len(cut) <= 10 and cut.messages
+
+
+TRACE = """t,x,v,comp
+0.000,0,0,on
+0.001,10,1000,on
+0.002,20,1000,on
+0.003,20,0,on
+0.004,10,-1000,on
+0.005,0,-1000,off
+"""
+
+
+def test_the_current_of_a_recording_is_that_of_the_command(tmp_path: Path) -> None:
+    # R13.13
+    trace, listed = tmp_path / "trace.csv", "programs/demo/lists/comp_x.lis"
+    trace.write_text(TRACE)
+    made = frictcomp.current_of_recording(trace, listed)
+    options = ["--trace", str(trace), "--value-list", listed]
+    rows = list(csv.DictReader(io.StringIO(command("current", *options).stdout)))
+    assert len(rows) == len(made) == 6
+    for name in ["t", "x", "v", "w_before", "w_after", "current", "output"]:
+        assert numpy.array_equal(getattr(made, name), [float(row[name]) for row in rows]), name
+    assert list(made.comp) == ["active"] * 5 + ["inactive"]
+    assert made.axis == "" and made.current.any() and made.current[-1] == 0
+    picture = tmp_path / "trace.svg"
+    command("current", *options, "--svg", str(picture))
+    assert made.svg() == picture.read_text("utf-8")
+
+
+def test_rows_of_a_recording_that_are_no_cycles_are_refused(tmp_path: Path) -> None:
+    trace, listed = tmp_path / "trace.csv", "programs/demo/lists/comp_x.lis"
+    trace.write_text(TRACE.replace("0.005", "0.009"))
+    with pytest.raises(frictcomp.Error):
+        frictcomp.current_of_recording(trace, listed)
+    made = frictcomp.current_of_recording(trace, listed, resample=True)
+    assert made.remarks and len(made) > 6
+    for wrong in (-1.0, float("nan")):
+        with pytest.raises(ValueError, match="dead band"):
+            frictcomp.current_of_recording(trace, listed, dead_band=wrong)
+    with pytest.raises(ValueError):
+        frictcomp.current_of_recording(trace, listed, units={"v": "furlongs"})
+
+
+def test_the_readings_of_the_machine_count(tmp_path: Path) -> None:
+    # R4.5: the reading that the machine selects, unless another one is given.
+    text = Path(REVERSAL).read_text("utf-8")
+    shared = (Path(REVERSAL).parent / "frictcomp.toml").read_text("utf-8")
+    config = tmp_path / "frictcomp.toml"
+    config.write_text(shared)
+    held = frictcomp.current(frictcomp.Text(text), ["X"], machine=config)["X"].current
+    other = frictcomp.current(frictcomp.Text(text), ["X"], machine=config, reading="delay=reversal")
+    config.write_text(shared + '\n[reading]\n"R4.5" = "reversal"\n')
+    selected = frictcomp.current(frictcomp.Text(text), ["X"], machine=config)["X"].current
+    assert numpy.array_equal(selected, other["X"].current)
+    assert not numpy.array_equal(selected, held)

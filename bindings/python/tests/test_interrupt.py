@@ -25,6 +25,7 @@ CALLS = {
     "check": f"frictcomp.check(frictcomp.Text(program), {LONG})",
     "audit": f"frictcomp.audit([frictcomp.Text(program, f'{{n}}.nc') for n in range(9)], {LONG})",
     "current": f"frictcomp.current(BACK_AND_FORTH, ['X'], max_cycles=10**12, {LONG})",
+    "contour": f"frictcomp.contour(IN_THE_PLANE, machine=TWO, max_cycles=10**12, {LONG})",
     "circle": "[frictcomp.circle(radius_mm=1000, feed_mm_per_min=500) for _ in range(1000)]",
     "tune": "frictcomp.tune(feeds=[500, 1000, 2000, 5000], radii=[50, 100, 200, 400])",
 }
@@ -37,6 +38,8 @@ BACK_AND_FORTH = frictcomp.Text(
     "N10 G90 X0 F1000\\nN20 $FOR V.P.I = 1, 100000000, 1\\nN30 G01 X50\\nN40 X0\\nN50 $ENDFOR\\n",
     "programs/demo/current/reversal.nc",
 )
+IN_THE_PLANE = frictcomp.Text(BACK_AND_FORTH.text.replace("X0 F1000", "X0 Y0 F1000"))
+TWO = frictcomp.Machine(isolated=True, enable=["X", "Y"])
 print("ready", flush=True)
 try:
     {call}

@@ -100,3 +100,69 @@ def test_a_path_has_no_line_end() -> None:
         frictcomp.run("programs/demo/friction.nc\n")
     assert "a path has no line ends" in str(caught.value)
     assert "frictcomp.Text" in str(caught.value)
+
+
+def test_every_result_can_be_pickled() -> None:
+    # R13.13
+    reversal = "programs/demo/current/reversal.nc"
+    audit = frictcomp.audit("programs/demo/order")
+    order = frictcomp.audit_sequence(programs("programs/demo/order"))
+    for table in (audit, order):
+        back = pickle.loads(pickle.dumps(table))
+        assert polars.DataFrame(back).equals(polars.DataFrame(table))
+        assert (back.records, back.has_warnings) == (table.records, table.has_warnings)
+        assert list(back.messages) == list(table.messages) and str(back) == str(table)
+    assert pickle.loads(pickle.dumps(audit)).hazards == audit.hazards
+    currents = frictcomp.current(reversal, ["X"])
+    again = pickle.loads(pickle.dumps(currents))
+    assert numpy.array_equal(again["X"].current, currents["X"].current)
+    assert (again.svg(), again["X"].svg()) == (currents.svg(), currents["X"].svg())
+    assert (again.axes, again.left_out) == (["X"], currents.left_out)
+    simulated = (
+        frictcomp.circle(radius_mm=20),
+        frictcomp.contour(
+            "programs/demo/contour/plate.nc", start=[("X", 0.0), ("Y", 0.0), ("Z", 10.0)]
+        ),
+        frictcomp.tune(feeds=[2000], radii=[20], shaping=False),
+        frictcomp.identify(
+            "programs/demo/recordings/friction_x.csv", velocity="SetVelo", torque="ActTorque"
+        ),
+    )
+    for made in simulated:
+        there = pickle.loads(pickle.dumps(made))
+        assert (there.record, there.svg()) == (made.record, made.svg())
+        if isinstance(made, frictcomp.Tuned):
+            assert there.value_list("Y") == made.value_list("Y")
+        if isinstance(made, frictcomp.Identified):
+            assert there.value_list() == made.value_list()
+
+
+def test_an_error_comes_back_with_its_messages(tmp_path: Path) -> None:
+    # R13.13
+    config = tmp_path / "frictcomp.toml"
+    config.write_text("axis = 3\n")
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.run("programs/demo/friction.nc", machine=config)
+    error = caught.value
+    back = pickle.loads(pickle.dumps(error))
+    assert (str(back), back.messages, back.line) == (str(error), error.messages, error.line)
+    assert back.messages
+
+
+def test_one_machine_serves_an_archive(tmp_path: Path) -> None:
+    # R13.13: one machine, whatever folder a program is in.
+    config = tmp_path / "frictcomp.toml"
+    config.write_text('[[axis]]\nname = "X"\nfrict_comp = true\n')
+    machine = frictcomp.Machine(config)
+    files = programs("programs/demo/order", "programs/demo/current")
+    assert {tuple(frictcomp.run(file, machine=machine).axes) for file in files} >= {("X",)}
+    audit = frictcomp.audit(files, machine=machine)
+    assert set(polars.DataFrame(audit)["machine"]) == {str(config)}
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        there = pool.starmap(ran_on, [(file, machine) for file in files])
+    assert there == [frictcomp.run(file, machine=machine).friction for file in files]
+
+
+def ran_on(file: str, machine: frictcomp.Machine) -> dict[str, str]:
+    """What a program leaves."""
+    return dict(frictcomp.run(file, machine=machine).friction)

@@ -24,19 +24,42 @@ export class Refused extends Error {
   }
 }
 
+/** Between two words about progress, in ms. */
+const PAUSE = 100;
+
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
 export class Engine {
   private constructor(private readonly border: Border) {}
 
-  /** Starts the engine; `progress` hears of executed blocks, and of the line of the main program. */
+  /**
+   * Starts the engine; `progress` hears of executed blocks, and of the line of the main program, `hear` of
+   * other work, in words.
+   */
   static async start(
     code: BufferSource,
     progress: (blocks: number, line: number) => void,
+    hear: (text: string) => void,
   ): Promise<Engine> {
-    const { instance } = await WebAssembly.instantiate(code, { env: { progress } });
-    return new Engine(instance.exports as unknown as Border);
+    let border: Border | null = null;
+    let last = performance.now();
+    const due = (): number => {
+      const now = performance.now();
+      if (now - last < PAUSE) {
+        return 0;
+      }
+      last = now;
+      return 1;
+    };
+    const told = (at: number, length: number): void => {
+      if (border) {
+        hear(decoder.decode(new Uint8Array(border.memory.buffer, at, length)));
+      }
+    };
+    const { instance } = await WebAssembly.instantiate(code, { env: { progress, due, told } });
+    border = instance.exports as unknown as Border;
+    return new Engine(border);
   }
 
   /** Gives the engine a file. */

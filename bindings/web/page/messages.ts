@@ -8,7 +8,11 @@ export interface Wanted {
   jump(message: Message): void;
   /** A fix is to be applied. */
   fix(fix: Fix): void;
+  explain: Explain;
 }
+
+/** Finds the page about a code. */
+export type Explain = (code: string) => Promise<string>;
 
 /** The messages of a run, with what can be done about each. */
 export function messages(overview: Overview, wanted: Wanted): HTMLElement {
@@ -17,14 +21,14 @@ export function messages(overview: Overview, wanted: Wanted): HTMLElement {
   }
   const items = overview.messages.map((message) =>
     h("li", { class: message.severity },
-      told(message, () => { wanted.jump(message); }),
+      told(message, wanted.explain, () => { wanted.jump(message); }),
       ...(message.fixes ?? []).map((fix) => h("p", { class: "fix" },
         h("button", { class: "apply", onclick: () => { wanted.fix(fix); } }, `Apply: ${inWords(fix)}`)))));
   return h("ul", { class: "messages" }, ...items);
 }
 
 /** A message as words, with its place. */
-export function told(said: Diagnostic, jump?: () => void): HTMLElement {
+export function told(said: Diagnostic, explain: Explain, jump?: () => void): HTMLElement {
   const place = `${said.file}:${grouped(said.line)}:${said.column}`;
   const helps = said.help.map((help) => h("li", {}, help));
   return h(
@@ -33,7 +37,21 @@ export function told(said: Diagnostic, jump?: () => void): HTMLElement {
     h("span", {}, said.message), " ",
     jump ? h("button", { class: "place", onclick: jump }, place) : h("span", { class: "place" }, place),
     helps.length > 0 && h("ul", { class: "help" }, ...helps),
+    about(said.code, explain),
   );
+}
+
+/** The page about a code, which is asked for once it is opened. */
+function about(code: string, explain: Explain): HTMLElement {
+  const page = h("pre", { class: "page" });
+  const box = h("details", { class: "about", ontoggle: () => {
+    if (box.open && page.textContent === "") {
+      explain(code).then((text) => { page.textContent = text.trim(); }, () => {
+        page.textContent = "There is no page about this code.";
+      });
+    }
+  } }, h("summary", {}, `About ${code}`), page);
+  return box;
 }
 
 /** What a fix does, in a line. */

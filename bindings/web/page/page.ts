@@ -10,9 +10,13 @@ import { Edits, fixed, sought } from "./edits";
 import { Refused } from "./engine";
 import { type Intake, dropped, picked } from "./intake";
 import { left } from "./left";
-import { messages, told } from "./messages";
+import { described, parameters } from "./machine";
+import { messages } from "./messages";
 import { besides, download, picture } from "./pictures";
 import { Cancelled, Session } from "./session";
+import {
+  circle, circleQuestion, contour, contourQuestion, forgetContour, noted, positions, tune,
+} from "./simulations";
 import { MEANINGS } from "./states";
 import { type Tab, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
@@ -47,7 +51,7 @@ const session = new Session(await code(), () => {
 }, (blocks, line) => {
   const at = line > 0 ? `, line ${grouped(line)}` : "";
   part("progress").textContent = `${counted(blocks, "block")}${at}`;
-});
+}, (text) => { part("progress").textContent = text; });
 const editor = new Editor(part("editor"), (text) => { void edit(text); }, (line) => {
   void attempt(timeline.jumpToLine(line));
 });
@@ -266,10 +270,16 @@ async function result(found: Overview): Promise<void> {
       void attempt(timeline.jump(message.after));
     },
     fix: (fix) => { void attempt(apply(fix)); },
+    explain,
   }), passedOver(found));
   files();
-  machine(found);
+  described(found, explain);
   await timeline.show(found);
+}
+
+/** The page about a code. */
+async function explain(code: string): Promise<string> {
+  return decoder.decode(await session.ask({ ask: "explain", code }));
 }
 
 function passedOver(found: Overview): HTMLElement | null {
@@ -278,21 +288,6 @@ function passedOver(found: Overview): HTMLElement | null {
   }
   const words = found.passedOver.map(([word, times]) => `${word} ×${grouped(times)}`).join(", ");
   return h("p", { class: "quiet" }, `Passed over without effect on the states: ${words}`);
-}
-
-function machine(found: Overview): void {
-  const { origin, isDescribed, lists, said } = found.machine;
-  const from = origin === null ? "No machine is described: neither frictcomp.toml nor one start-up list "
-    + "was dropped. Every axis has the documented default, P-AXIS-00522 = 0."
-    : `Described by ${origin}; ${counted(lists, "file")} read.`;
-  fill(
-    part("machine"),
-    h("p", {}, from),
-    !isDescribed && origin !== null && h("p", {}, "It names no axis with friction compensation."),
-    said.length > 0 && h("h3", {}, "About the lists"),
-    said.length > 0 && h("ul", { class: "messages" }, ...said.map((one) =>
-      h("li", { class: one.severity }, told(one)))),
-  );
 }
 
 /** What a tab shows that is not there before it is asked for. */
@@ -309,51 +304,30 @@ async function show(tab: Tab): Promise<void> {
     }
     case "current": {
       const answer = await session.json<{ svg: string | null; notes: string[] }>(
-        { ask: "current", program, settings, start: positions() });
-      picture(part("current"), answer.svg, `Additive current of ${program} over time`,
-        h("ul", { class: "notes" }, ...answer.notes.map((note) => h("li", {}, sentence(note)))));
+        { ask: "current", program, settings, start: positions((part("start") as HTMLInputElement).value) });
+      const notes = noted(answer.notes);
+      picture(part("current"), answer.svg, `Additive current of ${program} over time`, ...notes ? [notes] : []);
       break;
     }
+    case "contour":
+      forgetContour();
+      await contour(session, program, settings);
+      break;
     case "circle":
-      await circle();
+      await circle(session, program);
       break;
     case "timeline":
       if (overview) {
         await timeline.show(overview);
       }
       break;
-    case "messages":
     case "machine":
+      await parameters(session, program, settings.enable);
+      break;
+    case "messages":
       root.scrollTop = 0;
       break;
   }
-}
-
-/** Where axes stand at the start: `X0, Y-12.5, Z1=30`. */
-function positions(): [axis: string, position: number][] {
-  const words = (part("start") as HTMLInputElement).value.split(/[\s,;]+/);
-  return words.flatMap((word): [string, number][] => {
-    const found = /^([A-Za-z]\w*)=(.+)$|^([A-Za-z])(.+)$/.exec(word);
-    const [axis, position] = [found?.[1] ?? found?.[3], Number(found?.[2] ?? found?.[4])];
-    return axis !== undefined && Number.isFinite(position) ? [[axis.toUpperCase(), position]] : [];
-  });
-}
-
-function circleSettings(): object {
-  const value = (id: string): string => (part(id) as HTMLInputElement | HTMLSelectElement).value;
-  return {
-    program,
-    radiusMm: Number(value("radius")),
-    feedMmPerMin: Number(value("feed")),
-    plant: value("plant"),
-  };
-}
-
-async function circle(): Promise<void> {
-  const answer = await session.json<{ svg: string; text: string; lists: string }>(
-    { ask: "circle", ...circleSettings() });
-  picture(part("circle"), answer.svg, "Simulated circular test, compensation off and on",
-    h("p", {}, answer.lists), h("pre", { class: "figures", tabindex: 0 }, answer.text));
 }
 
 async function fillEditor(): Promise<void> {
@@ -521,10 +495,18 @@ function listen(): void {
     event.preventDefault();
     void attempt(show("current"));
   });
-  on("circle-form", "submit", (event) => {
-    event.preventDefault();
-    void attempt(circle());
-  });
+  const simulations = {
+    "circle-form": (): Promise<void> => circle(session, program),
+    "contour-form": (): Promise<void> => show("contour"),
+    "tune-form": (): Promise<void> => tune(session),
+  };
+  for (const [form, simulate] of Object.entries(simulations)) {
+    on(form, "submit", (event) => {
+      event.preventDefault();
+      part("complaint").hidden = true;
+      void attempt(simulate());
+    });
+  }
   on("save-report", "click", () => {
     void save({ ask: "report", program, settings }, ".report.html", "text/html");
   });
@@ -551,7 +533,10 @@ function listen(): void {
     void save({ ask: "auditReport", enable: settings.enable }, ".audit.html", "text/html");
   });
   on("save-circle", "click", () => {
-    void save({ ask: "circleReport", ...circleSettings() }, ".circle.html", "text/html");
+    void save({ ask: "circleReport", ...circleQuestion(program) }, ".circle.html", "text/html");
+  });
+  on("save-contour", "click", () => {
+    void save({ ask: "contourReport", ...contourQuestion(program, settings) }, ".contour.html", "text/html");
   });
   listenForDrops();
   document.addEventListener("keydown", (event) => {

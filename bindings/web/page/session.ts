@@ -37,6 +37,7 @@ export class Session {
     private readonly code: ArrayBuffer,
     private readonly start: () => Thread,
     private readonly progress: (blocks: number, line: number) => void,
+    private readonly told: (text: string) => void = () => undefined,
   ) {
     this.thread = this.begin();
   }
@@ -106,6 +107,9 @@ export class Session {
     switch (report.kind) {
       case "progress":
         this.progress(report.blocks, report.line);
+        break;
+      case "told":
+        this.told(report.text);
         break;
       case "failure":
         this.cancel(new Error(report.message));

@@ -2,7 +2,7 @@
 
 import { part } from "./dom";
 
-export const TABS = ["timeline", "messages", "audit", "current", "circle", "machine"] as const;
+export const TABS = ["timeline", "messages", "audit", "current", "contour", "circle", "machine"] as const;
 
 export type Tab = (typeof TABS)[number];
 

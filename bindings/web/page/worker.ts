@@ -11,6 +11,7 @@ export type Order =
 /** What the page hears. */
 export type Report =
   | { kind: "progress"; blocks: number; line: number }
+  | { kind: "told"; text: string }
   | { kind: "answer"; id: number; bytes: Uint8Array<ArrayBuffer> }
   | { kind: "refusal"; id: number; refusal: Refusal }
   | { kind: "failure"; message: string };
@@ -26,7 +27,10 @@ async function obey(order: Order): Promise<void> {
     const progress = (blocks: number, line: number): void => {
       report({ kind: "progress", blocks, line });
     };
-    starting = Engine.start(order.code, progress);
+    const told = (text: string): void => {
+      report({ kind: "told", text });
+    };
+    starting = Engine.start(order.code, progress, told);
     await starting;
     return;
   }

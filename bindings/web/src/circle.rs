@@ -38,13 +38,17 @@ struct Answer {
     lists: String,
 }
 
+/// The drives of a name: `stiff`, `mid`, `soft`.
+pub(crate) fn preset(name: &str) -> Result<Preset, Refusal> {
+    name.parse()
+        .map_err(|error: <Preset as FromStr>::Err| Refusal::new(error.to_string()))
+}
+
 fn simulate(
     dropped: &mut Dropped,
     settings: &CircleSettings,
 ) -> Result<(CircleReport, String), Refusal> {
-    let preset =
-        Preset::from_str(&settings.plant).map_err(|error| Refusal::new(error.to_string()))?;
-    let plant = preset.plant();
+    let plant = preset(&settings.plant)?.plant();
     let machine = match &settings.program {
         Some(program) => {
             let input = dropped.program(program)?;

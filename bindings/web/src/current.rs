@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use frictcomp::comp::State;
-use frictcomp::diagnostic::UnknownName;
 use frictcomp::machine::{Machine, Parameterisation};
 use frictcomp::session::{Motions, SessionOptions};
 use frictcomp_host::{Axes, Naming, SingleRun, run_alone};
@@ -17,6 +16,7 @@ use frictcomp_report::svg::Frame;
 use serde::Serialize;
 
 use crate::border::show_progress;
+use crate::contour::expect_axes;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::{RunSettings, json};
@@ -87,14 +87,7 @@ pub(crate) fn answer(
 ) -> Result<Vec<u8>, Refusal> {
     let input = dropped.program(program)?;
     let mut loaded = dropped.machine(&input, &settings.enable)?.as_ref().clone();
-    for (name, _) in &start {
-        if loaded.machine.find(name).is_none() {
-            let known = loaded.machine.axes.iter().map(|axis| axis.name.as_str());
-            let unknown = UnknownName::new(name, known);
-            let message = format!("the machine has no axis `{name}`, of which a start is given");
-            return Err(Refusal::unknown(message, &unknown));
-        }
-    }
+    expect_axes(&loaded, &start)?;
     let with_list = loaded.machine.axes.iter();
     let with_list = with_list.filter(|axis| matches!(axis.friction, Parameterisation::Accepted(_)));
     let names: Vec<String> = with_list.map(|axis| axis.name.clone()).collect();

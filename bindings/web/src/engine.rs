@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use frictcomp::diagnostic::Code;
+
 use crate::dropped::Dropped;
 use crate::questions::Question;
 use crate::refusal::Refusal;
 use crate::run::{Shown, json};
-use crate::{audits, circle, current, run};
+use crate::{audits, circle, contour, current, parameters, run, tuning};
 
 /// The dropped files and the run that is shown.
 #[derive(Debug, Default)]
@@ -60,6 +62,17 @@ impl Engine {
                 start,
                 settings,
             } => current::answer(dropped, &program, start, &settings)?,
+            Question::Contour(settings) => contour::answer(dropped, &settings)?,
+            Question::ContourReport(settings) => contour::report(dropped, &settings)?,
+            Question::Tune(settings) => tuning::answer(&settings)?,
+            Question::Parameters { program, enable } => {
+                parameters::answer(dropped, &program, &enable)?
+            }
+            Question::Explain { code } => {
+                let code: Result<Code, _> = code.parse();
+                let code = code.map_err(|_| Refusal::new("there is no page about this code"))?;
+                code.page().into()
+            }
             Question::Circle(settings) => circle::answer(dropped, &settings)?,
             Question::CircleReport(settings) => circle::report(dropped, &settings)?,
         })

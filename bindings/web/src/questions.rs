@@ -3,7 +3,9 @@
 use serde::Deserialize;
 
 use crate::circle::CircleSettings;
+use crate::contour::ContourSettings;
 use crate::run::{RunSettings, View};
+use crate::tuning::TuneSettings;
 
 /// A question of the page.
 #[derive(Debug, Deserialize)]
@@ -64,6 +66,20 @@ pub(crate) enum Question {
         #[serde(default)]
         settings: RunSettings,
     },
+    /// The contour of a program: picture, figures and notes, in JSON.
+    Contour(ContourSettings),
+    /// The report of a contour as a page.
+    ContourReport(ContourSettings),
+    /// The value list with the smallest glitch: picture, figures and the list, in JSON.
+    Tune(TuneSettings),
+    /// The parameters of the machine of a program, and the curves of its value lists, in JSON.
+    Parameters {
+        program: String,
+        #[serde(default)]
+        enable: Vec<String>,
+    },
+    /// The page about a code, as text.
+    Explain { code: String },
     /// A simulated circular test: picture and figures, in JSON.
     Circle(CircleSettings),
     /// The report of the circular test as a page.

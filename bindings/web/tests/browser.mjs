@@ -80,6 +80,27 @@ const look = async (page, name) => {
   }
 };
 
+/** Every part of the page that is shown at once. */
+const TABS = ["timeline", "messages", "audit", "current", "contour", "circle", "machine"];
+
+/** Shows a part and waits for what it asks the engine. */
+async function showTab(page, tab) {
+  await page.locator(`#tab-${tab}`).click();
+  await page.waitForFunction(() => document.getElementById("working").hidden);
+  if (["contour", "circle"].includes(tab)) {
+    await page.locator(`#${tab} .figures`).waitFor({ timeout: 60_000 });
+  }
+  if (tab === "audit") {
+    await page.locator("#audit table.programs").waitFor();
+  }
+}
+
+/** The rules of accessibility that what is shown breaks, by axe-core. */
+async function broken(page) {
+  const { violations } = await page.evaluate(() => window.axe.run(document));
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`);
+}
+
 const tests = {
   async "the example explains itself"() {
     const page = await open();
@@ -150,7 +171,7 @@ const tests = {
     await text.fill("N10 Z[COMP ON FRICT]\nN20 X1\nM30\n");
     await result.getByText("The run stops at line 1").waitFor();
     await page.getByRole("tab", { name: "Messages (1)" }).click();
-    await page.locator("#panel-messages").getByText("P-ERR-70495").waitFor();
+    await page.locator("#panel-messages").getByText("error P-ERR-70495").waitFor();
     await page.getByRole("button", { name: /friction\.nc:1:5/ }).click();
     await page.locator(".timeline tr.selected").waitFor();
     await close(page);
@@ -247,7 +268,7 @@ const tests = {
     await page.waitForSelector("#complaint:not([hidden])");
     await dropTexts(page, { "frictcomp.toml": `[[axis]]\nname = "X"\nfrict_comp = true\n# ${evil}\n` });
     await rows(page).first().waitFor();
-    for (const tab of ["Messages", "Audit", "Current", "Circle", "Machine", "Timeline"]) {
+    for (const tab of ["Messages", "Audit", "Current", "Contour", "Circle", "Machine", "Timeline"]) {
       await page.getByRole("tab", { name: new RegExp(tab) }).click();
       await page.waitForTimeout(300);
     }
@@ -260,6 +281,116 @@ const tests = {
     assert.ok(refused);
     page.wrong = page.wrong.filter((said) => !said.includes("example.org"));
     await close(page);
+  },
+
+  async "a contour is that of the command line"() {
+    // R13.12
+    const page = await open();
+    const demo = join(root, "programs/demo");
+    await drop(page, join(demo, "contour"));
+    await rows(page).first().waitFor();
+    await showTab(page, "contour");
+    await page.locator("#panel-contour").getByLabel("axes start at").fill("X0, Y0, Z10");
+    await page.getByRole("button", { name: "Drive", exact: true }).click();
+    await page.locator("#contour img").waitFor();
+    const wanted = spawnSync(command, ["contour", "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
+    assert.match(wanted.stdout.toString(), /largest deviation +38/);
+    assert.equal(await page.locator("#contour .figures").textContent(), wanted.stdout.toString());
+    await look(page, "contour");
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Download contour report" }).click(),
+    ]);
+    assert.equal(download.suggestedFilename(), "plate.nc.contour.html");
+    const report = join(folder, "contour.html");
+    spawnSync(command, ["contour", "--html", report, "contour/plate.nc", "--start", "X0,Y0,Z10"], { cwd: demo });
+    // The last bit of a sine is that of the system, and may move a curve by a tenth of a pixel.
+    const told = (path) => readFileSync(path, "utf8").replaceAll(/ d="[^"]*"/g, "");
+    assert.equal(told(await download.path()), told(report));
+    await page.locator("#panel-contour").getByLabel("axes start at").fill("Q0");
+    await page.getByRole("button", { name: "Drive", exact: true }).click();
+    await page.getByRole("alert").getByText("no axis `Q`").waitFor();
+    await close(page);
+  },
+
+  async "a value list is tuned with progress"() {
+    // R13.12
+    const page = await open();
+    await page.getByRole("button", { name: "Show an example" }).click();
+    await rows(page).first().waitFor();
+    await showTab(page, "circle");
+    await page.getByLabel("feeds").fill("fast");
+    await page.getByRole("button", { name: "Tune", exact: true }).click();
+    await page.getByRole("alert").getByText(/Give from 1 to 8 feeds/).waitFor();
+    await page.getByLabel("feeds").fill("2000");
+    await page.getByLabel("radius").fill("20");
+    const before = Date.now();
+    await page.getByRole("button", { name: "Tune", exact: true }).click();
+    await page.locator("#progress").getByText(/tune: \d+ of \d+ runs/).waitFor({ timeout: 60_000 });
+    // The page answers meanwhile.
+    await page.getByRole("searchbox", { name: "find" }).count();
+    await page.locator("#tuned img").waitFor({ timeout: 300_000 });
+    console.log(`      one feed tuned: ${((Date.now() - before) / 1000).toFixed(1)} s`);
+    await look(page, "tuned");
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Download value list" }).click(),
+    ]);
+    const list = join(folder, "tuned.lis");
+    spawnSync(command, ["tune", "--feeds", "2000", "--radii", "20", "--output", list]);
+    assert.equal(readFileSync(await download.path(), "utf8"), readFileSync(list, "utf8"));
+    await close(page);
+  },
+
+  async "codes are explained, parameters and curves are shown"() {
+    // R13.12
+    const page = await open();
+    await page.getByRole("button", { name: "Show an example" }).click();
+    await rows(page).first().waitFor();
+    await showTab(page, "messages");
+    await page.getByText("About FC401").first().click();
+    const explained = spawnSync(command, ["explain", "FC401"]).stdout.toString().trim();
+    await page.locator(".about .page").first().filter({ hasText: explained.split("\n")[0] }).waitFor();
+    assert.equal(await page.locator(".about .page").first().textContent(), explained);
+    await look(page, "explained");
+    await showTab(page, "machine");
+    await page.getByText(/^Axis X: \d+ parameters$/).click();
+    const row = page.getByRole("row", { name: /P-AXIS-00522/ }).first();
+    assert.match(await row.textContent(), /frict_comp/);
+    await page.locator("#curves img").waitFor();
+    await look(page, "parameters");
+    await close(page);
+  },
+
+  async "every view is accessible by the rules of axe"() {
+    // R13.12
+    const axe = readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
+    const ways = {
+      light: { viewport: { width: 1280, height: 860 } },
+      dark: { viewport: { width: 1280, height: 860 }, colorScheme: "dark" },
+      phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+    };
+    for (const [name, options] of Object.entries(ways)) {
+      const page = await open({ ...options, bypassCSP: true });
+      await page.evaluate(axe);
+      assert.deepEqual(await broken(page), [], `${name}, before anything is dropped`);
+      await page.getByRole("button", { name: "Show an example" }).click();
+      await rows(page).first().waitFor();
+      for (const tab of TABS) {
+        await showTab(page, tab);
+        for (const summary of await page.locator(`#panel-${tab} summary`).all()) {
+          await summary.click();
+        }
+        assert.deepEqual(await broken(page), [], `${name}, ${tab}`);
+      }
+      await showTab(page, "timeline");
+      await page.getByRole("button", { name: "Edit the program" }).click();
+      await page.waitForFunction(() => document.querySelector("textarea").value !== "");
+      await page.getByRole("textbox", { name: "Program text" }).fill("N10 Z[COMP ON FRICT]\nN20 X1\nM30\n");
+      await page.getByText("edited here, the file is as it was").waitFor();
+      assert.deepEqual(await broken(page), [], `${name}, an edited program with an error`);
+      await close(page);
+    }
   },
 
   async "a million blocks run with progress and can be cancelled"() {
@@ -336,15 +467,8 @@ const tests = {
       const page = await open(options);
       await page.getByRole("button", { name: "Show an example" }).click();
       await rows(page).first().waitFor();
-      for (const tab of ["timeline", "messages", "audit", "current", "circle", "machine"]) {
-        await page.locator(`#tab-${tab}`).click();
-        await page.waitForFunction(() => document.getElementById("working").hidden);
-        if (tab === "audit") {
-          await page.locator("#audit table.programs").waitFor();
-        }
-        if (tab === "circle") {
-          await page.locator("#circle img").waitFor({ timeout: 60_000 });
-        }
+      for (const tab of TABS) {
+        await showTab(page, tab);
         await look(page, `${name}-${tab}`);
         const wider = await page.evaluate(() =>
           document.documentElement.scrollWidth - document.documentElement.clientWidth);

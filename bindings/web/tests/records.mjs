@@ -11,7 +11,7 @@ const MAX_BLOCKS = 5000;
 const PROGRAM = /\.(nc|cnc|mpf|spf|sub|cyc|iso|ngc|tap)$/i;
 
 const { instance } = await WebAssembly.instantiate(readFileSync(wasm), {
-  env: { progress: () => undefined },
+  env: { progress: () => undefined, due: () => 0, told: () => undefined },
 });
 const engine = instance.exports;
 

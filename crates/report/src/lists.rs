@@ -82,7 +82,7 @@ fn render_rows(parameters: &[Parameter], room: usize, out: &mut dyn fmt::Write) 
 }
 
 /// Number, key, value with its unit, and origin of a parameter.
-pub(super) fn cells(row: &Parameter) -> [String; 4] {
+pub fn cells(row: &Parameter) -> [String; 4] {
     let value = if row.unit.is_empty() {
         row.value.clone()
     } else if row.unit.starts_with(|first: char| first.is_ascii_digit()) {

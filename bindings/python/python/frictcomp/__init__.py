@@ -3,7 +3,7 @@
 ``run`` executes programs without a machine and gives their timeline: which axis has friction
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB take
 without a copy. ``check`` gives the messages of whole folders, ``audit`` what the order of programs
-does. ``current``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
+does. ``current``, ``contour``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -17,7 +17,10 @@ from importlib.metadata import version as _version
 
 from ._engine import (
     Audit,
+    AuditSequence,
     AxisCurrent,
+    Circle,
+    Contour,
     Currents,
     End,
     Fix,
@@ -32,9 +35,12 @@ from ._engine import (
     Timeline,
     Tuned,
     audit,
+    audit_sequence,
     check,
     circle,
+    contour,
     current,
+    current_of_recording,
     identify,
     run,
     tune,
@@ -45,7 +51,10 @@ __version__ = _version("frictcomp")
 
 __all__ = [
     "Audit",
+    "AuditSequence",
     "AxisCurrent",
+    "Circle",
+    "Contour",
     "Currents",
     "End",
     "Error",
@@ -61,9 +70,12 @@ __all__ = [
     "Timeline",
     "Tuned",
     "audit",
+    "audit_sequence",
     "check",
     "circle",
+    "contour",
     "current",
+    "current_of_recording",
     "identify",
     "run",
     "tune",

@@ -10,9 +10,12 @@ __all__ = [
     "audit",
     "check",
     "command",
+    "Contour",
+    "contour",
     "AxisCurrent",
     "Currents",
     "current",
+    "current_of_recording",
     "Identified",
     "identify",
     "Limits",
@@ -23,6 +26,9 @@ __all__ = [
     "Messages",
     "Text",
     "run",
+    "AuditSequence",
+    "audit_sequence",
+    "Circle",
     "Tuned",
     "circle",
     "tune",
@@ -274,6 +280,13 @@ class Timeline:
         """Whether the states rest on an assumption about what only the machine knows (FC902)."""
     def raise_for_errors(self) -> None:
         """Raises ``Error`` where there is a message of severity error."""
+    def svg(self, program: int = 1) -> str:
+        """The picture of the states of friction compensation over the executed blocks of a program.
+
+        ``program`` is its number in the session, from 1.
+        """
+    def _repr_html_(self) -> str:
+        """The state bars of its first programs, for notebooks."""
     def __len__(self) -> int:
         """How many blocks were executed."""
     def __bool__(self) -> Literal[True]: ...
@@ -353,6 +366,28 @@ class Audit:
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
+class AuditSequence:
+    """What programs do in an order: one row for each program, axis and kind.
+
+    ``str(sequence)`` has the lines of ``frictcomp audit --sequence``, one for each program.
+    """
+
+    @property
+    def records(self) -> list[dict[str, Any]]:
+        """The records of ``frictcomp audit --sequence --format ndjson``."""
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def messages(self) -> Messages:
+        """What keeps the control from taking its lists."""
+    @property
+    def has_warnings(self) -> bool:
+        """Whether a program moves an axis in a state in which another one left it."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> Literal[True]: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+@final
 class Currents:
     """The additive currents of axes over the path of a program, cycle by cycle."""
 
@@ -370,6 +405,10 @@ class Currents:
     @property
     def left_out(self) -> int:
         """How many motions are not in the trace, because their start or end is not known."""
+    def svg(self) -> str:
+        """The picture of currents, velocities, weights and states over time, as ``frictcomp current --svg``
+        draws it.
+        """
     def __getitem__(self, key: str, /) -> AxisCurrent: ...
     def __len__(self) -> int:
         """How many cycles there are."""
@@ -380,7 +419,11 @@ class AxisCurrent:
     """The additive current of one axis in each cycle, with the columns of ``frictcomp current``."""
 
     @property
-    def axis(self) -> str: ...
+    def axis(self) -> str:
+        """The name of the axis; empty where it is that of a recording."""
+    @property
+    def t(self) -> NDArray[numpy.float64]:
+        """The time of each cycle in s."""
     @property
     def x(self) -> NDArray[numpy.float64]:
         """The commanded position in 0.1 µm or 0.0001°."""
@@ -413,6 +456,39 @@ class AxisCurrent:
     @property
     def cycles_at_rest(self) -> int:
         """In how many cycles at standstill it matters what the control adds there."""
+    @property
+    def remarks(self) -> list[str]:
+        """What was done to the rows of a recording to make cycles of them, each step a sentence."""
+    def svg(self) -> str:
+        """The picture of current, velocity, weights and states over time."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> Literal[True]: ...
+
+@final
+class Contour:
+    """The path of a program driven by simulated axes: as programmed, with all compensation, with none."""
+
+    @property
+    def record(self) -> Any:
+        """The document of ``frictcomp contour --format json``: figures, reversals, blocks."""
+    @property
+    def remarks(self) -> list[str]:
+        """The feed that is reached, and what the figures rest on: a sentence each."""
+    @property
+    def messages(self) -> Messages:
+        """What stopped the program or the trace, and what the trace simplifies."""
+    def svg(self) -> str:
+        """The picture of the path with its magnified deviation, as ``frictcomp contour --svg`` draws it."""
+
+@final
+class Circle:
+    """A circular test: its figures and its picture."""
+
+    @property
+    def record(self) -> Any:
+        """The document of ``frictcomp circle --format json``."""
+    def svg(self) -> str:
+        """The picture of the circle with its magnified deviation, as ``frictcomp circle --svg`` draws it."""
 
 @final
 class Tuned:
@@ -426,6 +502,8 @@ class Tuned:
 
         Outputs are whole numbers unless ``cnc_build``, such as ``"3.1.3132.0"``, accepts fractions.
         """
+    def svg(self) -> str:
+        """The picture of the glitch before and after tuning, as ``frictcomp tune --svg`` draws it."""
 
 @final
 class Identified:
@@ -436,6 +514,11 @@ class Identified:
         """The document of ``frictcomp identify --format json``."""
     def value_list(self, *, cnc_build: str | None = None) -> str:
         """The value list as a file of the control."""
+    def svg(self) -> str:
+        """The picture of the friction curve, as ``frictcomp identify --svg`` draws it.
+
+        ``Error`` where friction was found on circles, of which there is none.
+        """
 
 def run(
     program: _Program | Iterable[_Program],
@@ -475,6 +558,19 @@ def audit(
 ) -> Audit:
     """Which programs leave an axis away from its start-up state, and which move it in the state that they find."""
 
+def audit_sequence(
+    programs: _Program | Iterable[_Program],
+    *,
+    machine: Machine | _Path | None = None,
+    kinds: _Kinds | None = None,
+    limits: Limits | None = None,
+) -> AuditSequence:
+    """What programs do in the order in which they are given, from a start of the control.
+
+    It says what each of them changes, and where an axis first moves outside its start-up state, with
+    the program that left it so.
+    """
+
 def current(
     program: _Program,
     axes: Iterable[str],
@@ -494,6 +590,49 @@ def current(
     ``max_cycles``, which a message says.
     """
 
+def current_of_recording(
+    trace: _Path,
+    value_list: _Path,
+    *,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    resample: bool = False,
+    dead_band: float | None = None,
+    reading: str | None = None,
+) -> AxisCurrent:
+    """The additive current of one axis over a recorded commanded trace, as NumPy arrays.
+
+    The trace is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
+    s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
+    ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units where the file
+    does not. Times that are not those of CNC cycles are refused unless ``resample``. Velocities up to
+    ``dead_band`` in µm/s or 0.001°/s are standstill.
+    """
+
+def contour(
+    program: _Program,
+    *,
+    machine: Machine | _Path | None = None,
+    plane: str | Iterable[str] | None = None,
+    plant: str = "stiff",
+    model: str | None = None,
+    value_list: Mapping[str, _Path] | None = None,
+    cycle_time_ms: float | None = None,
+    start: Iterable[tuple[str, float]] | None = None,
+    max_cycles: int | None = None,
+    limits: Limits | None = None,
+) -> Contour:
+    """Drives the path of a program with simulated axes: the document of ``frictcomp contour --format json``.
+
+    The path is driven three times: with friction compensation as the program switches it, with all of
+    it on, and with all of it off. ``plane`` is the view of the picture, ``"XY"`` or two names.
+    ``value_list`` gives axes other lists than those of the machine, ``{"X": "comp_x.lis"}``. ``start``
+    says where axes stand at first, ``[("X", 0.0)]``, in mm or degrees.
+    """
+
 def circle(
     *,
     radius_mm: float | None = None,
@@ -505,8 +644,8 @@ def circle(
     reading: str | None = None,
     traces: Iterable[_Path] | None = None,
     centre: Literal["common", "own"] | None = None,
-) -> Any:
-    """A circular test: the document of ``frictcomp circle --format json``.
+) -> Circle:
+    """A circular test, as ``frictcomp circle`` makes it.
 
     Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
     circles are judged instead, with the radius and the feed that were commanded.

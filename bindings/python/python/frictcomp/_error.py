@@ -49,13 +49,10 @@ class Error(Exception):
         return "\n  ".join([self.message, *told, *helped])
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Messages are not pickled; their words are, so that an error comes back from other processes.
-        return (_unpickled, (str(self), self.file, self.line, self.column, self.code))
+        return (_unpickled, (self.message, self.help, self.file, self.messages))
 
 
 def _unpickled(
-    message: str, file: str | None, line: int | None, column: int | None, code: str | None
+    message: str, help: str | None, file: str | None, messages: Sequence[Message]
 ) -> Error:
-    error = Error(message, file=file)
-    error.line, error.column, error.code = line, column, code
-    return error
+    return Error(message, help=help, file=file, messages=messages)

@@ -1,10 +1,12 @@
 //! The timeline of a run: its blocks as a table, its programs, its messages.
 
+mod bars;
 mod recorder;
 mod rows;
 
 use std::collections::BTreeMap;
 
+use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde::{Deserialize, Serialize};
@@ -16,8 +18,13 @@ use crate::messages::{PyMessages, Said, Word};
 use crate::pickled::{self, Reduced};
 use crate::state::PyState;
 
+use bars::Bars;
+
 pub(crate) use recorder::{Recorded, Recorder};
 pub(crate) use rows::Shown;
+
+/// Programs that a notebook shows at once.
+const SHOWN: usize = 20;
 
 /// How a program of a run went.
 #[pyclass(frozen, get_all, name = "ProgramRun", module = "frictcomp")]
@@ -94,25 +101,39 @@ impl PyTimeline {
     }
 }
 
+impl PyTimeline {
+    /// "5 blocks, 0 errors, 2 warnings"
+    fn counted(&self) -> String {
+        let (blocks, said) = (self.table.rows(), self.messages.get().counted());
+        format!("{blocks} blocks, {said}")
+    }
+
+    fn drawn(&self, run: &PyProgramRun) -> String {
+        let friction = Bars {
+            run,
+            axes: &self.recorded.axes,
+            start_up: &self.recorded.start_up,
+        };
+        friction.chart(&self.table).render(Frame::Alone)
+    }
+}
+
 #[pymethods]
 impl PyTimeline {
     #[staticmethod]
     fn _unpickled(text: &str, blocks: &[u8], messages: Py<PyMessages>) -> PyResult<Self> {
-        let table = Table::from_bytes(blocks).map_err(|error| refused(error.to_string()))?;
         Ok(Self {
             recorded: pickled::read(text)?,
-            table,
+            table: Table::unpickled(blocks)?,
             messages,
         })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
         let this = slf.get();
-        let blocks = this.table.to_bytes();
-        let blocks = blocks.map_err(|error| refused(error.to_string()))?;
         let arguments = (
             pickled::written(&this.recorded)?,
-            PyBytes::new(slf.py(), &blocks),
+            this.table.pickled(slf.py())?,
             this.messages.clone_ref(slf.py()),
         );
         pickled::reduced(slf, arguments)
@@ -180,6 +201,33 @@ impl PyTimeline {
         raised_for(py, self.messages.get())
     }
 
+    /// The picture of the states of friction compensation over the executed blocks of a program.
+    ///
+    /// ``program`` is its number in the session, from 1.
+    #[pyo3(signature = (program=1))]
+    fn svg(&self, program: u32) -> PyResult<String> {
+        let found = self.recorded.programs.iter();
+        let found = found.clone().find(|run| run.program == program);
+        let run = found.ok_or_else(|| {
+            let count = self.recorded.programs.len();
+            refused(format!("there is no program {program}: {count} were run"))
+        })?;
+        Ok(self.drawn(run))
+    }
+
+    /// The state bars of its first programs, for notebooks.
+    fn _repr_html_(&self) -> String {
+        let programs = &self.recorded.programs;
+        let shown = programs.iter().take(SHOWN);
+        let pictures: Vec<String> = shown.map(|run| self.drawn(run)).collect();
+        let counted = self.counted();
+        let more = match programs.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            more => format!("<p>{more} more programs: <code>svg(program)</code> draws one</p>"),
+        };
+        format!("<p>{counted}</p>{}{more}", pictures.concat())
+    }
+
     #[pyo3(signature = (requested_schema=None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -200,8 +248,6 @@ impl PyTimeline {
     }
 
     fn __repr__(&self) -> String {
-        let blocks = self.table.rows();
-        let counted = self.messages.get().counted();
-        format!("<frictcomp.Timeline: {blocks} blocks, {counted}>")
+        format!("<frictcomp.Timeline: {}>", self.counted())
     }
 }

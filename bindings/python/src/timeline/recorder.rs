@@ -23,6 +23,8 @@ pub(crate) struct Recorded {
     pub(crate) axes: Vec<String>,
     pub(crate) programs: Vec<PyProgramRun>,
     pub(crate) friction: BTreeMap<String, Word>,
+    /// Friction compensation at the start of the control, by axis.
+    pub(crate) start_up: BTreeMap<String, Word>,
     /// The states that are possible where ways differ, by axis.
     pub(crate) possible: Json,
     pub(crate) opaque: BTreeMap<String, u64>,
@@ -37,6 +39,7 @@ pub(crate) struct Recorder {
     programs: Vec<PyProgramRun>,
     said: Said,
     opaque: BTreeMap<String, u64>,
+    start_up: BTreeMap<String, Word>,
     is_assumed: bool,
     stop: Stop,
 }
@@ -49,6 +52,7 @@ impl Recorder {
             programs: Vec::new(),
             said: Said::default(),
             opaque: BTreeMap::new(),
+            start_up: BTreeMap::new(),
             is_assumed: false,
             stop: stop.clone(),
         }
@@ -64,6 +68,7 @@ impl Recorder {
         let recorded = Recorded {
             axes: end.axes().map(|(_, name)| name.to_owned()).collect(),
             friction: friction(end),
+            start_up: self.start_up,
             possible: possible(end),
             programs: self.programs,
             opaque: self.opaque,
@@ -137,6 +142,11 @@ impl Sink for Recorder {
             Record::Summary(summary) => {
                 self.said.count_all(&summary.counts);
                 self.opaque = summary.opaque.clone();
+                let axes = summary.axes.iter().map(|axis| {
+                    let name = summary.state.name(axis.axis);
+                    (name.to_owned(), axis.start_up.as_str().into())
+                });
+                self.start_up = axes.collect();
                 self.is_assumed = summary.footing == Footing::Assumed;
             }
         }

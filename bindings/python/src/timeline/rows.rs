@@ -352,7 +352,7 @@ const AFTER: [&str; 4] = ["frame", "changes", "codes", "branch"];
 
 /// The name of the column of a state: that of the axis, `X.LEAD` for other kinds, and
 /// `X.FRICT` where an axis has the name of another column.
-fn state_name(axis: &str, kind: Kind) -> String {
+pub(super) fn state_name(axis: &str, kind: Kind) -> String {
     let is_taken = BEFORE.contains(&axis) || AFTER.contains(&axis);
     if kind == Kind::Frict && !is_taken {
         axis.to_owned()

@@ -1,0 +1,229 @@
+//! `frictcomp.audit_sequence`: what programs do in a given order.
+
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, StringArray, UInt32Array};
+use frictcomp::audit::{Step, StepAxis};
+use frictcomp_host::AuditOptions;
+use frictcomp_report::audit::{sequence_records, step_line};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyCapsule};
+use serde_json::Value;
+
+use crate::arrow::{Column, Table};
+use crate::audit::{Job, said};
+use crate::failure::Failure;
+use crate::json::parsed;
+use crate::kinds::Kinds;
+use crate::limits::{self, PyLimits};
+use crate::machine::machine_options;
+use crate::messages::{PyMessages, Said};
+use crate::pickled::{self, Reduced};
+use crate::program::Programs;
+use crate::work::{Stop, interruptible};
+
+/// What programs do in an order: one row for each program, axis and kind.
+///
+/// ``str(sequence)`` has the lines of ``frictcomp audit --sequence``, one for each program.
+#[pyclass(frozen, name = "AuditSequence", module = "frictcomp")]
+pub(crate) struct PyAuditSequence {
+    table: Table,
+    records: String,
+    text: String,
+    messages: Py<PyMessages>,
+    has_warnings: bool,
+}
+
+/// What programs do in the order in which they are given, from a start of the control.
+///
+/// It says what each of them changes, and where an axis first moves outside its start-up state, with
+/// the program that left it so.
+#[pyfunction]
+#[pyo3(signature = (programs, *, machine=None, kinds=None, limits=None))]
+pub(crate) fn audit_sequence(
+    programs: &Bound<'_, PyAny>,
+    machine: Option<&Bound<'_, PyAny>>,
+    kinds: Option<Kinds>,
+    limits: Option<&Bound<'_, PyLimits>>,
+) -> PyResult<PyAuditSequence> {
+    let py = programs.py();
+    let job = Job {
+        programs: Programs::of(programs)?,
+        machine: machine_options(machine)?,
+        options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
+    };
+    let (steps, said) = interruptible(py, move |stop| followed(job, stop))?;
+    let lines = steps.iter().map(|step| step_line(step) + "\n");
+    let mut axes = steps.iter().flat_map(|step| &step.axes);
+    Ok(PyAuditSequence {
+        table: table(&steps),
+        records: Value::from(sequence_records(&steps)).to_string(),
+        text: lines.collect(),
+        messages: Py::new(py, PyMessages::new(said))?,
+        has_warnings: axes.any(|axis| axis.left_by.is_some()),
+    })
+}
+
+fn followed(job: Job, stop: &Stop) -> Result<(Vec<Step>, Said), Failure> {
+    job.programs.probe()?;
+    // A program may come several times.
+    let (auditor, mut errors) = job.auditor(|programs, _| (programs.inputs, Vec::new()), stop);
+    let (steps, unread) = auditor.follow();
+    errors.extend(unread);
+    match Failure::of_several(errors) {
+        Some(failure) => Err(failure),
+        None => Ok((steps, said(&auditor))),
+    }
+}
+
+/// A program at its position, and an axis.
+struct Row<'a> {
+    position: u32,
+    step: &'a Step,
+    axis: &'a StepAxis,
+}
+
+fn table(steps: &[Step]) -> Table {
+    let rows = (1..).zip(steps).flat_map(|(position, step)| {
+        let axes = step.axes.iter();
+        axes.map(move |axis| Row {
+            position,
+            step,
+            axis,
+        })
+    });
+    let rows: Vec<Row<'_>> = rows.collect();
+    let text = |of: fn(&Row<'_>) -> Option<String>| -> ArrayRef {
+        Arc::new(rows.iter().map(of).collect::<StringArray>())
+    };
+    let number = |of: fn(&Row<'_>) -> Option<u32>| -> ArrayRef {
+        Arc::new(rows.iter().map(of).collect::<UInt32Array>())
+    };
+    let columns: Vec<Column> = vec![
+        ("position", number(|it| Some(it.position))),
+        ("file", text(|it| Some(it.step.file.clone()))),
+        ("axis", text(|it| Some(it.axis.axis.clone()))),
+        ("kind", text(|it| Some(it.axis.kind.to_string()))),
+        ("start", text(|it| Some(it.axis.start.as_str().to_owned()))),
+        ("end", text(|it| Some(it.axis.end.as_str().to_owned()))),
+        (
+            "by_file",
+            text(|it| Some(it.axis.by.as_ref()?.file.to_string())),
+        ),
+        ("by_line", number(|it| Some(it.axis.by.as_ref()?.line))),
+        (
+            "away_file",
+            text(|it| Some(it.axis.away.as_ref()?.site.file.to_string())),
+        ),
+        (
+            "away_line",
+            number(|it| Some(it.axis.away.as_ref()?.site.line)),
+        ),
+        (
+            "motion",
+            text(|it| Some(it.axis.away.as_ref()?.motion.as_str().to_owned())),
+        ),
+        ("left_by", text(|it| it.axis.left_by.clone())),
+        (
+            "stopped",
+            text(|it| Some(it.step.stopped.as_ref()?.message.clone())),
+        ),
+    ];
+    let nullable = [
+        "by_file",
+        "by_line",
+        "away_file",
+        "away_line",
+        "motion",
+        "left_by",
+        "stopped",
+    ];
+    Table::of(columns, &nullable)
+}
+
+/// What a sequence is made of anew: the table, the records, the lines, the messages, the warnings.
+type Pickled<'py> = (Bound<'py, PyBytes>, String, String, Py<PyMessages>, bool);
+
+#[pymethods]
+impl PyAuditSequence {
+    #[staticmethod]
+    fn _unpickled(
+        table: &[u8],
+        records: String,
+        text: String,
+        messages: Py<PyMessages>,
+        has_warnings: bool,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            table: Table::unpickled(table)?,
+            records,
+            text,
+            messages,
+            has_warnings,
+        })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+        let (this, py) = (slf.get(), slf.py());
+        let arguments = (
+            this.table.pickled(py)?,
+            this.records.clone(),
+            this.text.clone(),
+            this.messages.clone_ref(py),
+            this.has_warnings,
+        );
+        pickled::reduced(slf, arguments)
+    }
+
+    /// The records of ``frictcomp audit --sequence --format ndjson``.
+    #[getter]
+    fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        parsed(py, &self.records)
+    }
+
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        self.table.columns()
+    }
+
+    /// What keeps the control from taking its lists.
+    #[getter]
+    fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
+        self.messages.clone_ref(py)
+    }
+
+    /// Whether a program moves an axis in a state in which another one left it.
+    #[getter]
+    fn has_warnings(&self) -> bool {
+        self.has_warnings
+    }
+
+    fn __len__(&self) -> usize {
+        self.table.rows()
+    }
+
+    fn __bool__(&self) -> bool {
+        true
+    }
+
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        let _ = requested_schema;
+        self.table.stream(py)
+    }
+
+    fn __str__(&self) -> &str {
+        &self.text
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<frictcomp.AuditSequence: {} programs>",
+            self.text.lines().count()
+        )
+    }
+}

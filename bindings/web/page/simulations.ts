@@ -1,0 +1,96 @@
+// What simulated drives do: contours, circles, tuned value lists.
+
+import { fill, h, part } from "./dom";
+import { download, picture } from "./pictures";
+import type { Settings } from "./answers";
+import type { Session } from "./session";
+import { sentence } from "./verdict";
+
+/** Feeds beyond these are not tuned for at once. */
+const MOST_FEEDS = 8;
+
+interface Drawn {
+  svg: string | null;
+  text: string;
+}
+
+function value(id: string): string {
+  return (part(id) as HTMLInputElement | HTMLSelectElement).value;
+}
+
+function figures(text: string): HTMLElement {
+  return h("pre", { class: "figures", tabindex: 0, role: "region", "aria-label": "Figures" }, text);
+}
+
+/** Notes below a picture. */
+export function noted(notes: readonly string[]): HTMLElement | null {
+  return notes.length === 0 ? null
+    : h("ul", { class: "notes" }, ...notes.map((note) => h("li", {}, sentence(note))));
+}
+
+/** Where axes stand at the start: `X0, Y-12.5, Z1=30`. */
+export function positions(written: string): [axis: string, position: number][] {
+  const words = written.split(/[\s,;]+/);
+  return words.flatMap((word): [string, number][] => {
+    const found = /^([A-Za-z]\w*)=(.+)$|^([A-Za-z])(.+)$/.exec(word);
+    const [axis, position] = [found?.[1] ?? found?.[3], Number(found?.[2] ?? found?.[4])];
+    return axis !== undefined && Number.isFinite(position) ? [[axis.toUpperCase(), position]] : [];
+  });
+}
+
+/** The feeds of a text, `500, 1000`; none where one of its words is no feed. */
+export function feeds(written: string): number[] {
+  const all = written.split(/[\s,;]+/).filter((word) => word !== "").map(Number);
+  return all.length <= MOST_FEEDS && all.every((feed) => Number.isFinite(feed) && feed > 0) ? all : [];
+}
+
+/** The question for the contour of a program. */
+export function contourQuestion(program: string | null, settings: Settings): object {
+  return { program, settings, start: positions(value("contour-start")), plant: value("contour-plant") };
+}
+
+/** Drives a program and shows how far the axes leave its path. */
+export async function contour(session: Session, program: string, settings: Settings): Promise<void> {
+  const answer = await session.json<Drawn & { notes: string[] }>(
+    { ask: "contour", ...contourQuestion(program, settings) });
+  picture(part("contour"), answer.svg, `Contour of ${program}: the path with its magnified deviation`,
+    ...[noted(answer.notes), figures(answer.text)].filter((one) => one !== null));
+}
+
+/** The question for a circular test on the machine of a program. */
+export function circleQuestion(program: string | null): object {
+  return {
+    program,
+    radiusMm: Number(value("radius")),
+    feedMmPerMin: Number(value("feed")),
+    plant: value("plant"),
+  };
+}
+
+/** Drives a circle. */
+export async function circle(session: Session, program: string | null): Promise<void> {
+  const answer = await session.json<Drawn & { lists: string }>({ ask: "circle", ...circleQuestion(program) });
+  picture(part("circle"), answer.svg, "Simulated circular test, compensation off and on",
+    h("p", {}, answer.lists), figures(answer.text));
+}
+
+/** Searches the value list with the smallest glitch at all feeds. */
+export async function tune(session: Session): Promise<void> {
+  const wanted = feeds(value("feeds"));
+  if (wanted.length === 0) {
+    throw new Error(`Give from 1 to ${MOST_FEEDS} feeds in mm/min, such as 500, 2000.`);
+  }
+  const plant = value("plant");
+  const answer = await session.json<Drawn & { list: string }>(
+    { ask: "tune", radiusMm: Number(value("radius")), feedsMmPerMin: wanted, plant });
+  const save = (): void => {
+    download(`${plant}.lis`, new TextEncoder().encode(answer.list), "text/plain");
+  };
+  picture(part("tuned"), answer.svg, "The glitch before and after tuning",
+    h("p", {}, h("button", { onclick: save }, "Download value list")), figures(answer.text));
+}
+
+/** Empties what belongs to a program that is no longer shown. */
+export function forgetContour(): void {
+  fill(part("contour"));
+}

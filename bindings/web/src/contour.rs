@@ -1,0 +1,173 @@
+//! The contour of a program driven by simulated axes (chapter 11 of the rules).
+
+use std::sync::Arc;
+
+use frictcomp::diagnostic::UnknownName;
+use frictcomp::session::SessionOptions;
+use frictcomp_host::{ContourSetup, LoadedMachine, Naming, NoDrivenContour, Watch, drive_contour};
+use frictcomp_physics::contour::{ContourOptions, NoContour, ProgramContour};
+use frictcomp_physics::motion::{PlannerOptions, check_cycle};
+use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
+use frictcomp_report::html::render_contour;
+use frictcomp_report::pictures::ContourPicture;
+use frictcomp_report::svg::Frame;
+use serde::{Deserialize, Serialize};
+
+use crate::circle::preset;
+use crate::dropped::Dropped;
+use crate::refusal::Refusal;
+use crate::run::{RunSettings, Texts, json};
+use crate::watched::Page;
+use crate::wording::page;
+
+/// More cycles than that take minutes.
+const MOST_CYCLES: u64 = 20_000_000;
+
+/// What is driven.
+#[derive(Debug, Deserialize)]
+pub(crate) struct ContourSettings {
+    program: String,
+    /// Where axes stand at the start, in mm or degrees.
+    #[serde(default)]
+    start: Vec<(String, f64)>,
+    /// The drives: `stiff`, `mid`, `soft`.
+    plant: String,
+    #[serde(default)]
+    settings: RunSettings,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    /// The picture; none where nothing was driven.
+    svg: Option<String>,
+    /// The figures, as on the command line.
+    text: String,
+    /// What stopped the program or the trace, and what the trace simplifies.
+    notes: Vec<String>,
+}
+
+/// A contour that was driven, and its names.
+type Driven = (ProgramContour<ContourRecorder<'static>>, ContourSubject);
+
+fn drive(dropped: &mut Dropped, settings: &ContourSettings) -> Result<Driven, Refusal> {
+    let input = dropped.program(&settings.program)?;
+    let machine = dropped.machine(&input, &settings.settings.enable)?;
+    let mut loaded = machine.as_ref().clone();
+    expect_axes(&loaded, &settings.start)?;
+    loaded.watch = Arc::new(Watch::by(Arc::new(Page)));
+    let setup = setup(&loaded, settings)?;
+    let contour = drive_contour(&input, &loaded, &setup, recorder)?;
+    let subject = ContourSubject {
+        program: input.name(Naming::AsGiven),
+        plant: settings.plant.clone(),
+    };
+    Ok((contour, subject))
+}
+
+/// Refuses a start of an axis that the machine does not have.
+pub(crate) fn expect_axes(loaded: &LoadedMachine, start: &[(String, f64)]) -> Result<(), Refusal> {
+    let mut strange = start.iter();
+    let strange = strange.find(|(name, _)| loaded.machine.find(name).is_none());
+    let Some((name, _)) = strange else {
+        return Ok(());
+    };
+    let known = loaded.machine.axes.iter().map(|axis| axis.name.as_str());
+    let unknown = UnknownName::new(name, known);
+    let message = format!("the machine has no axis `{name}`, of which a start is given");
+    Err(Refusal::unknown(message, &unknown))
+}
+
+fn setup(loaded: &LoadedMachine, settings: &ContourSettings) -> Result<ContourSetup, Refusal> {
+    let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
+    let usual = PlannerOptions::default();
+    let cycle_s = check_cycle(of_machine.unwrap_or(usual.cycle_s))
+        .map_err(|error| Refusal::new(error.to_string()))?;
+    Ok(ContourSetup {
+        plane: ["X", "Y"].map(str::to_owned),
+        plant: preset(&settings.plant)?.plant(),
+        value_lists: Vec::new(),
+        model: FrictionModel::default(),
+        planner: usual.with_cycle_s(cycle_s).with_max_cycles(MOST_CYCLES),
+        session: SessionOptions::default()
+            .with_levels(loaded.levels.clone())
+            .with_settings(loaded.settings.clone())
+            .with_start(settings.start.clone())
+            .with_wording(Some(page)),
+        naming: Naming::AsGiven,
+    })
+}
+
+/// Keeps everything, and draws.
+fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
+    let names: Vec<String> = options.axes.iter().map(|axis| axis.name.clone()).collect();
+    let plane = [names[0].clone(), names[1].clone()];
+    let recorder = ContourRecorder::new(names).keeping_all();
+    recorder.drawing(ContourPicture::new(plane))
+}
+
+/// The picture and the figures.
+pub(crate) fn answer(
+    dropped: &mut Dropped,
+    settings: &ContourSettings,
+) -> Result<Vec<u8>, Refusal> {
+    let (mut contour, subject) = drive(dropped, settings)?;
+    let has_moved = contour.machine_time_s() > 0.0;
+    let picture = contour.sink().take_picture().filter(|_| has_moved);
+    let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
+    let text = render_text(&mut contour, &subject);
+    Ok(json(&Answer {
+        svg: chart.map(|chart| chart.render(Frame::Alone)),
+        text,
+        notes: notes(&contour, has_moved),
+    }))
+}
+
+fn notes(contour: &ProgramContour<ContourRecorder<'_>>, has_moved: bool) -> Vec<String> {
+    let (errors, remarks) = contour.diagnostics();
+    let said = errors.iter().chain(remarks);
+    let mut notes: Vec<String> = said
+        .map(|said| format!("{} {}", said.code, said.message))
+        .collect();
+    if !has_moved {
+        notes.push(
+            "no motion was driven: program absolute positions and F first, or say above where the \
+             axes start"
+                .to_owned(),
+        );
+    }
+    notes
+}
+
+/// The report as a page, the same as that of `frictcomp contour --html`.
+pub(crate) fn report(
+    dropped: &mut Dropped,
+    settings: &ContourSettings,
+) -> Result<Vec<u8>, Refusal> {
+    let (mut contour, subject) = drive(dropped, settings)?;
+    let picture = contour.sink().take_picture();
+    let picture = picture.ok_or_else(|| Refusal::new("nothing was driven"))?;
+    let mut written = Vec::new();
+    let mut sources = Texts(dropped.disk());
+    render_contour(
+        (&mut contour, &subject),
+        picture,
+        &mut sources,
+        &mut written,
+    )
+    .map_err(|error| Refusal::new(error.to_string()))?;
+    Ok(written)
+}
+
+impl From<NoDrivenContour> for Refusal {
+    fn from(error: NoDrivenContour) -> Self {
+        match error {
+            NoDrivenContour::Host(error) => error.into(),
+            NoDrivenContour::Axes(NoContour::NoAxis(unknown)) => {
+                let message = NoContour::NoAxis(unknown.clone()).to_string();
+                Self::unknown(message, &unknown)
+            }
+            error => Self::new(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The value list with the smallest glitch on a simulated machine.
+
+use std::sync::Arc;
+
+use frictcomp::lists::{ListHead, Points};
+use frictcomp_host::{Watch, tune};
+use frictcomp_physics::circle::{Aim, Circle, Ranges, Shaping, Task};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_report::pictures::tuning;
+use frictcomp_report::svg::Frame;
+use frictcomp_report::tune::{TuneReport, render_text};
+use frictcomp_report::value_lists::render_tuned;
+use serde::{Deserialize, Serialize};
+
+use crate::circle::preset;
+use crate::refusal::Refusal;
+use crate::run::json;
+use crate::watched::Page;
+
+/// Circles that are tuned at once, at most.
+const MOST_CIRCLES: usize = 8;
+
+/// What is tuned for.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct TuneSettings {
+    radius_mm: f64,
+    feeds_mm_per_min: Vec<f64>,
+    /// The drives: `stiff`, `mid`, `soft`.
+    plant: String,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    svg: String,
+    /// The figures, as on the command line.
+    text: String,
+    /// The value list of the drives.
+    list: String,
+}
+
+/// The list, its figures and the glitch over the feed.
+pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
+    let report = tuned(settings)?;
+    let reports = std::slice::from_ref(&report);
+    // Both drives of an example are equal, and so are their lists.
+    let [axis, _] = &report.tuned.axes;
+    Ok(json(&Answer {
+        svg: tuning(reports).render(Frame::Alone),
+        text: render_text(reports),
+        list: render_tuned(&report, axis, None, &ListHead::default()),
+    }))
+}
+
+fn tuned(settings: &TuneSettings) -> Result<TuneReport, Refusal> {
+    let feeds = &settings.feeds_mm_per_min;
+    if feeds.is_empty() || feeds.len() > MOST_CIRCLES {
+        let message = format!("{} feeds were given", feeds.len());
+        return Err(Refusal::new(message).with_help(format!("give from 1 to {MOST_CIRCLES}")));
+    }
+    let circles = feeds.iter().map(|&feed_mm_per_min| Circle {
+        radius_mm: settings.radius_mm,
+        feed_mm_per_min,
+        ..Circle::default()
+    });
+    let model = FrictionModel::default();
+    let task = Task {
+        plant: preset(&settings.plant)?.plant(),
+        model,
+        circles: circles.collect(),
+        ranges: Ranges::default(),
+        reading: Reading::default(),
+        points: Points::of_build(None),
+        shaping: Shaping::Allowed,
+        aim: Aim::Plant,
+    };
+    let watch = Watch::by(Arc::new(Page));
+    let tuned = tune(&task, &watch)
+        .map_err(|error| Refusal::new(error.to_string()).with_help(error.help()))?;
+    Ok(TuneReport {
+        plant: settings.plant.clone(),
+        model: model.as_str(),
+        reading: Reading::default().to_string(),
+        tuned,
+    })
+}

@@ -202,8 +202,9 @@ fn check(
         let beside = in_callers_remark(in_callers) + &passed_over(found.passed_over);
         console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
-        let rests_on = listing.tally().rests_on.in_words();
-        rests_on.iter().for_each(|said| console.remark(said));
+        if let Some(said) = listing.tally().rests_on.in_words() {
+            console.remark(&said);
+        }
     }
     if let Some(remark) = listing.unknown_remark() {
         console.remark(&remark);

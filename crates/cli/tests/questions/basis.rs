@@ -11,8 +11,7 @@ const AXES: &str =
 /// What the summary of a run says that its results rest on.
 fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> {
     let records = bench.records(arguments);
-    let summary = records.iter().map(|it| json(it));
-    let summary = summary.last().expect("a summary");
+    let summary = json(records.last().expect("a summary"));
     let named = summary["rests_on"].as_array().cloned().unwrap_or_default();
     let text = |it: &Value, key: &str| it[key].as_str().unwrap_or_default().to_owned();
     let named = named.iter();

@@ -1,6 +1,7 @@
 //! What an archive costs: 20 000 programs, of which 400 are called, three levels deep. The time and the
 //! memory of `check`, `audit`, `graph`, and of `check --changed` after a change of one subprogram, which
-//! costs what its callers cost and a look over the texts (R17.4).
+//! costs what its callers cost and a look over the texts (R17.4); and of calls of a missing program, which
+//! are looked for in every folder.
 //!
 //! `FRICTCOMP_BENCH_PROGRAMS` sets how many programs the archive has; a fiftieth of them are called.
 
@@ -37,41 +38,54 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let folder = folder.path();
     let callers = write_archive(folder, programs)?;
-    for arguments in [
-        &["init", "-q"] as &[&str],
-        &["add", "-A"],
-        &[
-            "-c",
-            "user.name=b",
-            "-c",
-            "user.email=b@example.org",
-            "commit",
-            "-q",
-            "-m",
-            "all",
-        ],
-    ] {
-        let status = Command::new("git")
-            .current_dir(folder)
-            .args(arguments)
-            .status()?;
-        if !status.success() {
-            return Err("git is needed".into());
-        }
-    }
+    commit(folder)?;
     println!("{programs} programs, {} of them called", programs / 50);
     for command in [&["check", "-q"] as &[&str], &["audit"], &["graph"]] {
         measure(command, folder)?;
     }
     measure(&["check", "-q", "--write-baseline", "known.json"], folder)?;
     measure(&["check", "-q", "--baseline", "known.json"], folder)?;
-    std::fs::write(
-        folder.join("low00000.nc"),
-        "N10 Z[COMP ON FRICT]\nN20 X1\nM17\n",
-    )?;
-    println!("one subprogram changed, reached from {callers} programs");
+    measure_change("low00000.nc", callers, folder)?;
+    measure_change("p00000.nc", 0, folder)?;
+    println!("every main program calls one that is missing");
+    call_missing(folder)?;
+    measure(&["check", "-q"], folder)?;
+    measure(&["graph"], folder)
+}
+
+fn commit(folder: &Path) -> Result<(), Box<dyn Error>> {
+    let user = ["-c", "user.name=b", "-c", "user.email=b@example.org"];
+    let commit = [&user[..], &["commit", "-q", "-m", "all"]].concat();
+    for arguments in [&["init", "-q"] as &[&str], &["add", "-A"], &commit] {
+        let mut git = Command::new("git");
+        if !git.current_dir(folder).args(arguments).status()?.success() {
+            return Err("git is needed".into());
+        }
+    }
+    Ok(())
+}
+
+/// What one changed program costs that so many others reach; it is as before afterwards.
+fn measure_change(name: &str, callers: u32, folder: &Path) -> Result<(), Box<dyn Error>> {
+    let path = folder.join(name);
+    let before = std::fs::read_to_string(&path)?;
+    std::fs::write(&path, before.replacen("N10 ", "N5 X1\nN10 ", 1))?;
+    println!("`{name}` changed, reached from {callers} programs");
     measure(&["check", "-q", "--changed"], folder)?;
-    measure(&["diff", "--git", "HEAD"], folder)
+    measure(&["diff", "--git", "HEAD"], folder)?;
+    Ok(std::fs::write(&path, before)?)
+}
+
+/// Has every main program call one that is not there, before its end.
+fn call_missing(folder: &Path) -> Result<(), Box<dyn Error>> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|it| it == "nc") {
+            let text = std::fs::read_to_string(&path)?;
+            std::fs::write(&path, text.replace("N9010 ", "N9005 L none.nc\nN9010 "))?;
+        }
+    }
+    Ok(())
 }
 
 /// Main programs that call one of the upper subprograms, which calls a middle one, which calls a lower

@@ -115,6 +115,9 @@ fn read(path: &Path) -> Result<Baseline, Failure> {
         Failure::new(format!("the baseline `{}` {why}", shown(path)))
             .with_help("write a new one with `frictcomp check --write-baseline FILE`")
     };
+    if path.is_dir() {
+        return Err(refused("is a folder".to_owned()));
+    }
     let text = read_text(path)?;
     let damaged = |error: serde_json::Error| refused(format!("is damaged: {error}"));
     let value: Value = serde_json::from_str(&text).map_err(damaged)?;

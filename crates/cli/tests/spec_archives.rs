@@ -282,6 +282,66 @@ N80 M30
     );
 }
 
+/// Main programs that call three levels deep, with findings of their own and in what they call.
+fn deep_archive(programs: usize) -> (Bench, Vec<String>) {
+    let bench = Bench::new(&[]);
+    let mut names = Vec::new();
+    let mut add = |name: String, text: &str| {
+        bench.write(&name, text);
+        names.push(name);
+    };
+    let levels = (programs / 50).max(1);
+    for at in 0..levels {
+        let calling = |called: &str| format!("N10 Y[COMP OFF FRICT]\nN20 L {called}{at}.nc\nM17\n");
+        add(format!("up{at}.nc"), &calling("mid"));
+        add(format!("mid{at}.nc"), &calling("low"));
+        add(format!("low{at}.nc"), "N10 Y1\nN20 Z[COMP ON FRICT]\nM17\n");
+    }
+    for at in 0..programs {
+        let called = at % levels;
+        let text = format!(
+            "%P{at}\nN10 X[COMP OFF FRICT]\nN20 G1 X{at} F100\nN30 L up{called}.nc\nN40 X[COMP OFF FRICT]\nN50 M30\n"
+        );
+        add(format!("p{at}.nc"), &text);
+    }
+    (bench, names)
+}
+
+/// Takes a baseline of an archive, inserts 1 000 lines anywhere, and expects no new finding.
+fn insertions_bring_nothing_back(programs: usize) {
+    let (bench, names) = deep_archive(programs);
+    let known = findings(&bench, &["."]).len();
+    assert!(known >= 2 * programs, "{known}");
+    let write = ["check", "--write-baseline", "known.json", "."];
+    assert_eq!(bench.status(&write), Some(0));
+    let mut random = fastrand::Rng::with_seed(17);
+    for _ in 0..1000 {
+        let name = &names[random.usize(..names.len())];
+        let text = bench.read(name);
+        let mut lines: Vec<&str> = text.lines().collect();
+        let line = ["", "(inserted)", "; L none.nc", "G4 F1"][random.usize(..4)];
+        lines.insert(random.usize(1..lines.len()), line);
+        bench.write(name, &(lines.join("\n") + "\n"));
+    }
+    let new = findings(&bench, &["--baseline", "known.json", "."]);
+    assert_eq!(new, Vec::<Value>::new());
+    let said = talk(&bench, &["check", "--baseline", "known.json", "."]);
+    assert!(said.contains(", 0 no longer there"), "{said}");
+}
+
+#[test]
+fn lines_inserted_all_over_an_archive_bring_no_finding_back() {
+    // R17.3
+    insertions_bring_nothing_back(100);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn lines_inserted_all_over_a_large_archive_bring_no_finding_back() {
+    // R17.3
+    insertions_bring_nothing_back(20_000);
+}
+
 #[test]
 fn a_baseline_that_cannot_be_used_is_refused() {
     // R17.3
@@ -309,6 +369,8 @@ fn a_baseline_that_cannot_be_used_is_refused() {
         bench.status(&["check", "--baseline", "none.json", "."]),
         Some(2)
     );
+    let said = talk(&bench, &["check", "--baseline", ".", "a.nc"]);
+    assert!(said.contains("the baseline `.` is a folder"), "{said}");
     assert_eq!(
         bench.status(&["check", "--write-baseline", "a.nc", "."]),
         Some(2)

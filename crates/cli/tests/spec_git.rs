@@ -347,3 +347,132 @@ fn ten_thousand_changed_files_are_compared() {
         "{said}"
     );
 }
+
+#[test]
+fn a_renamed_program_concerns_those_that_call_its_old_name() {
+    // R17.4
+    let bench = repository();
+    git(&bench, &["mv", "sub.nc", "part.nc"]);
+    let (said, codes) = changed(&bench, &["HEAD", "."]);
+    assert!(said.starts_with("4 of 5 programs"), "{said}");
+    assert_eq!(codes, ["FC320", "FC320"]);
+    // The callers follow: nothing switches otherwise.
+    bench.write("a.nc", &caller("part.nc"));
+    bench.write("b.nc", "N1 L part.nc\nM17\n");
+    let shown = compared(&bench, &["--git", "HEAD"]);
+    assert!(
+        shown.contains(&"HEAD:sub.nc part.nc same".to_owned()),
+        "{shown:?}"
+    );
+    assert!(shown.iter().all(|it| it.ends_with(" same")), "{shown:?}");
+    // The control does not tell the cases apart.
+    commit(&bench);
+    git(&bench, &["mv", "part.nc", "PART.NC"]);
+    assert_eq!(changed(&bench, &["HEAD", "."]).1, [""; 0]);
+    assert_eq!(bench.status(&["diff", "--git", "HEAD"]), Some(0));
+}
+
+#[test]
+fn programs_of_one_name_concern_their_own_callers() {
+    // R17.4
+    let bench = Bench::new(&[]);
+    for folder in ["one", "two"] {
+        fs::create_dir(bench.folder().join(folder)).expect("a folder");
+        bench.write(&format!("{folder}/a.nc"), &caller("sub.nc"));
+        bench.write(&format!("{folder}/sub.nc"), SUB);
+    }
+    git(&bench, &["init", "-q"]);
+    commit(&bench);
+    bench.write("two/sub.nc", SUB_NOW);
+    let (said, codes) = changed(&bench, &["HEAD", "."]);
+    assert!(said.starts_with("2 of 4 programs"), "{said}");
+    assert_eq!(codes, ["FC401"]);
+    assert_eq!(
+        compared(&bench, &["--git", "HEAD"]),
+        [
+            "HEAD:two/a.nc two/a.nc different",
+            "HEAD:two/sub.nc two/sub.nc different",
+        ]
+    );
+}
+
+#[test]
+fn a_change_in_a_circle_of_calls_concerns_all_of_it() {
+    // R17.4
+    let ring = |called: &str| format!("N10 L {called}\nM17\n");
+    let bench = Bench::new(&[
+        ("ring-a.nc", &ring("ring-b.nc")),
+        ("ring-b.nc", &ring("ring-c.nc")),
+        ("ring-c.nc", &ring("ring-a.nc")),
+        ("alone.nc", "M30\n"),
+    ]);
+    git(&bench, &["init", "-q"]);
+    commit(&bench);
+    bench.write("ring-b.nc", "N5 X1\nN10 L ring-c.nc\nM17\n");
+    let (said, codes) = changed(&bench, &["HEAD", "."]);
+    assert!(said.starts_with("3 of 4 programs"), "{said}");
+    assert!(
+        !codes.is_empty() && codes.iter().all(|it| it == "FC911"),
+        "{codes:?}"
+    );
+    let shown = compared(&bench, &["--git", "HEAD"]);
+    assert_eq!(shown.len(), 3, "{shown:?}");
+    assert!(
+        shown.iter().all(|it| it.ends_with(" not-comparable")),
+        "{shown:?}"
+    );
+}
+
+#[test]
+fn a_called_program_above_the_folder_concerns_its_callers_there() {
+    // R17.4: the work tree is larger than the project.
+    let bench = Bench::new(&[]);
+    for folder in ["parts", "shared"] {
+        fs::create_dir(bench.folder().join(folder)).expect("a folder");
+    }
+    let machine = format!("[machine]\nprogram_dirs = [\"../shared\"]\n{MACHINE}");
+    bench.write("parts/frictcomp.toml", &machine);
+    bench.write("parts/a.nc", &caller("sub.nc"));
+    bench.write("shared/sub.nc", SUB);
+    git(&bench, &["init", "-q"]);
+    commit(&bench);
+    git(&bench, &["worktree", "add", "-q", "second", "HEAD"]);
+    for top in ["", "second/"] {
+        bench.write(&format!("{top}shared/sub.nc"), SUB_NOW);
+        let below = |arguments: &[&str]| {
+            let mut command = bench.command(arguments);
+            let folder = bench.folder().join(format!("{top}parts"));
+            let output = command.current_dir(folder).output();
+            String::from_utf8(output.expect("the tool starts").stdout).expect("text")
+        };
+        let checked = below(&["check", "--changed", "--format", "concise"]);
+        assert!(checked.starts_with("../shared/sub.nc:1:"), "{checked}");
+        let shown = below(&["diff", "--git", "HEAD"]);
+        assert!(shown.starts_with("--- HEAD:a.nc\n+++ a.nc\n"), "{shown}");
+        assert!(shown.contains("- ../shared/sub.nc:2"), "{shown}");
+    }
+}
+
+#[test]
+fn a_configuration_that_cannot_be_read_is_an_error_only_today() {
+    // R17.4
+    let bench = Bench::new(&[("a.nc", "N10 X1\nN20 M30\n")]);
+    bench.write("frictcomp.toml", "[[axis\n");
+    git(&bench, &["init", "-q"]);
+    commit(&bench);
+    bench.write("frictcomp.toml", MACHINE);
+    bench.write("a.nc", "N10 X2\nN20 M30\n");
+    assert_eq!(
+        compared(&bench, &["--git", "HEAD"]),
+        ["HEAD:a.nc a.nc same"]
+    );
+    commit(&bench);
+    bench.write("frictcomp.toml", "[[axis\n");
+    for command in [
+        &["diff", "--git", "HEAD"] as &[&str],
+        &["check", "--changed"],
+    ] {
+        assert_eq!(bench.status(command), Some(2), "{command:?}");
+        assert!(talk(&bench, command).contains("FC110"), "{command:?}");
+    }
+}

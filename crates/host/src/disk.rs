@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::input::reopen;
 use super::memory_disk::MemoryDisk;
@@ -19,9 +19,16 @@ use frictcomp::text::{LineSource, TextLines};
 /// More bytes than a list or a configuration has.
 const MOST_LIST: u64 = 64 << 20;
 
-/// The disk that a host reads from. By default it is that of the system.
+/// The disk that a host reads from. By default it is that of the system. Names of files are looked up
+/// without regard to case in what a folder held when it was first listed; copies share these listings.
 #[derive(Debug, Clone)]
-pub struct Disk(Kind);
+pub struct Disk {
+    kind: Kind,
+    listings: Arc<Mutex<BTreeMap<PathBuf, Arc<Listing>>>>,
+}
+
+/// The names in a folder, by themselves in lower case.
+pub(super) type Listing = BTreeMap<String, Vec<OsString>>;
 
 #[derive(Debug, Clone)]
 enum Kind {
@@ -43,9 +50,16 @@ struct RevisedFiles {
     names: BTreeMap<PathBuf, BTreeSet<OsString>>,
 }
 
+impl From<Kind> for Disk {
+    fn from(kind: Kind) -> Self {
+        let listings = Arc::default();
+        Self { kind, listings }
+    }
+}
+
 impl Default for Disk {
     fn default() -> Self {
-        Self(Kind::System(SharedMap::default()))
+        Kind::System(SharedMap::default()).into()
     }
 }
 
@@ -56,12 +70,12 @@ impl Disk {
         let system = Self::default();
         let texts = texts.into_iter();
         let texts = texts.map(|open| (system.place_of(&open.path), open.text));
-        Self(Kind::System(texts.collect()))
+        Kind::System(texts.collect()).into()
     }
 
     /// The same with texts that are found by the [places](Self::place) of their files already.
     pub fn with_placed(texts: SharedMap<PathBuf, Arc<String>>) -> Self {
-        Self(Kind::System(texts))
+        Kind::System(texts).into()
     }
 
     /// The disk of the system with the texts that some files had in a revision, and without the files
@@ -82,7 +96,7 @@ impl Disk {
         }
         let absent = absent.into_iter().map(|path| system.place_of(&path));
         revised.absent = absent.collect();
-        Self(Kind::Revision(Arc::new(revised)))
+        Kind::Revision(Arc::new(revised)).into()
     }
 
     /// A path of the system as it is seen from the current folder.
@@ -93,7 +107,7 @@ impl Disk {
 
     /// Whether a revision does not have a file of the system.
     fn is_absent(&self, path: &Path) -> bool {
-        match &self.0 {
+        match &self.kind {
             Kind::Revision(revised) => revised.absent.contains(&self.place_of(path)),
             Kind::System(_) | Kind::Memory(_) => false,
         }
@@ -107,12 +121,12 @@ impl Disk {
     /// A disk in memory with these texts and the folders of their paths, for hosts that have no other.
     /// Relative paths begin at its root.
     pub fn in_memory(texts: impl IntoIterator<Item = OpenText>) -> Self {
-        Self(Kind::Memory(Arc::new(MemoryDisk::new(texts))))
+        Kind::Memory(Arc::new(MemoryDisk::new(texts))).into()
     }
 
     /// The text that is at hand for a file; `None` for a file of the system's own.
     pub fn text(&self, path: &Path) -> Option<&Arc<String>> {
-        match &self.0 {
+        match &self.kind {
             Kind::System(open) if open.is_empty() => None,
             Kind::System(open) => open.get(&self.place_of(path)),
             Kind::Revision(revised) => revised.texts.get(&self.place_of(path)),
@@ -123,7 +137,7 @@ impl Disk {
     /// The lines of a program that was run, by its name in records. `None` for what can be read only
     /// once, a pipe.
     pub fn lines(&self, name: &str) -> Option<Box<dyn LineSource + '_>> {
-        match (self.text(Path::new(name)), &self.0) {
+        match (self.text(Path::new(name)), &self.kind) {
             (Some(text), _) => Some(Box::new(TextLines::new(text))),
             (None, Kind::System(_) | Kind::Revision(_)) => reopen(name),
             (None, Kind::Memory(_)) => None,
@@ -132,7 +146,7 @@ impl Disk {
 
     /// Returns the entry of a path, after links.
     pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
-        if let Kind::Memory(disk) = &self.0 {
+        if let Kind::Memory(disk) = &self.kind {
             return disk.entry(path);
         }
         if self.is_absent(path) {
@@ -155,7 +169,7 @@ impl Disk {
 
     /// The one path of what is there, all links resolved; an empty path is the current folder.
     pub(super) fn real(&self, path: &Path) -> io::Result<PathBuf> {
-        match &self.0 {
+        match &self.kind {
             Kind::Memory(disk) => disk.real(path),
             _ if self.is_absent(path) => Err(io::ErrorKind::NotFound.into()),
             Kind::System(_) | Kind::Revision(_) => match or_here(path).canonicalize() {
@@ -168,7 +182,7 @@ impl Disk {
     /// The path from the root on, without `.` and with `..` resolved by name; an empty path is the
     /// current folder.
     pub fn absolute(&self, path: &Path) -> Option<PathBuf> {
-        match &self.0 {
+        match &self.kind {
             Kind::Memory(_) => Some(MemoryDisk::absolute(path)),
             Kind::System(_) | Kind::Revision(_) => std::path::absolute(or_here(path))
                 .ok()
@@ -176,14 +190,29 @@ impl Disk {
         }
     }
 
+    /// The names in a folder, listed once: calls of a program that is missing would list it each time.
+    pub(super) fn listing(&self, folder: &Path) -> Arc<Listing> {
+        let mut known = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
+        let listing = known.entry(folder.to_owned()).or_insert_with(|| {
+            let mut names = Listing::new();
+            for name in self.names(folder) {
+                if let Some(text) = name.to_str() {
+                    names.entry(text.to_lowercase()).or_default().push(name);
+                }
+            }
+            Arc::new(names)
+        });
+        Arc::clone(listing)
+    }
+
     /// The names in a folder, sorted; an empty path is the current one.
     pub(super) fn names(&self, folder: &Path) -> Vec<OsString> {
-        if let Kind::Memory(disk) = &self.0 {
+        if let Kind::Memory(disk) = &self.kind {
             return disk.names(folder);
         }
         let entries = std::fs::read_dir(or_here(folder)).into_iter().flatten();
         let mut names: Vec<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
-        if let Kind::Revision(revised) = &self.0 {
+        if let Kind::Revision(revised) = &self.kind {
             let folder = self.place_of(folder);
             names.retain(|name| !revised.absent.contains(&folder.join(name)));
             names.extend(revised.names.get(&folder).into_iter().flatten().cloned());
@@ -198,7 +227,7 @@ impl Disk {
     /// # Errors
     /// It does not exist, cannot be read, is no regular file, or is too big to be kept.
     pub(super) fn read(&self, path: &Path) -> io::Result<String> {
-        match (self.text(path), &self.0) {
+        match (self.text(path), &self.kind) {
             (Some(text), _) => Ok(text.to_string()),
             (None, _) if self.is_absent(path) => Err(io::ErrorKind::NotFound.into()),
             (None, Kind::System(_) | Kind::Revision(_)) => read_bytes(path).map(decode),

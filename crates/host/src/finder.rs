@@ -1,7 +1,7 @@
 //! Finds the programs that programs call, and nothing else on the disk (R2.13, R2.16).
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -47,8 +47,6 @@ pub struct ProgramFinder {
     known: HashMap<String, PathBuf>,
     /// The names of the files that were found, by their real paths.
     names: HashMap<PathBuf, String>,
-    /// Contents of the folders searched, by names in lower case.
-    listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
     /// Registry of the files read.
     registry: FileRegistry,
     disk: Disk,
@@ -70,7 +68,6 @@ impl ProgramFinder {
             naming,
             known,
             names,
-            listings: HashMap::new(),
             registry: FileRegistry::default(),
             disk: disk.clone(),
         }
@@ -127,7 +124,8 @@ impl ProgramFinder {
     fn with_extension(&mut self, folders: &[PathBuf], name: &str) -> Option<NoProgram> {
         let stem = format!("{}.", name.to_lowercase());
         for folder in folders {
-            let listed = self.listing(folder).range(stem.clone()..);
+            let listing = self.disk.listing(folder);
+            let listed = listing.range(stem.clone()..);
             let begins = |(name, _): &(&String, &Vec<OsString>)| name.starts_with(&stem);
             let alike: Vec<OsString> = listed
                 .take_while(begins)
@@ -200,24 +198,12 @@ impl ProgramFinder {
                 path = exact;
                 continue;
             }
-            let alike = self.listing(&path).get(&part.to_lowercase())?;
+            let listing = self.disk.listing(&path);
+            let alike = listing.get(&part.to_lowercase())?;
             let mut alike = alike.iter().map(|name| path.join(name));
             path = alike.find(wanted)?;
         }
         Some(path)
-    }
-
-    fn listing(&mut self, folder: &Path) -> &BTreeMap<String, Vec<OsString>> {
-        let disk = &self.disk;
-        self.listings.entry(folder.to_owned()).or_insert_with(|| {
-            let mut names: BTreeMap<String, Vec<OsString>> = BTreeMap::new();
-            for name in disk.names(folder) {
-                if let Some(text) = name.to_str() {
-                    names.entry(text.to_lowercase()).or_default().push(name);
-                }
-            }
-            names
-        })
     }
 
     /// The name of a file in records: its own, and no other file's.

@@ -115,6 +115,51 @@ fn programs_are_found_by_their_names() {
 }
 
 #[test]
+fn local_subprograms_are_found_beside_programs() {
+    // R17.2
+    let local = "%MAIN\nN10 LL DRILL\nN20 M30\n\n  %l DRILL (\u{fc})\nM17\n%L Deep\nM17\n";
+    let comment = "#COMMENT BEGIN\n%L DRILL\n#COMMENT END\n%LATHE\nM30 (%L DRILL)\n";
+    let bench = Bench::new(&[("a.nc", local), ("b.nc", comment), ("drilled.nc", "M17\n")]);
+    let mut client = client(&bench);
+    let mut found = |query: &str| {
+        let found = client.ask("workspace/symbol", &json!({ "query": query }));
+        let found = found.as_array().expect("symbols").clone().into_iter();
+        let start = |it: &Value| {
+            let start = &it["location"]["range"]["start"];
+            (start["line"].as_u64(), start["character"].as_u64())
+        };
+        let shown = found.map(|it| {
+            let file = it["location"]["uri"]
+                .as_str()
+                .and_then(|it| it.rsplit('/').next());
+            (
+                it["name"].clone(),
+                it["kind"].clone(),
+                file.map(str::to_owned),
+                start(&it),
+            )
+        });
+        shown.collect::<Vec<_>>()
+    };
+    let program = |name: &str| {
+        let place = (Some(0), Some(0));
+        (json!(name), json!(1), Some(name.to_owned()), place)
+    };
+    let subprogram = |name: &str, line, column| {
+        let place = (Some(line), Some(column));
+        (json!(name), json!(12), Some("a.nc".to_owned()), place)
+    };
+    assert_eq!(
+        found("drill"),
+        [program("drilled.nc"), subprogram("DRILL", 4, 5)]
+    );
+    assert_eq!(found("deep"), [subprogram("Deep", 6, 3)]);
+    assert_eq!(found("lathe"), []);
+    assert_eq!(found("").len(), 5);
+    client.leave();
+}
+
+#[test]
 fn nothing_is_searched_without_a_project() {
     // R17.2
     let mut client = Client::raw();

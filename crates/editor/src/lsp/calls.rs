@@ -85,8 +85,8 @@ pub(super) fn incoming(
     view: &View,
     params: &CallHierarchyIncomingCallsParams,
 ) -> Option<Vec<CallHierarchyIncomingCall>> {
-    let graph = view.calls.graph(&view.documents.disk())?;
-    let called = position(&graph, &params.item.uri)?;
+    let graph = &view.calls.project(&view.documents.disk())?.graph;
+    let called = position(graph, &params.item.uri)?;
     let programs = graph.programs();
     let callers = programs[called].called_by.iter().map(|at| &programs[*at]);
     let calls = callers.filter_map(|caller| {
@@ -103,9 +103,9 @@ pub(super) fn outgoing(
     view: &View,
     params: &CallHierarchyOutgoingCallsParams,
 ) -> Option<Vec<CallHierarchyOutgoingCall>> {
-    let graph = view.calls.graph(&view.documents.disk())?;
+    let graph = &view.calls.project(&view.documents.disk())?.graph;
     let programs = graph.programs();
-    let caller = &programs[position(&graph, &params.item.uri)?];
+    let caller = &programs[position(graph, &params.item.uri)?];
     let mut seen = BTreeSet::new();
     let targets = caller.calls.iter().map(|call| call.program);
     let targets = targets.filter(|program| seen.insert(*program));
@@ -127,30 +127,43 @@ fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
         .collect()
 }
 
-/// The programs of the project whose names hold some letters.
+/// The programs of the project and their local subprograms whose names hold some letters: programs
+/// first.
 pub(super) fn symbols(view: &View, params: &WorkspaceSymbolParams) -> Option<Vec<WorkspaceSymbol>> {
-    let graph = view.calls.graph(&view.documents.disk())?;
+    let project = view.calls.project(&view.documents.disk())?;
     let wanted = params.query.to_lowercase();
-    let paths = graph.programs().iter().filter_map(path_of_program);
-    let found = paths.filter_map(|path| {
-        let name = path.file_name()?.to_string_lossy().into_owned();
-        let is_wanted = name.to_lowercase().contains(&wanted);
-        is_wanted.then(|| WorkspaceSymbol {
-            location: Location {
-                uri: view.documents.uri(path),
-                range: whole_line(0),
-            }
-            .into(),
-            data: None,
-            base_symbol_information: BaseSymbolInformation {
-                name,
-                kind: SymbolKind::File,
-                tags: None,
-                container_name: path.parent().map(shown_path),
-            },
-        })
+    let is_wanted = |name: &str| name.to_lowercase().contains(&wanted);
+    let paths = project.graph.programs().iter().filter_map(path_of_program);
+    let programs = paths.filter_map(|path| {
+        let name = path.file_name()?.to_string_lossy();
+        let (folder, place) = (path.parent()?, (path, whole_line(0)));
+        is_wanted(&name).then(|| symbol(view, place, SymbolKind::File, (&name, folder)))
     });
-    Some(found.take(MOST_SYMBOLS).collect())
+    let subprograms = project.subprograms().iter();
+    let subprograms = subprograms.filter(|it| is_wanted(&it.name)).map(|it| {
+        let place = (it.path.as_path(), view.client.encoding.range(&it.place));
+        symbol(view, place, SymbolKind::Function, (&it.name, &it.path))
+    });
+    Some(programs.chain(subprograms).take(MOST_SYMBOLS).collect())
+}
+
+fn symbol(
+    view: &View,
+    (path, range): (&Path, Range),
+    kind: SymbolKind,
+    (name, container): (&str, &Path),
+) -> WorkspaceSymbol {
+    let uri = view.documents.uri(path);
+    WorkspaceSymbol {
+        location: Location { uri, range }.into(),
+        data: None,
+        base_symbol_information: BaseSymbolInformation {
+            name: name.to_owned(),
+            kind,
+            tags: None,
+            container_name: Some(shown_path(container)),
+        },
+    }
 }
 
 /// The lens that says from how many programs a program is reached; its words come when the client asks
@@ -179,10 +192,11 @@ pub(super) fn resolved(view: &View, mut lens: CodeLens) -> CodeLens {
 /// From which programs a program is reached: those at the top, which nobody calls.
 fn reached(view: &View, uri: &Uri) -> String {
     let none = || "called by no program of the project".to_owned();
-    let Some(graph) = view.calls.graph(&view.documents.disk()) else {
+    let Some(project) = view.calls.project(&view.documents.disk()) else {
         return none();
     };
-    let Some(at) = position(&graph, uri) else {
+    let graph = &project.graph;
+    let Some(at) = position(graph, uri) else {
         return none();
     };
     let reaching = graph.callers(at);

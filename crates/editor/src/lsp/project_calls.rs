@@ -1,11 +1,15 @@
-//! The calls between the programs of the project, found once a save.
+//! The calls between the programs of the project and their local subprograms, found once a save.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use frictcomp::syntax::ast::Block;
+use frictcomp::syntax::{BlockReader, FastPath, Stretch};
+use frictcomp::text::{Place, TextLines};
 use frictcomp_host::{
-    CallGraph, Disk, FileRegistry, MachineOptions, Machines, find_programs, processors,
+    CallGraph, Disk, FileRegistry, Input, MachineOptions, Machines, find_programs, processors,
+    read_text,
 };
 
 /// The calls of the programs of a project as they are saved, found when first asked for.
@@ -16,11 +20,80 @@ pub(super) struct ProjectCalls {
     /// Rises with each save.
     saves: Arc<AtomicU64>,
     /// The calls that were found last.
-    found: Arc<Mutex<Option<FoundCalls>>>,
+    found: Arc<Mutex<Option<(u64, Arc<Project>)>>>,
 }
 
-/// Calls, and the number of saves before they were found.
-type FoundCalls = (u64, Arc<CallGraph>);
+/// The programs of a project at a save.
+#[derive(Debug)]
+pub(super) struct Project {
+    /// The calls between them.
+    pub(super) graph: CallGraph,
+    disk: Disk,
+    subprograms: OnceLock<Vec<Subprogram>>,
+}
+
+/// A local subprogram, `%L NAME`.
+#[derive(Debug)]
+pub(super) struct Subprogram {
+    /// The file that holds it.
+    pub(super) path: PathBuf,
+    /// Its name.
+    pub(super) name: String,
+    /// The place of the name.
+    pub(super) place: Place,
+}
+
+impl Project {
+    fn text(&self, path: &Path) -> Option<String> {
+        match self.disk.text(path) {
+            Some(text) => Some(text.to_string()),
+            None => read_text(path).ok(),
+        }
+    }
+
+    /// The local subprograms of all programs, looked for when first asked for.
+    pub(super) fn subprograms(&self) -> &[Subprogram] {
+        self.subprograms.get_or_init(|| {
+            let files = self.graph.programs().iter();
+            let files = files.filter_map(|program| match &program.input {
+                Input::File(path) => Some((path, self.text(path)?)),
+                Input::Open(_) | Input::Stdin => None,
+            });
+            files
+                .flat_map(|(path, text)| subprograms(path, &text))
+                .collect()
+        })
+    }
+}
+
+/// The local subprograms of a text.
+fn subprograms(path: &Path, text: &str) -> Vec<Subprogram> {
+    let mut found = Vec::new();
+    let begins = |line: &str| {
+        let name = line.trim_start().strip_prefix('%');
+        name.is_some_and(|name| name.trim_start().starts_with(['L', 'l']))
+    };
+    if !text.split(['\n', '\r']).any(begins) {
+        return found;
+    }
+    let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
+    let mut block = Block::default();
+    while let Some(raw) = reader.next(&mut block) {
+        if let Stretch::Program { name, local: true } = raw.stretch {
+            found.push(Subprogram {
+                path: path.to_owned(),
+                name: name.of(raw.text).to_owned(),
+                place: Place {
+                    file: "".into(),
+                    text: raw.text.into(),
+                    first_line: raw.line,
+                    span: name,
+                },
+            });
+        }
+    }
+    found
+}
 
 impl ProjectCalls {
     /// Those of a folder.
@@ -43,15 +116,15 @@ impl ProjectCalls {
         self.saves.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The calls, with the texts that are open in place of their files.
-    pub(super) fn graph(&self, disk: &Disk) -> Option<Arc<CallGraph>> {
+    /// The programs with their calls, with the texts that are open in place of their files.
+    pub(super) fn project(&self, disk: &Disk) -> Option<Arc<Project>> {
         let folder = self.folder.as_ref()?;
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let saves = self.saves.load(Ordering::Relaxed);
-        if let Some((at, graph)) = &*found
+        if let Some((at, project)) = &*found
             && *at == saves
         {
-            return Some(Arc::clone(graph));
+            return Some(Arc::clone(project));
         }
         let registry = FileRegistry::default();
         let mut machines = Machines::new(MachineOptions::default(), &registry).on_disk(disk);
@@ -59,8 +132,12 @@ impl ProjectCalls {
         let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
         // What cannot be read calls nothing; its check says so.
         let (graph, _) = CallGraph::of(&inputs, &mut machines, processors());
-        let graph = Arc::new(graph);
-        *found = Some((saves, Arc::clone(&graph)));
-        Some(graph)
+        let project = Arc::new(Project {
+            graph,
+            disk: disk.clone(),
+            subprograms: OnceLock::new(),
+        });
+        *found = Some((saves, Arc::clone(&project)));
+        Some(project)
     }
 }

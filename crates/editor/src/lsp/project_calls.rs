@@ -12,6 +12,9 @@ use frictcomp_host::{
     read_text,
 };
 
+/// A project, with the number of saves before it was found.
+type FoundProject = (u64, Arc<Project>);
+
 /// The calls of the programs of a project as they are saved, found when first asked for.
 #[derive(Debug, Clone)]
 pub(super) struct ProjectCalls {
@@ -20,7 +23,7 @@ pub(super) struct ProjectCalls {
     /// Rises with each save.
     saves: Arc<AtomicU64>,
     /// The calls that were found last.
-    found: Arc<Mutex<Option<(u64, Arc<Project>)>>>,
+    found: Arc<Mutex<Option<FoundProject>>>,
 }
 
 /// The programs of a project at a save.

@@ -1,11 +1,10 @@
 //! `frictcomp circle`: the circular test, simulated or recorded.
 
-use std::convert::Infallible;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
+use super::axis_list::{AxisList, files_of};
 use super::channels::parse_unit;
 use super::console::Console;
 use super::cycle::CycleArgs;
@@ -21,9 +20,7 @@ use frictcomp::text::shown_path;
 use frictcomp_host::{
     CircleChannels, FileRegistry, compare, find_plant, memory_for_simulation, read_circles,
 };
-use frictcomp_physics::circle::{
-    Circle, CircularTest, CommandedCircle, Method, PathCentre, PlaneAxis,
-};
+use frictcomp_physics::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
@@ -188,60 +185,19 @@ fn simulation(
     Ok((test, origin))
 }
 
-/// `v.lis`, or `X=v.lis`.
-#[derive(Debug, Clone)]
-struct AxisList {
-    axis: Option<PlaneAxis>,
-    path: PathBuf,
-}
-
-impl FromStr for AxisList {
-    type Err = Infallible;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let named = PlaneAxis::ALL.into_iter().find_map(|axis| {
-            let path = text.strip_prefix(axis.as_str())?.strip_prefix('=')?;
-            Some((axis, path))
-        });
-        Ok(match named {
-            Some((axis, path)) => Self {
-                axis: Some(axis),
-                path: path.into(),
-            },
-            None => Self {
-                axis: None,
-                path: text.into(),
-            },
-        })
-    }
-}
-
 /// The lists that were given for both axes, or for each.
 fn given_lists(
     given: &[AxisList],
     registry: &FileRegistry,
 ) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let name = |list: &AxisList| shown_path(&list.path);
-    if let [both @ AxisList { axis: None, .. }] = given {
-        let list = value_list(&both.path, registry)?;
-        return Ok(([list.clone(), list], ListOrigin::File(name(both))));
+    let [x, y] = files_of("--value-list", given)?;
+    let list = value_list(x, registry)?;
+    if given.len() == 1 {
+        return Ok(([list.clone(), list], ListOrigin::File(shown_path(x))));
     }
-    let of = |axis: PlaneAxis| {
-        let mut lists = given.iter().filter(|list| list.axis == Some(axis));
-        lists.next().filter(|_| lists.next().is_none())
-    };
-    match (of(PlaneAxis::X), of(PlaneAxis::Y)) {
-        (Some(x), Some(y)) if given.len() == 2 => Ok((
-            [
-                value_list(&x.path, registry)?,
-                value_list(&y.path, registry)?,
-            ],
-            ListOrigin::EachAxis([name(x), name(y)]),
-        )),
-        _ => {
-            let message = "`--value-list` takes one list for both axes, or one for each";
-            let help = "give `--value-list X=a.lis --value-list Y=b.lis`";
-            Err(Failure::new(message).with_help(help))
-        }
-    }
+    let names = [x, y].map(shown_path);
+    Ok((
+        [list, value_list(y, registry)?],
+        ListOrigin::EachAxis(names),
+    ))
 }

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 33] = [
+static EXAMPLES: [Examples; 34] = [
     examples(
         &["run"],
         [
@@ -160,6 +160,13 @@ static EXAMPLES: [Examples; 33] = [
         [
             "frictcomp commission run measuring",
             "frictcomp commission run measuring --velocity %.SetVelo --torque %.ActTorque",
+        ],
+    ),
+    examples(
+        &["learn"],
+        [
+            "frictcomp learn learning --plant mid --friction comp_x.lis",
+            "frictcomp learn learning --plant mid",
         ],
     ),
     examples(

@@ -8,6 +8,7 @@
 
 mod ask;
 mod audit;
+mod axis_list;
 mod baseline;
 mod channels;
 mod check;
@@ -38,6 +39,7 @@ mod graph;
 mod html;
 mod identify;
 mod init;
+mod learn;
 mod listeners;
 mod listing;
 mod lists;
@@ -129,6 +131,7 @@ enum Command {
     Trend(trend::TrendArgs),
     #[command(subcommand)]
     Commission(commission::CommissionCommand),
+    Learn(learn::LearnArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Lsp(lsp::LspArgs),
@@ -263,6 +266,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Conformance(args) => conformance::run(args, console),
         Command::Trend(args) => trend::run(args, console),
         Command::Commission(command) => commission::run(command, console),
+        Command::Learn(args) => learn::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),

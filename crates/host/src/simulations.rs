@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::watch::{Done, Watch};
 use super::workers;
 use frictcomp_physics::circle::{
-    CircleError, CircularTest, Comparison, Heights, Job, Simulations, Task, Tuned, tune_with,
+    CircleError, CircularTest, Comparison, Heights, Job, LearnedRound, Learner, Proposal,
+    Simulations, Task, Tuned, tune_with,
 };
 
 /// Drives the circle of a test with friction compensation off and on, in both directions.
@@ -39,6 +40,23 @@ pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
             all: task.expected_trials(),
         },
     )
+}
+
+/// The list of the next round of an axis that learns; `None` where it has no round yet.
+///
+/// # Errors
+/// A circle that cannot be simulated, or a plant that is unstable on it.
+pub fn learn(
+    learner: &Learner,
+    rounds: &[LearnedRound],
+    watch: &Watch,
+) -> Result<Option<Proposal>, CircleError> {
+    let simulations = Tuning {
+        runs: Runs { of: "list", watch },
+        done: AtomicUsize::new(0),
+        all: Learner::expected_trials(rounds.len()),
+    };
+    learner.propose(rounds, &simulations)
 }
 
 /// The simulations of a tuning, which goes on until nothing gets better.

@@ -235,14 +235,27 @@ pub fn read_circles(
     Circles::check(paths.len(), commanded).map_err(TraceError::Circles)?;
     let mut circles = Vec::new();
     for path in paths {
-        let trace = read_positions(path, channels)?;
-        let found = RecordedCircle::find(&trace, commanded.radius_mm).map_err(|reason| {
-            let path = path.clone();
-            HostError::from(TraceError::Circle { path, reason })
-        })?;
-        circles.extend(found);
+        circles.extend(read_turns(path, channels, commanded.radius_mm)?);
     }
     Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
+}
+
+/// Reads the circles of a recording, one for each direction in which it has a full turn; F and D are against the
+/// commanded radius, where it is known.
+///
+/// # Errors
+/// The file cannot be read, or is no recorded circle.
+pub fn read_turns(
+    path: &Path,
+    channels: &CircleChannels,
+    commanded_mm: Option<f64>,
+) -> Result<Vec<RecordedCircle>, HostError> {
+    let trace = read_positions(path, channels)?;
+    let found = RecordedCircle::find(&trace, commanded_mm);
+    Ok(found.map_err(|reason| TraceError::Circle {
+        path: path.to_owned(),
+        reason,
+    })?)
 }
 
 /// Reads motion and torque of one axis.

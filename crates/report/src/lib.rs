@@ -32,6 +32,7 @@ mod findings;
 pub mod html;
 pub mod identify;
 mod json;
+pub mod learn;
 mod limits;
 pub mod lists;
 mod messages;

@@ -92,3 +92,45 @@ pub fn render_identified(
     };
     write_value_list(list, points, &head)
 }
+
+/// Origin of a learned value list.
+#[derive(Debug, Clone, Copy)]
+pub struct LearnedFrom<'a> {
+    /// The axis.
+    pub axis: &'a str,
+    /// The round in which it is recorded.
+    pub round: usize,
+    /// The reference plant.
+    pub plant: &'a str,
+    /// The largest glitch that is predicted with it.
+    pub predicted_um: f64,
+}
+
+/// A learned value list, written for a build.
+pub fn render_learned(
+    list: &FrictionList,
+    made: LearnedFrom<'_>,
+    build: Option<CncBuild>,
+) -> String {
+    let from = format!(
+        "Friction compensation of axis {} for round {} of learning",
+        visible_line(made.axis),
+        made.round
+    );
+    let predicted = format!(
+        "Predicted with the plant {}: at most {:.2} \u{b5}m are left; no recording has shown it yet",
+        visible_line(made.plant),
+        made.predicted_um
+    );
+    let points = Points::of_build(build);
+    let mut remarks = vec![from.as_str(), predicted.as_str()];
+    if points == Points::Real {
+        remarks.push(FRACTIONS);
+    }
+    let head = ListHead {
+        remarks: &remarks,
+        name: Some(made.axis),
+        ..ListHead::default()
+    };
+    write_value_list(list, points, &head)
+}

@@ -47,6 +47,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "commission",
         "commission plan",
         "commission run",
+        "learn",
         "explain",
         "codes",
         "lsp",

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::linear::Normal;
-use super::profile::{RadialProfile, UM_PER_M};
+use super::profile::{Point, RadialProfile, UM_PER_M};
 use super::quiet::{Beside, QuietPath};
 use super::window::Window;
 
@@ -128,6 +128,23 @@ impl PathShape {
     }
 }
 
+/// The path at the four crossings less the undisturbed path and the straight line through both sides (R5.22):
+/// the way from the crossing in fixed angles, and the deviation in m. `None` where the windows reach the next
+/// crossings.
+pub(super) fn straightened(
+    profile: &RadialProfile,
+    direction: Direction,
+) -> Option<[Vec<(f64, f64)>; 4]> {
+    let window = Window::of(profile.turn_s())?;
+    let seen = Seen {
+        profile,
+        direction,
+        window,
+        quiet: QuietPath::of(profile, direction, window)?,
+    };
+    Some(Crossing::ALL.map(|crossing| seen.straightened(crossing)))
+}
+
 /// A path with what is known of it.
 struct Seen<'a> {
     profile: &'a RadialProfile,
@@ -137,6 +154,20 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
+    /// The path in the window of a crossing less the undisturbed path and the line through both sides: the way
+    /// from the crossing in fixed angles, and the deviation in m.
+    fn straightened(&self, crossing: Crossing) -> Vec<(f64, f64)> {
+        let line = self.line(crossing);
+        let fixed = self
+            .profile
+            .fixed(crossing, self.direction, self.window.inside());
+        let straight = |(way, point): (f64, Point)| {
+            let level = self.quiet.smooth(point) + line[0] + line[1] * way;
+            (way, point.deviation - level)
+        };
+        fixed.map(straight).collect()
+    }
+
     fn glitch(&self, crossing: Crossing) -> Glitch {
         let line = self.line(crossing);
         let offset = self.offset(crossing);

@@ -18,6 +18,7 @@ mod evidence_shape;
 mod figures;
 mod glitch;
 mod lap;
+mod learn;
 mod linear;
 mod method;
 mod profile;
@@ -46,6 +47,10 @@ pub use evidence_shape::OtherShape;
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};
+pub use learn::{
+    LearnedCircle, LearnedRound, Learner, LearningProgress, Proposal, RecordedTwice, RoundVerdict,
+    TooMuchCurrent, Waveform,
+};
 pub use method::Method;
 pub use profile::{ANGLES, RadialProfile, UM_PER_M};
 pub use recorded::{

@@ -6,6 +6,7 @@
 
 mod error;
 mod found;
+mod learned;
 mod plan;
 mod program;
 mod request;
@@ -16,6 +17,7 @@ mod signature;
 
 pub use error::PlanError;
 pub use found::{CirclesFound, FrictionFound};
+pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
 pub use program::{Measurement, PlanStep, Program, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};

@@ -36,7 +36,7 @@ pub struct RecordedCircle {
     pub turn_s: Option<f64>,
     /// The rest of the recording.
     pub left_out: LeftOut,
-    pub(super) profile: RadialProfile,
+    pub(in crate::circle) profile: RadialProfile,
 }
 
 /// The rest of a recording besides the evaluated turn.

@@ -36,7 +36,7 @@ impl Candidate {
     }
 
     /// A list with these parameters, its points as they are written.
-    pub(super) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
+    pub(in crate::circle) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
         FrictionList {
             position_delay: self.position_delay,
             reversal_lookahead: self.reversal_lookahead,

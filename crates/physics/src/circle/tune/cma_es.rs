@@ -6,7 +6,7 @@
 //! random numbers; these here give the same numbers everywhere and always.
 
 /// Points of a generation.
-pub(super) const POINTS: usize = 12;
+pub(in crate::circle) const POINTS: usize = 12;
 
 /// Points that count, the better half.
 const COUNTED: usize = POINTS / 2;
@@ -16,7 +16,7 @@ const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The search: [`ask`](Self::ask) for points, [`tell`](Self::tell) their values.
 #[derive(Debug, Clone)]
-pub(super) struct CmaEs {
+pub(in crate::circle) struct CmaEs {
     mean: Vec<f64>,
     step: f64,
     /// The spread along each variable, squared, in steps.
@@ -75,7 +75,7 @@ impl Rates {
 
 impl CmaEs {
     /// A search that begins around a point with a step; `seed` gives other random numbers.
-    pub(super) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
+    pub(in crate::circle) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
         let variables = mean.len();
         Self {
             mean,
@@ -90,7 +90,7 @@ impl CmaEs {
     }
 
     /// The points whose values are wanted.
-    pub(super) fn ask(&mut self) -> Vec<Vec<f64>> {
+    pub(in crate::circle) fn ask(&mut self) -> Vec<Vec<f64>> {
         self.asked = (0..POINTS)
             .map(|_| {
                 let along = self.mean.iter().zip(&self.spread);
@@ -103,7 +103,7 @@ impl CmaEs {
     }
 
     /// Takes the values of the points that were asked for, in their order.
-    pub(super) fn tell(&mut self, values: &[f64]) {
+    pub(in crate::circle) fn tell(&mut self, values: &[f64]) {
         let variables = real(self.mean.len());
         let rates = Rates::of(variables);
         self.generation += 1;

@@ -26,7 +26,7 @@ impl Heights {
     }
 
     /// A value between both that is close to the largest and falls with each of them.
-    pub(super) fn smooth_um(&self) -> f64 {
+    pub(in crate::circle) fn smooth_um(&self) -> f64 {
         let worst = self.worst_um();
         if !worst.is_finite() || worst <= 0.0 {
             return worst;

@@ -8,12 +8,12 @@
 
 mod candidate;
 mod check;
-mod cma_es;
+pub(super) mod cma_es;
 mod heights;
 mod ranges;
-mod reversal;
+pub(super) mod reversal;
 mod search;
-mod shape;
+pub(super) mod shape;
 mod space;
 mod task;
 mod tuned;

@@ -36,13 +36,13 @@ const ENDS: usize = 20;
 
 /// One axis, and how its friction is computed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AxisAlone<'a> {
-    pub(super) axis: PlaneAxis,
-    pub(super) drive: &'a DriveParameters,
-    pub(super) model: FrictionModel,
-    pub(super) reading: Reading,
+pub(in crate::circle) struct AxisAlone<'a> {
+    pub(in crate::circle) axis: PlaneAxis,
+    pub(in crate::circle) drive: &'a DriveParameters,
+    pub(in crate::circle) model: FrictionModel,
+    pub(in crate::circle) reading: Reading,
     /// Delay of the reversal within its CNC cycle against a whole run, in cycles.
-    pub(super) phase: f64,
+    pub(in crate::circle) phase: f64,
 }
 
 /// The commanded angle of one reversal of an axis in the turn that a whole run evaluates, which
@@ -66,6 +66,31 @@ impl AxisAlone<'_> {
         circle: Circle,
         compensation: Option<&Method>,
     ) -> Result<f64, CircleError> {
+        Ok(self.path(circle, compensation)?.height() * UM_PER_M)
+    }
+
+    /// The deviation outwards at a reversal: of each CNC cycle the time of its middle since the reversal in s,
+    /// and the middle between its least and its largest deviation in m.
+    ///
+    /// # Errors
+    /// A drive that is unstable.
+    pub(in crate::circle) fn deviations(
+        &self,
+        circle: Circle,
+        compensation: Option<&Method>,
+    ) -> Result<Vec<(f64, f64)>, CircleError> {
+        let path = self.path(circle, compensation)?;
+        let window = Window::of(&circle, self.axis);
+        let reversal = reversal(self.axis) / circle.angular_velocity();
+        let middle = |(at, [least, most]): (usize, &[f64; 2])| {
+            let time = (real(window.from + at) + 0.5 - self.phase) * circle.cycle_time_s;
+            (time - reversal, f64::midpoint(*least, *most))
+        };
+        Ok(path.cycles.iter().enumerate().map(middle).collect())
+    }
+
+    /// The path of the axis in the window of a reversal.
+    fn path(&self, circle: Circle, compensation: Option<&Method>) -> Result<Path, CircleError> {
         let window = Window::of(&circle, self.axis);
         let lead = compensation
             .and_then(Method::list)
@@ -89,7 +114,7 @@ impl AxisAlone<'_> {
             }],
         };
         let mut path = Path {
-            circle: &circle,
+            circle,
             stretch,
             axis: self.axis,
             cycle: usize::MAX,
@@ -102,13 +127,13 @@ impl AxisAlone<'_> {
                 path.take(cycle, place);
             }
         })?;
-        Ok(path.height() * UM_PER_M)
+        Ok(path)
     }
 }
 
 /// The deviation of one axis from what is commanded, outwards in m.
-struct Path<'a> {
-    circle: &'a Circle,
+struct Path {
+    circle: Circle,
     stretch: Stretch,
     axis: PlaneAxis,
     cycle: usize,
@@ -120,7 +145,7 @@ struct Path<'a> {
     cycles: Vec<[f64; 2]>,
 }
 
-impl Path<'_> {
+impl Path {
     fn take(&mut self, cycle: usize, place: f64) {
         if cycle != self.cycle {
             let at = |k| {

@@ -14,16 +14,16 @@ use crate::simulation::{DriveParameters, plant_list_at};
 use frictcomp::lists::{FrictionList, Points, TablePoint};
 
 /// The velocities of the points in µm/s, the first ones free.
-const INPUTS: [f64; 20] = [
+pub(in crate::circle) const INPUTS: [f64; 20] = [
     0.0, 10.0, 20.0, 35.0, 60.0, 100.0, 150.0, 220.0, 330.0, 500.0, 700.0, 1000.0, 2000.0, 3500.0,
     6000.0, 10_000.0, 25_000.0, 80_000.0, 200_000.0, 500_000.0,
 ];
 
 /// Points up to 1 mm/s.
-const FREE: usize = 12;
+pub(in crate::circle) const FREE: usize = 12;
 
 /// Greatest distance of an output from the curve, as a share.
-const BOUND: f64 = 0.6;
+pub(in crate::circle) const BOUND: f64 = 0.6;
 
 /// Greatest bend of the shares of three neighbours: second difference of outputs by their curve
 /// (R5.29).
@@ -246,7 +246,7 @@ impl ShapeSearch {
 
 /// The factors of a point of the search, within their bounds and without kinks: again and again, three
 /// neighbours that bend too much share what is too much. The points of the curve that follow are not free.
-fn smoothed(point: &[f64]) -> [f64; FREE] {
+pub(in crate::circle) fn smoothed(point: &[f64]) -> [f64; FREE] {
     const ROUNDS: usize = 200;
     // Rounded outputs bend a little more.
     const ALLOWED: f64 = 0.93 * BEND;

@@ -1,0 +1,93 @@
+//! The arguments of `frictcomp learn`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::axis_list::AxisList;
+use crate::channels::parse_unit;
+use crate::cycle::CycleArgs;
+use crate::result::Format;
+use crate::values;
+use frictcomp::comp::CncBuild;
+use frictcomp::lists::Points;
+use frictcomp_physics::circle::{Learner, PlaneAxis, Ranges};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::{FrictionModel, Plant};
+use frictcomp_recordings::commission::MOST_CURRENT;
+use frictcomp_recordings::trace::Unit;
+use frictcomp_report::learn::LearningFile;
+
+/// Learn value lists from recorded circles, round by round
+///
+/// The folder holds `round-1`, `round-2` and so on, each with the lists `X.lis` and `Y.lis` and the circles that were
+/// recorded with them: at least six feeds, each recorded twice. The recordings judge the lists; a
+/// reference plant gives only the direction of the next step. Run it after each round: it says what became of the lists,
+/// and writes those of the next round. `learning.json` keeps the rounds with the SHA-256 of lists and recordings.
+#[derive(Debug, Args)]
+pub(crate) struct LearnArgs {
+    /// The folder of the rounds
+    #[arg(value_name = "FOLDER")]
+    pub(super) folder: PathBuf,
+    /// The reference plant: `stiff`, `mid`, `soft`, or a TOML file as for `tune`
+    #[arg(long, value_name = "PLANT")]
+    pub(super) plant: String,
+    /// To begin: the measured friction as `identify` or `commission run` wrote it, one list for both axes or `X=LIST` and
+    /// `Y=LIST`; no list adds more than 1.3 times this
+    #[arg(long, value_name = "LIST")]
+    pub(super) friction: Vec<AxisList>,
+    /// To begin: the lists of the first round, such as `tune` wrote them; by default those of `--friction`
+    #[arg(long, value_name = "LIST", requires = "friction")]
+    pub(super) value_list: Vec<AxisList>,
+    /// The friction model
+    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
+    pub(super) model: FrictionModel,
+    #[command(flatten)]
+    pub(super) cycle: CycleArgs,
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
+    pub(super) reading: Reading,
+    /// The channel of the times in the recordings
+    #[arg(long, value_name = "CHANNEL")]
+    pub(super) time: Option<String>,
+    /// The channel of the first axis in the recordings: its name, comment or CNC object
+    #[arg(long = "x", value_name = "CHANNEL")]
+    pub(super) x_channel: Option<String>,
+    /// The channel of the second axis
+    #[arg(long = "y", value_name = "CHANNEL")]
+    pub(super) y_channel: Option<String>,
+    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
+    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
+    pub(super) unit: Vec<(String, Unit)>,
+    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
+    /// build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    pub(super) cnc_build: Option<CncBuild>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    pub(super) format: Format,
+}
+
+impl LearnArgs {
+    /// An axis of the plant, with the bounds of its lists.
+    pub(super) fn learner(&self, axis: PlaneAxis, plant: &Plant, file: &LearningFile) -> Learner {
+        let (drive, friction) = match axis {
+            PlaneAxis::X => (&plant.x, &file.friction[0]),
+            _ => (&plant.y, &file.friction[1]),
+        };
+        Learner {
+            axis,
+            drive: drive.clone(),
+            model: self.model,
+            reading: self.reading,
+            ranges: Ranges::default(),
+            points: Points::of_build(self.cnc_build),
+            friction: (friction.list.clone(), MOST_CURRENT),
+        }
+    }
+}

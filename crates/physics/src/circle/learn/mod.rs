@@ -1,0 +1,17 @@
+//! Learning: recorded circles with a value list give the next list (R16.4).
+//!
+//! A [`LearnedRound`] holds what an axis did at its reversals with one list, recorded twice. A reference plant
+//! gives only the direction: the path that another list is predicted to leave is the recorded one of the
+//! best list so far, plus the difference that the plant makes between both lists. [`LearningProgress`] judges
+//! the rounds by what was recorded alone.
+
+mod bounds;
+mod learner;
+mod progress;
+mod round;
+mod waveform;
+
+pub use learner::{Learner, Proposal};
+pub use progress::{LearningProgress, RoundVerdict};
+pub use round::{LearnedCircle, LearnedRound, RecordedTwice, TooMuchCurrent};
+pub use waveform::Waveform;

@@ -1,0 +1,163 @@
+//! The deviation of one axis over the time since its reversal.
+
+/// Interval of the samples in s.
+const STEP_S: f64 = 0.002;
+
+/// Half the time in s over which a sample is the mean: noise of recordings averages out (R5.28).
+const HALF_MEAN_S: f64 = 0.004;
+
+/// Samples at both ends through which the undisturbed path runs: 20 ms.
+const ENDS: usize = 10;
+
+/// Micrometres in a metre.
+const UM_PER_M: f64 = 1e6;
+
+/// The deviation of an axis outwards in µm, every 2 ms from a time before its reversal to one after it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Waveform {
+    /// Number of the first sample; number 0 is at the reversal.
+    first: i32,
+    um: Vec<f64>,
+}
+
+impl Waveform {
+    /// Samples points, ascending times since the reversal in s with deviations in m: each sample is the mean over
+    /// 8 ms, or lies on the straight line where points are farther apart.
+    pub(super) fn sampled(points: &[(f64, f64)]) -> Self {
+        let [Some(begin), Some(end)] = [points.first(), points.last()] else {
+            return Self::default();
+        };
+        let [first, last] = [(begin.0 / STEP_S).ceil(), (end.0 / STEP_S).floor()];
+        #[allow(clippy::cast_possible_truncation)] // a circle lasts 1500 s at most
+        let numbers = first as i32..=last as i32;
+        let mut sums = vec![0.0];
+        for (_, deviation) in points {
+            sums.push(sums[sums.len() - 1] + deviation);
+        }
+        let sample = |number: i32| {
+            let time = f64::from(number) * STEP_S;
+            let from = points.partition_point(|it| it.0 < time - HALF_MEAN_S);
+            let to = points.partition_point(|it| it.0 <= time + HALF_MEAN_S);
+            let metres = if to > from {
+                (sums[to] - sums[from]) / real(to - from)
+            } else {
+                between(points, time)
+            };
+            metres * UM_PER_M
+        };
+        Self {
+            um: numbers.clone().map(sample).collect(),
+            first: *numbers.start(),
+        }
+    }
+
+    /// The mean of waveforms over the samples that all of them have.
+    pub(super) fn mean(waveforms: &[&Self]) -> Self {
+        let first = waveforms.iter().map(|it| it.first).max().unwrap_or(0);
+        let end = waveforms.iter().map(|it| it.end()).min().unwrap_or(0);
+        let mean = |number: i32| {
+            let sum: f64 = waveforms.iter().map(|it| it.at(number)).sum();
+            sum / real(waveforms.len())
+        };
+        Self {
+            first,
+            um: (first..end).map(mean).collect(),
+        }
+    }
+
+    /// From the least to the largest deviation in µm.
+    pub fn height_um(&self) -> f64 {
+        let ends = self
+            .um
+            .iter()
+            .fold([f64::MAX, f64::MIN], |[low, high], it| {
+                [low.min(*it), high.max(*it)]
+            });
+        (ends[1] - ends[0]).max(0.0)
+    }
+
+    /// The same with a change that acts on those samples that it has.
+    pub(super) fn changed(&self, change: &Self) -> Self {
+        let numbers = self.first..self.end();
+        Self {
+            first: self.first,
+            um: numbers.map(|it| self.at(it) + change.at(it)).collect(),
+        }
+    }
+
+    /// The difference to another one on the samples of this one.
+    pub(super) fn less(&self, other: &Self) -> Self {
+        let numbers = self.first..self.end();
+        Self {
+            first: self.first,
+            um: numbers.map(|it| self.at(it) - other.at(it)).collect(),
+        }
+    }
+
+    /// The samples that another one has, too.
+    pub(super) fn within(&self, other: &Self) -> Self {
+        Self::mean(&[
+            self,
+            &Self {
+                um: vec![0.0; other.um.len()],
+                ..*other
+            },
+        ])
+        .scaled(2.0)
+    }
+
+    fn scaled(mut self, factor: f64) -> Self {
+        self.um.iter_mut().for_each(|it| *it *= factor);
+        self
+    }
+
+    /// The same less the straight line through both ends.
+    pub(super) fn levelled(mut self) -> Self {
+        let ends = ENDS.min(self.um.len() / 2).max(1);
+        if self.um.len() <= ends {
+            return self;
+        }
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / real(part.len());
+        let from = mean(&self.um[..ends]);
+        let to = mean(&self.um[self.um.len() - ends..]);
+        let slope = (to - from) / real(self.um.len() - ends);
+        let middle = (real(ends) - 1.0) / 2.0;
+        for (at, value) in self.um.iter_mut().enumerate() {
+            *value -= from + slope * (real(at) - middle);
+        }
+        self
+    }
+
+    /// The mean square in µm².
+    pub(super) fn power(&self) -> f64 {
+        let squares: f64 = self.um.iter().map(|it| it * it).sum();
+        squares / real(self.um.len().max(1))
+    }
+
+    /// A sample; 0 where there is none.
+    fn at(&self, number: i32) -> f64 {
+        let at = usize::try_from(number - self.first).ok();
+        at.and_then(|at| self.um.get(at)).copied().unwrap_or(0.0)
+    }
+
+    /// Number after the last sample.
+    fn end(&self) -> i32 {
+        self.first + i32::try_from(self.um.len()).unwrap_or(i32::MAX)
+    }
+}
+
+/// The value at a time on straight lines between points.
+fn between(points: &[(f64, f64)], time: f64) -> f64 {
+    let after = points.partition_point(|it| it.0 < time);
+    match (after.checked_sub(1).map(|at| points[at]), points.get(after)) {
+        (Some((t0, a)), Some((t1, b))) => a + (b - a) * (time - t0) / (t1 - t0),
+        (Some((_, value)), None) | (None, Some(&(_, value))) => value,
+        (None, None) => 0.0,
+    }
+}
+
+fn real(count: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss)] // far below 2^52 samples
+    let real = count as f64;
+    real
+}

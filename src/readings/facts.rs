@@ -215,8 +215,8 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         question: "Does an axis keep its compensation when it is released and requested again?",
         readings: ["kept", "start-up"],
         meanings: [
-            "it comes back as it went",
-            "it comes back in its state at the start of the control",
+            "an axis that is requested again comes back as it went",
+            "an axis that is requested again comes back in its state at the start of the control",
         ],
         assumed: Some(First),
         why: "the compensation belongs to the axis, not to the channel",

@@ -359,3 +359,43 @@ fn what_is_compared_by_the_order_alone_is_said() {
         "{found}"
     );
 }
+
+/// R15.21: the page has the verdict, each recorded state over the time, and each change with its line; it says
+/// what speaks against an agreement.
+#[test]
+fn the_page_says_what_the_text_says() {
+    let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
+    let page = |control: Control| {
+        bench.write("states.csv", &control.record(WITHOUT_CONDITIONS));
+        let _ = bench.call(&["replay", "states.csv", "m.nc", "--html", "replay.html"]);
+        let page = bench.read("replay.html");
+        let options = roxmltree::ParsingOptions {
+            allow_dtd: true,
+            ..roxmltree::ParsingOptions::default()
+        };
+        roxmltree::Document::parse_with_options(&page, options).expect("well-formed");
+        page
+    };
+    let agrees = page(CONTROL);
+    for words in [
+        "states.csv beside the dry run",
+        "X: agrees (3 changes)",
+        "m.nc:2",
+        "inactive from ",
+    ] {
+        assert!(agrees.contains(words), "{words}: {agrees}");
+    }
+    assert!(!agrees.contains("class=\"to-do\""));
+    let backwards = Control {
+        backwards: true,
+        ..CONTROL
+    };
+    let differs = page(backwards);
+    for words in ["X: disagrees after", "rests on R1.31", "class=\"to-do\""] {
+        assert!(differs.contains(words), "{words}: {differs}");
+    }
+    // An output never takes the place of an input.
+    let refused = bench.status(&["replay", "states.csv", "m.nc", "--html", "states.csv"]);
+    assert_eq!(refused, Some(2));
+    assert!(bench.read("states.csv").starts_with("t,"));
+}

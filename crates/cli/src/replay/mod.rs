@@ -1,5 +1,6 @@
 //! `frictcomp replay`: what the machine did, from a recording, beside the dry run.
 
+mod page;
 mod shown;
 
 use std::path::PathBuf;
@@ -16,9 +17,11 @@ use super::outputs::Outputs;
 use super::result::{Format, ResultArgs};
 use super::start::StartArgs;
 use frictcomp::session::StopPolicy;
+use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::html::render_replay;
 
 /// Lay what a machine did, from a recording, beside the dry run of its programs
 ///
@@ -59,6 +62,9 @@ pub(super) struct ReplayArgs {
     tolerance: f64,
     #[command(flatten)]
     result: ResultArgs,
+    /// Write an HTML report with the recorded states and the verdict to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -78,6 +84,7 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     let mut result = outputs.result(args.result.output.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
     let mut machines = args.machine.machines(&registry);
     machines.look_ahead(&inputs);
     let first = inputs
@@ -95,6 +102,10 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         tolerance: args.tolerance,
     };
     let replayed = replay.compare(&recording)?;
+    if let Some(mut html) = html {
+        let report = page::report(&replayed, &recording, shown_path(&args.recording));
+        render_replay(&report, &mut html).map_err(Failure::output)?;
+    }
     result.text(&match args.result.format {
         Format::Text => shown::text(&replayed),
         Format::Json => format!("{:#}\n", shown::document(&replayed)),

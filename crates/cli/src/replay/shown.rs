@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value, json};
 
 use frictcomp_host::replay::{
-    Disagreement, MatchedChange, Replayed, ReplayedAxis, ReplayedBy, TriedCondition,
+    Disagreement, MatchedChange, ReplayPlace, Replayed, ReplayedAxis, ReplayedBy, TriedCondition,
 };
 use frictcomp_report::visible_line;
 
@@ -15,44 +15,48 @@ pub(super) fn text(replayed: &Replayed) -> String {
     for axis in &replayed.axes {
         write_axis(&mut text, axis, replayed);
     }
-    for tried in &replayed.decided {
-        let _ = writeln!(text, "decided by the recording: {}", condition(tried));
-    }
-    if let Some(stopped) = &replayed.stopped {
-        let _ = writeln!(text, "the dry run ends early: {}", visible_line(stopped));
-    }
-    if let Some(untried) = &replayed.untried {
-        let _ = writeln!(text, "{}", visible_line(untried));
-    }
-    let [tried, fitting] = replayed.ways;
-    if replayed.agrees() && fitting > 0 && tried > 1 {
-        let _ = writeln!(
-            text,
-            "{fitting} of {tried} combinations of answers to the conditions fit; an answer that was fitted \
-             proves nothing about itself"
-        );
-    } else if tried > 1 {
-        let _ = writeln!(
-            text,
-            "none of {tried} combinations of answers to the conditions fits; the nearest one is shown"
-        );
+    for remark in remarks(replayed) {
+        let _ = writeln!(text, "{remark}");
     }
     text
 }
 
-fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
-    let count = axis.changes.len();
-    let changes = if count == 1 { "change" } else { "changes" };
-    let name = visible_line(&axis.name);
-    let _ = match &axis.disagreement {
-        None => writeln!(text, "{name}: {} ({count} {changes})", verdict(replayed)),
-        Some(_) => writeln!(text, "{name}: disagrees after {count} {changes}"),
+/// Returns what concerns all axes, in sentences.
+pub(super) fn remarks(replayed: &Replayed) -> Vec<String> {
+    let decided = replayed.decided.iter();
+    let decided = decided.map(|it| format!("decided by the recording: {}", condition(it)));
+    let stopped = replayed.stopped.iter();
+    let stopped = stopped.map(|it| format!("the dry run ends early: {}", visible_line(it)));
+    let untried = replayed.untried.iter();
+    let untried = untried.map(|it| visible_line(it).into_owned());
+    let [tried, fitting] = replayed.ways;
+    let ways = if replayed.agrees() && fitting > 0 && tried > 1 {
+        Some(format!(
+            "{fitting} of {tried} combinations of answers to the conditions fit; an answer that was fitted \
+             proves nothing about itself"
+        ))
+    } else if tried > 1 {
+        Some(format!(
+            "none of {tried} combinations of answers to the conditions fits; the nearest one is shown"
+        ))
+    } else {
+        None
     };
+    decided.chain(stopped).chain(untried).chain(ways).collect()
+}
+
+fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
+    let _ = writeln!(
+        text,
+        "{}: {}",
+        visible_line(&axis.name),
+        verdict_of(axis, replayed)
+    );
     for change in &axis.changes {
-        let state = word(change);
-        let (file, line) = (visible_line(&change.at.file), change.at.line);
-        let _ = writeln!(text, "  {:>10.3} s  {file}:{line}  {state}", change.t_s);
+        let (at, state) = (at_place(&change.at), word(change));
+        let _ = writeln!(text, "  {:>10.3} s  {at}  {state}", change.t_s);
     }
+    let count = axis.changes.len();
     let by_order = axis.changes.iter();
     let by_order = by_order.filter(|it| it.by == ReplayedBy::Order).count();
     if by_order > 0 {
@@ -62,8 +66,29 @@ fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
         );
     }
     if let Some(found) = &axis.disagreement {
-        write_disagreement(text, found);
+        let mut against = against(found).into_iter();
+        if let Some(first) = against.next() {
+            let _ = writeln!(text, "  {:>10.3} s  {first}", found.t_s);
+        }
+        for more in against {
+            let _ = writeln!(text, "  {more}");
+        }
     }
+}
+
+/// Returns the verdict on an axis, with the number of changes in which both agree.
+pub(super) fn verdict_of(axis: &ReplayedAxis, replayed: &Replayed) -> String {
+    let count = axis.changes.len();
+    let changes = if count == 1 { "change" } else { "changes" };
+    match &axis.disagreement {
+        None => format!("{} ({count} {changes})", verdict(replayed)),
+        Some(_) => format!("disagrees after {count} {changes}"),
+    }
+}
+
+/// Returns a place as `file:line`.
+pub(super) fn at_place(at: &ReplayPlace) -> String {
+    format!("{}:{}", visible_line(&at.file), at.line)
 }
 
 fn verdict(replayed: &Replayed) -> String {
@@ -77,25 +102,24 @@ fn verdict(replayed: &Replayed) -> String {
     }
 }
 
-fn write_disagreement(text: &mut String, found: &Disagreement) {
-    let at = match &found.at {
-        Some(at) => format!("{}:{}", visible_line(&at.file), at.line),
-        None => "the start".to_owned(),
-    };
-    let _ = writeln!(
-        text,
-        "  {:>10.3} s  {at}  machine {}, dry run {}: {}",
-        found.t_s,
+/// Returns a disagreement in sentences, the first with its place.
+pub(super) fn against(found: &Disagreement) -> Vec<String> {
+    let at = found.at.as_ref().map(at_place);
+    let first = format!(
+        "{}  machine {}, dry run {}: {}",
+        at.as_deref().unwrap_or("the start"),
         found.recorded,
         found.dry_run,
         visible_line(&found.why)
     );
-    if !found.rests_on.is_empty() {
-        let _ = writeln!(text, "  rests on {}", found.rests_on.join(", "));
-    }
-    for unknown in &found.unknown {
-        let _ = writeln!(text, "  not known: {}", visible_line(unknown));
-    }
+    let rests_on =
+        (!found.rests_on.is_empty()).then(|| format!("rests on {}", found.rests_on.join(", ")));
+    let unknown = found.unknown.iter();
+    let unknown = unknown.map(|it| format!("not known: {}", visible_line(it)));
+    std::iter::once(first)
+        .chain(rests_on)
+        .chain(unknown)
+        .collect()
 }
 
 fn condition(tried: &TriedCondition) -> String {
@@ -104,7 +128,8 @@ fn condition(tried: &TriedCondition) -> String {
     format!("{not}{} at {file}:{line}", visible_line(&tried.condition))
 }
 
-fn word(change: &MatchedChange) -> &'static str {
+/// Returns the state after a change.
+pub(super) fn word(change: &MatchedChange) -> &'static str {
     if change.active { "active" } else { "inactive" }
 }
 

@@ -568,6 +568,8 @@ sent! {
     report::contour::GoldenContour,
     report::html::Acceptance,
     report::html::GivenForRun<'_>,
+    report::html::ReplayReport,
+    report::html::ReplayReportAxis,
     report::html::RunDigest,
     report::html::RunInputs<'_>,
     report::pictures::AxisPlot,

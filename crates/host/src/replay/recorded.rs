@@ -47,6 +47,8 @@ pub struct RecordedAxis {
     pub name: String,
     /// Whether friction compensation was active at the first sample.
     pub start: bool,
+    /// The time of the first sample in seconds.
+    pub start_s: f64,
     /// Its changes in their order.
     pub changes: Vec<RecordedChange>,
     /// The time of the last sample in seconds.
@@ -295,6 +297,7 @@ impl Samples<'_> {
         Ok(RecordedAxis {
             name: axis.name.clone(),
             start: states.first().is_some_and(|it| *it != 0.0),
+            start_s: times.first().copied().unwrap_or_default(),
             changes,
             end_s: times.last().copied().unwrap_or_default(),
         })

@@ -1,0 +1,140 @@
+//! The report of what a machine did, beside the dry run (R15.21).
+
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, Standing};
+use frictcomp::comp::State;
+use frictcomp::diagnostic::Rounded;
+
+const VERDICT: Part = Part::new("verdict", "Verdict");
+const STATES: Part = Part::new("states", "Recorded states");
+const CHANGES: Part = Part::new("changes", "Changes");
+
+/// A recording of states beside the dry run.
+#[derive(Debug, Clone, Default)]
+pub struct ReplayReport {
+    /// Name of the recording.
+    pub recording: String,
+    /// The verdicts on the whole, in sentences.
+    pub verdicts: Vec<String>,
+    /// Each axis of the recording.
+    pub axes: Vec<ReplayReportAxis>,
+}
+
+/// An axis of the recording.
+#[derive(Debug, Clone, Default)]
+pub struct ReplayReportAxis {
+    /// Its name.
+    pub name: String,
+    /// The verdict in a sentence.
+    pub verdict: String,
+    /// The times in s from which on friction compensation is active, or not; the first sample first.
+    pub recorded: Vec<(f64, bool)>,
+    /// The time of the last sample in s.
+    pub end_s: f64,
+    /// Time, place, state and evidence of each change in which both agree.
+    pub changes: Vec<[String; 4]>,
+    /// What speaks against an agreement, in sentences.
+    pub against: Vec<String>,
+}
+
+/// Writes the report of a replay as one page.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_replay(report: &ReplayReport, out: &mut dyn Write) -> io::Result<()> {
+    let title = format!("{} beside the dry run", report.recording);
+    let lead = "Friction compensation as the machine recorded it, compared with the dry run of the programs.";
+    let mut page = Page::open(out, &title, lead, &[VERDICT, STATES, CHANGES])?;
+    page.part(VERDICT, &verdict(report))?;
+    page.part(
+        STATES,
+        &figure(chart(report).render(Frame::Inside("states"))),
+    )?;
+    page.part(
+        CHANGES,
+        &html! { @for axis in &report.axes { (changes(axis)) } },
+    )?;
+    page.close()
+}
+
+fn verdict(report: &ReplayReport) -> Markup {
+    html! {
+        ul {
+            @for axis in &report.axes { li { (axis.name) ": " (axis.verdict) } }
+        }
+        @for said in &report.verdicts { p { (said) } }
+    }
+}
+
+fn chart(report: &ReplayReport) -> BandChart {
+    BandChart {
+        description: "The recorded state of friction compensation of each axis over the time."
+            .to_owned(),
+        x: ChartAxis {
+            label: "time in s".to_owned(),
+            ..ChartAxis::default()
+        },
+        rows: report.axes.iter().map(row).collect(),
+        ..BandChart::default()
+    }
+}
+
+fn row(axis: &ReplayReportAxis) -> BandRow {
+    let ends = axis.recorded.iter().skip(1).map(|it| it.0);
+    let ends = ends.chain([axis.end_s]);
+    let bands = axis.recorded.iter().zip(ends).map(|(&(from, active), to)| {
+        let state = if active {
+            State::Active
+        } else {
+            State::Inactive
+        };
+        Band {
+            from,
+            to,
+            state: BandState::One(state),
+            standing: Standing::default(),
+            title: format!(
+                "{} from {} s to {} s",
+                state.as_str(),
+                Rounded(from, 3),
+                Rounded(to, 3)
+            ),
+            href: None,
+        }
+    });
+    BandRow {
+        label: axis.name.clone(),
+        bands: bands.collect(),
+    }
+}
+
+fn changes(axis: &ReplayReportAxis) -> Markup {
+    let caption = format!("Changes of {} in which both agree", axis.name);
+    let table = Table {
+        caption: Caption::Heard(&caption),
+        columns: &[
+            Column::Text("time in s"),
+            Column::Text("block of the dry run"),
+            Column::Text("state"),
+            Column::Text("compared by"),
+        ],
+    };
+    html! {
+        h3 { "Axis " (axis.name) }
+        @if axis.changes.is_empty() {
+            p { "No change agrees." }
+        } @else {
+            (table.render(axis.changes.iter().map(|[time, rest @ ..]| {
+                Row::new(time, rest.each_ref().map(|cell| html! { (cell) }))
+            })))
+        }
+        @if !axis.against.is_empty() {
+            div.to-do { ul { @for said in &axis.against { li { (said) } } } }
+        }
+    }
+}

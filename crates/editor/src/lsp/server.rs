@@ -500,9 +500,10 @@ impl<'c> Server<'c> {
         let translator = translator(&self.client, &self.documents);
         let messages = translator.messages(document, &analysis);
         let earlier = self.analyses.get(&uri.0).map(|earlier| earlier.version);
-        let why = match earlier == Some(analysis.version) {
-            true => CheckedFor::Others,
-            false => CheckedFor::Itself,
+        let why = if earlier == Some(analysis.version) {
+            CheckedFor::Others
+        } else {
+            CheckedFor::Itself
         };
         self.users.note(document, &analysis);
         self.analyses.insert(uri.0.clone(), Arc::new(*analysis));

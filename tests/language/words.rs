@@ -43,6 +43,20 @@ fn axis_names() {
 }
 
 #[test]
+fn what_goes_on_too_long_is_no_name() {
+    // R2.20, R9.90
+    for name in ["X".repeat(33), format!("X{}", "A9".repeat(40))] {
+        for command in ["[COMP OFF FRICT]", "=5"] {
+            let seen = run(&format!("{name}{command}\nM30"));
+            assert!(
+                seen.contains("FC2") && !seen.contains(">inactive"),
+                "{seen}"
+            );
+        }
+    }
+}
+
+#[test]
 fn long_names_need_an_equals_sign() {
     // R2.21
     let machine = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"X1\"\n[[axis]]\nname = \"X50P1\"\n";

@@ -104,6 +104,13 @@ fn a_block_that_is_never_reached_is_an_error() {
             "{text}"
         );
     }
+    for nothing in ["", "\n(only a comment)\n", "%L SUB\nN100 X1\nM17\n"] {
+        let (status, text) = started(&self::bench(nothing, None), "N100");
+        assert!(
+            status == Some(1) && text.contains("error[FC413]"),
+            "{nothing:?}: {text}"
+        );
+    }
 }
 
 /// What stops the search is shown, and nothing else of what it passes.

@@ -67,6 +67,8 @@ impl Revision {
     pub fn new(folder: &Path, name: &str) -> Result<Self, HostError> {
         let top = git(folder, &["rev-parse", "--show-toplevel"])?;
         if !top.status.success() {
+            let is_current = folder.as_os_str().is_empty();
+            let folder = if is_current { Path::new(".") } else { folder };
             return Err(HostError::NoRepository {
                 folder: folder.to_owned(),
                 reason: said(&top),

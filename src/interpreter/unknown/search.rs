@@ -10,6 +10,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
+use crate::interpreter::run::path::Last;
 use crate::interpreter::run::possible::{Side, join};
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::way_set::WaySet;
@@ -25,7 +26,12 @@ impl Interpreter {
     /// FC413: the program ended before the block at which it was to be started.
     pub(in crate::interpreter) fn missed_search(&self) -> Option<Diagnostic> {
         let wanted = self.options.search.filter(|_| self.is_searching())?;
-        let place = self.state.last.as_ref()?.place();
+        let start = || {
+            let main = self.programs.units().first()?;
+            Some(main.index.source.place(Span::new(0, 0)))
+        };
+        let last = self.state.last.as_ref().map(Last::place);
+        let place = last.or_else(start)?;
         let message = format!(
             "the program ends here and never comes to {wanted}, at which it is to be started"
         );

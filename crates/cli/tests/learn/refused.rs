@@ -104,10 +104,7 @@ fn recordings_that_are_no_round_are_refused() {
         (
             "one recording",
             |bench| std::fs::remove_file(bench.path(&take_of(2100.0, 1))).expect("removed"),
-            &[
-                "F2100 ccw was recorded in 1 files",
-                "record it a second time",
-            ],
+            &["F2100 ccw was recorded once", "record it a second time"],
         ),
         (
             "five feeds",
@@ -116,10 +113,7 @@ fn recordings_that_are_no_round_are_refused() {
                     std::fs::remove_file(bench.path(&take_of(1200.0, take))).expect("removed");
                 }
             },
-            &[
-                "5 feeds were recorded, and learning needs at least 6",
-                "1.8 µm",
-            ],
+            &["recorded feeds: 5, of at least 6", "1.8 µm"],
         ),
         (
             "no positions",

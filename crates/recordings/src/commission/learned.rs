@@ -44,7 +44,8 @@ pub enum LearnError {
     NoTimes(String),
     /// A feed that was recorded once, or more than twice.
     #[error(
-        "F{feed:.0} {direction} was recorded in {count} files; each circle is recorded twice with the same list"
+        "F{feed:.0} {direction} was recorded {}; each circle is recorded twice with the same list",
+        times(*.count)
     )]
     Count {
         /// The feed in mm/min.
@@ -55,7 +56,7 @@ pub enum LearnError {
         count: usize,
     },
     /// Four feeds.
-    #[error("{0} feeds were recorded, and learning needs at least {LEAST_FEEDS}")]
+    #[error("recorded feeds: {0}, of at least {LEAST_FEEDS}")]
     Feeds(usize),
     /// Circles of 50 and of 100 mm.
     #[error("`{file}` has a radius of {found_mm:.1} mm, and others have {radius_mm:.1} mm")]
@@ -99,6 +100,13 @@ pub enum LearnError {
     /// Rounds with different feeds.
     #[error("F{0:.0} was not recorded in every round")]
     OtherFeeds(f64),
+}
+
+fn times(count: usize) -> String {
+    match count {
+        1 => "once".to_owned(),
+        several => format!("{several} times"),
+    }
 }
 
 impl LearnError {

@@ -18,7 +18,7 @@ const MOST: usize = 16;
 const ENOUGH: usize = 3;
 
 /// How far beyond the bound there is no doubt.
-const CLEARLY: f64 = 1.7;
+const CLEARLY: f64 = 1.15;
 
 /// The processor time of this thread.
 pub(crate) fn of_thread() -> Duration {

@@ -134,7 +134,7 @@ impl Waveform {
         squares / real(self.um.len().max(1))
     }
 
-    /// A sample; 0 where there is none.
+    /// Returns a sample, and 0 beyond both ends.
     fn at(&self, number: i32) -> f64 {
         let at = usize::try_from(number - self.first).ok();
         at.and_then(|at| self.um.get(at)).copied().unwrap_or(0.0)

@@ -83,6 +83,9 @@
 //! files and threads, and `frictcomp-cli` is the command. What the feature `unstable` shows may change
 //! with every version.
 
+#[macro_use]
+mod words;
+
 pub mod audit;
 pub mod comp;
 pub mod config;

@@ -1,6 +1,5 @@
 //! The effect of a program on the state of an axis.
 
-use std::fmt;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
@@ -18,45 +17,25 @@ pub struct Site {
     pub line: u32,
 }
 
-/// Effect of a program on a selection (R1.23), whatever the parameterisation (R10.1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum ProgramEffect {
-    /// The program ends with the selection that it found.
-    Keeps,
-    /// It ends selected, whatever it found.
-    LeavesOn,
-    /// It ends deselected, whatever it found.
-    LeavesOff,
-    /// It depends on what only the machine knows, or on what it finds: the ways to each selection are
-    /// known (R14.6, R10.10).
-    Depends,
-    /// Neither the state at the end nor its conditions are known offline.
-    Unknown,
-}
-
-impl ProgramEffect {
-    /// The words of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Keeps => "keeps",
-            Self::LeavesOn => "leaves on",
-            Self::LeavesOff => "leaves off",
-            Self::Depends => "depends",
-            Self::Unknown => "unknown",
-        }
-    }
-}
-
-impl fmt::Display for ProgramEffect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
-    }
-}
-
-impl Serialize for ProgramEffect {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.as_str())
+crate::words! {
+    /// Effect of a program on a selection (R1.23), whatever the parameterisation (R10.1).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum ProgramEffect {
+        /// The program ends with the selection that it found.
+        Keeps = "keeps",
+        /// It ends selected, whatever it found.
+        #[serde(rename = "leaves on")]
+        LeavesOn = "leaves on",
+        /// It ends deselected, whatever it found.
+        #[serde(rename = "leaves off")]
+        LeavesOff = "leaves off",
+        /// It depends on what only the machine knows, or on what it finds: the ways to each selection are
+        /// known (R14.6, R10.10).
+        Depends = "depends",
+        /// Neither the state at the end nor its conditions are known offline.
+        Unknown = "unknown",
     }
 }
 

@@ -103,28 +103,21 @@ impl Scope {
     }
 }
 
-/// The selection of a kind of compensation on an axis (R1.23), whatever the parameterisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Selected {
-    /// It is selected.
-    On,
-    /// It is not.
-    Off,
-    /// It is not known offline.
-    Unknown,
+crate::words! {
+    /// The selection of a kind of compensation on an axis (R1.23), whatever the parameterisation.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Selected {
+        /// It is selected.
+        On = "on",
+        /// It is not.
+        Off = "off",
+        /// It is not known offline.
+        Unknown = "unknown",
+    }
 }
 
 impl Selected {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::On => "on",
-            Self::Off => "off",
-            Self::Unknown => "unknown",
-        }
-    }
-
     pub(super) fn digit(self) -> u64 {
         match self {
             Self::On => 1,

@@ -1,54 +1,29 @@
 //! The kinds of axis compensation, and sets of them.
 
-use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// A kind of axis compensation that COMP switches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-#[non_exhaustive]
-pub enum Kind {
-    /// Backlash compensation.
-    Backlash,
-    /// Cross compensation.
-    Cross,
-    /// Plane compensation.
-    Plane,
-    /// Leadscrew error compensation.
-    Lead,
-    /// Temperature compensation.
-    Temp,
-    /// Friction compensation.
-    Frict,
-    /// Crosstalk compensation.
-    Crosstalk,
-}
-
-impl Kind {
-    /// Every kind, in the order of the control's documents.
-    pub const ALL: [Self; 7] = [
-        Self::Backlash,
-        Self::Cross,
-        Self::Plane,
-        Self::Lead,
-        Self::Temp,
-        Self::Frict,
-        Self::Crosstalk,
-    ];
-
-    /// The keyword in an NC program.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Backlash => "BACKLASH",
-            Self::Cross => "CROSS",
-            Self::Plane => "PLANE",
-            Self::Lead => "LEAD",
-            Self::Temp => "TEMP",
-            Self::Frict => "FRICT",
-            Self::Crosstalk => "CROSSTALK",
-        }
+crate::words! {
+    /// A kind of axis compensation that COMP switches.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "UPPERCASE")]
+    #[non_exhaustive]
+    pub enum Kind {
+        /// Backlash compensation.
+        Backlash = "BACKLASH",
+        /// Cross compensation.
+        Cross = "CROSS",
+        /// Plane compensation.
+        Plane = "PLANE",
+        /// Leadscrew error compensation.
+        Lead = "LEAD",
+        /// Temperature compensation.
+        Temp = "TEMP",
+        /// Friction compensation.
+        Frict = "FRICT",
+        /// Crosstalk compensation.
+        Crosstalk = "CROSSTALK",
     }
 }
 
@@ -65,12 +40,6 @@ impl FromStr for Kind {
         let mut kinds = Self::ALL.into_iter();
         let found = kinds.find(|kind| kind.as_str().eq_ignore_ascii_case(word));
         found.ok_or_else(|| UnknownKind(word.to_owned()))
-    }
-}
-
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
     }
 }
 

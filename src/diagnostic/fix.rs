@@ -5,24 +5,16 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::text::{Place, SourceFile, Span};
 
-/// Whether a fix may be applied without a look at it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Safety {
-    /// The machine does the same before and after it.
-    Safe,
-    /// It guesses what is meant, or changes what the machine does, and has to be reviewed.
-    Unsafe,
-}
-
-impl Safety {
-    /// The word of the records: `safe`, `unsafe`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Safe => "safe",
-            Self::Unsafe => "unsafe",
-        }
+crate::words! {
+    /// Whether a fix may be applied without a look at it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum Safety {
+        /// The machine does the same before and after it.
+        Safe = "safe",
+        /// It guesses what is meant, or changes what the machine does, and has to be reviewed.
+        Unsafe = "unsafe",
     }
 }
 

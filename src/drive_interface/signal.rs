@@ -1,7 +1,5 @@
 //! The two torque values of the drive's cyclic data, and the names that they go by (R7.1 to R7.3).
 
-use std::fmt;
-
 use serde::Serialize;
 
 /// `CANopen` objects of a further axis of one device are this much higher.
@@ -15,29 +13,20 @@ const DRIVE_OBJECTS: std::ops::RangeInclusive<u16> = 0x6000..=0x9FFF;
 const IDN_NUMBER: u16 = 0x0FFF;
 const IDN_OF_MANUFACTURER: u16 = 0x8000;
 
-/// A torque value of the cyclic data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Signal {
-    /// The additive torque command, which friction compensation needs: S-0-0081, 60B2h.
-    AdditiveTorque,
-    /// The actual torque, by which friction is measured and verified: S-0-0084, 6077h.
-    ActualTorque,
+crate::words! {
+    /// A torque value of the cyclic data.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum Signal {
+        /// The additive torque command, which friction compensation needs: S-0-0081, 60B2h.
+        AdditiveTorque = "additive torque command",
+        /// The actual torque, by which friction is measured and verified: S-0-0084, 6077h.
+        ActualTorque = "actual torque",
+    }
 }
 
 impl Signal {
-    /// Both values.
-    pub const ALL: [Self; 2] = [Self::AdditiveTorque, Self::ActualTorque];
-
-    /// Returns the name used in messages.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::AdditiveTorque => "additive torque command",
-            Self::ActualTorque => "actual torque",
-        }
-    }
-
     /// Its number in SERCOS.
     pub fn idn(self) -> u16 {
         match self {
@@ -83,12 +72,6 @@ impl Signal {
         self.words().contains(&reference)
             || idn(reference).is_some_and(|idn| self.is_idn(idn))
             || object(reference).is_some_and(|index| self.channel(index).is_some())
-    }
-}
-
-impl fmt::Display for Signal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
     }
 }
 

@@ -3,25 +3,16 @@
 use super::alternative::Alternative::{self, First};
 use Way::{Note, Program, Recording};
 
-/// Way to put a question to a control (R15.1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Way {
-    /// By an NC program that leaves its answer in a file of the control.
-    Program,
-    /// By a recording of a motion.
-    Recording,
-    /// By what an operator sees and writes down.
-    Note,
-}
-
-impl Way {
-    /// Its word in outputs.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Program => "program",
-            Self::Recording => "recording",
-            Self::Note => "note",
-        }
+crate::words! {
+    /// Way to put a question to a control (R15.1).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Way {
+        /// By an NC program that leaves its answer in a file of the control.
+        Program = "program",
+        /// By a recording of a motion.
+        Recording = "recording",
+        /// By what an operator sees and writes down.
+        Note = "note",
     }
 }
 

@@ -8,19 +8,21 @@ use super::ndjson::Ndjson;
 use super::output::Report;
 use super::text::{Text, TextOptions};
 
-/// A format of the timeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum TimelineFormat {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON object a line.
-    Ndjson,
-    /// One JSON document.
-    Json,
-    /// One row a block.
-    Csv,
+frictcomp::words! {
+    /// A format of the timeline.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[non_exhaustive]
+    pub enum TimelineFormat {
+        /// For people.
+        #[default]
+        Text = "text",
+        /// One JSON object a line.
+        Ndjson = "ndjson",
+        /// One JSON document.
+        Json = "json",
+        /// One row a block.
+        Csv = "csv",
+    }
 }
 
 /// How a timeline looks. A format passes over what it does not have: only [`Text`] folds blocks and
@@ -49,19 +51,6 @@ impl TimelineOptions {
 }
 
 impl TimelineFormat {
-    /// Every format.
-    pub const ALL: [Self; 4] = [Self::Text, Self::Ndjson, Self::Json, Self::Csv];
-
-    /// The name of the format.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Text => "text",
-            Self::Ndjson => "ndjson",
-            Self::Json => "json",
-            Self::Csv => "csv",
-        }
-    }
-
     /// What it is, in a few words.
     pub fn title(self) -> &'static str {
         match self {

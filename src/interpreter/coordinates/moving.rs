@@ -9,39 +9,26 @@ use super::axis_words::AxisWord;
 use crate::comp::AxisIndex;
 use crate::text::Span;
 
-/// The way in which an axis is moved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum MotionKind {
-    /// G00.
-    Rapid,
-    /// G01, G02, G03 and what else interpolates at the path feed.
-    Feed,
-    /// A reference point is approached.
-    Homing,
-    /// The axis moves by itself, beside the path or along with it.
-    Independent,
-    /// It follows another axis.
-    Coupled,
-    /// Coordinates are rotated or transformed: the motion word of another axis moves it.
-    Frame,
-    /// Not known offline.
-    Unknown,
-}
-
-impl MotionKind {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Rapid => "rapid",
-            Self::Feed => "feed",
-            Self::Homing => "homing",
-            Self::Independent => "independent",
-            Self::Coupled => "coupled",
-            Self::Frame => "frame",
-            Self::Unknown => "unknown",
-        }
+crate::words! {
+    /// The way in which an axis is moved.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum MotionKind {
+        /// G00.
+        Rapid = "rapid",
+        /// G01, G02, G03 and what else interpolates at the path feed.
+        Feed = "feed",
+        /// A reference point is approached.
+        Homing = "homing",
+        /// The axis moves by itself, beside the path or along with it.
+        Independent = "independent",
+        /// It follows another axis.
+        Coupled = "coupled",
+        /// Coordinates are rotated or transformed: the motion word of another axis moves it.
+        Frame = "frame",
+        /// Not known offline.
+        Unknown = "unknown",
     }
 }
 

@@ -1,7 +1,6 @@
 //! The events of a run.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -21,38 +20,21 @@ use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
 
-/// Why a program ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum EndedBy {
-    /// M30.
-    M30,
-    /// M02.
-    M02,
-    /// The file ended without either.
-    EndOfFile,
-    /// An error of the control.
-    Error,
-    /// A budget was used up.
-    Budget,
-}
-
-impl EndedBy {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::M30 => "M30",
-            Self::M02 => "M02",
-            Self::EndOfFile => "end-of-file",
-            Self::Error => "error",
-            Self::Budget => "budget",
-        }
-    }
-}
-
-impl fmt::Display for EndedBy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
+crate::words! {
+    /// Why a program ended.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+    pub enum EndedBy {
+        /// M30.
+        M30 = "M30",
+        /// M02.
+        M02 = "M02",
+        /// The file ended without either.
+        EndOfFile = "end-of-file",
+        /// An error of the control.
+        Error = "error",
+        /// A budget was used up.
+        Budget = "budget",
     }
 }
 

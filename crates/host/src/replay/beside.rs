@@ -17,28 +17,18 @@ pub struct ReplayPlace {
     pub line: u32,
 }
 
-/// Evidence that a change of the machine is the one of the dry run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReplayedBy {
-    /// The line of the program.
-    Line,
-    /// The block number.
-    Block,
-    /// The position of the axis.
-    Position,
-    /// The order of the changes alone.
-    Order,
-}
-
-impl ReplayedBy {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::Block => "block",
-            Self::Position => "position",
-            Self::Order => "order",
-        }
+frictcomp::words! {
+    /// Evidence that a change of the machine is the one of the dry run.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ReplayedBy {
+        /// The line of the program.
+        Line = "line",
+        /// The block number.
+        Block = "block",
+        /// The position of the axis.
+        Position = "position",
+        /// The order of the changes alone.
+        Order = "order",
     }
 }
 

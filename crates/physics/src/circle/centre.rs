@@ -1,21 +1,22 @@
 //! About which centre both paths are compared.
 
-use std::fmt;
 use std::str::FromStr;
 
 use serde::Serialize;
 use thiserror::Error;
 
-/// About which centre G(b) and H are meant (R5.21).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum PathCentre {
-    /// The mean of the least-squares centres of both paths.
-    #[default]
-    Common,
-    /// The least-squares centre of each path: what shifts one path as a whole does not count.
-    Own,
+frictcomp::words! {
+    /// About which centre G(b) and H are meant (R5.21).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum PathCentre {
+        /// The mean of the least-squares centres of both paths.
+        #[default]
+        Common = "common",
+        /// The least-squares centre of each path: what shifts one path as a whole does not count.
+        Own = "own",
+    }
 }
 
 /// A word that names no centre.
@@ -24,26 +25,12 @@ pub enum PathCentre {
 pub struct UnknownPathCentre(pub String);
 
 impl PathCentre {
-    /// `common` or `own`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Common => "common",
-            Self::Own => "own",
-        }
-    }
-
     /// Returns the meaning in words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Common => "the mean of both least-squares centres",
             Self::Own => "the least-squares centre of each path",
         }
-    }
-}
-
-impl fmt::Display for PathCentre {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
     }
 }
 

@@ -6,22 +6,14 @@ use super::obstacle::Obstacle;
 use super::switch::{Identity, Switch};
 use super::version::Version;
 
-/// One of the two versions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Which {
-    /// The old version.
-    Old,
-    /// The new version.
-    New,
-}
-
-impl Which {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Old => "old",
-            Self::New => "new",
-        }
+frictcomp::words! {
+    /// One of the two versions.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Which {
+        /// The old version.
+        Old = "old",
+        /// The new version.
+        New = "new",
     }
 }
 
@@ -39,25 +31,16 @@ pub enum Paired {
     One(Which, Switch),
 }
 
-/// Result of a comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Agreement {
-    /// Both versions switch the same.
-    Same,
-    /// A block switches in one version and not in the other.
-    Different,
-    /// At least one version is not known as a whole, whatever differs in the part that is.
-    NotComparable,
-}
-
-impl Agreement {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Same => "same",
-            Self::Different => "different",
-            Self::NotComparable => "not-comparable",
-        }
+frictcomp::words! {
+    /// Result of a comparison.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Agreement {
+        /// Both versions switch the same.
+        Same = "same",
+        /// A block switches in one version and not in the other.
+        Different = "different",
+        /// At least one version is not known as a whole, whatever differs in the part that is.
+        NotComparable = "not-comparable",
     }
 }
 

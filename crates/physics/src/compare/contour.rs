@@ -80,25 +80,16 @@ fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
     near.map(|it| it.deviation_um).fold(0.0, f64::max)
 }
 
-/// Result of a comparison of contours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContourAgreement {
-    /// No block of the new version deviates more than the tolerance allows.
-    NoMore,
-    /// A block of the new version deviates more.
-    More,
-    /// A contour is not known as a whole, whatever is more in the part that is.
-    NotComparable,
-}
-
-impl ContourAgreement {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::NoMore => "no-more",
-            Self::More => "more",
-            Self::NotComparable => "not-comparable",
-        }
+frictcomp::words! {
+    /// Result of a comparison of contours.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ContourAgreement {
+        /// No block of the new version deviates more than the tolerance allows.
+        NoMore = "no-more",
+        /// A block of the new version deviates more.
+        More = "more",
+        /// A contour is not known as a whole, whatever is more in the part that is.
+        NotComparable = "not-comparable",
     }
 }
 

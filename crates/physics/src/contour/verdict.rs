@@ -12,25 +12,16 @@ pub struct ContourLimits {
     pub due_um: Option<f64>,
 }
 
-/// Verdict on a contour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContourVerdict {
-    /// It keeps the limits.
-    Within,
-    /// It exceeds a limit.
-    Above,
-    /// It is not known as a whole, or not as on the machine.
-    NotJudged,
-}
-
-impl ContourVerdict {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Within => "within",
-            Self::Above => "above",
-            Self::NotJudged => "not judged",
-        }
+frictcomp::words! {
+    /// Verdict on a contour.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ContourVerdict {
+        /// It keeps the limits.
+        Within = "within",
+        /// It exceeds a limit.
+        Above = "above",
+        /// It is not known as a whole, or not as on the machine.
+        NotJudged = "not judged",
     }
 }
 

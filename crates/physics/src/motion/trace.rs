@@ -29,26 +29,17 @@ pub struct Cause {
     pub friction: Arc<[State]>,
 }
 
-/// Motion of the axes along a piece of the path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Movement {
-    /// As fast as they can, G00.
-    Rapid,
-    /// At a feed, G01, G02, G03.
-    Feed,
-    /// They rest for a time, G04.
-    Dwell,
-}
-
-impl Movement {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Rapid => "rapid",
-            Self::Feed => "feed",
-            Self::Dwell => "dwell",
-        }
+frictcomp::words! {
+    /// Motion of the axes along a piece of the path.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Movement {
+        /// As fast as they can, G00.
+        Rapid = "rapid",
+        /// At a feed, G01, G02, G03.
+        Feed = "feed",
+        /// They rest for a time, G04.
+        Dwell = "dwell",
     }
 }
 

@@ -1,6 +1,5 @@
 //! A machine with two feed drives.
 
-use std::fmt;
 use std::str::FromStr;
 
 use serde::Serialize;
@@ -20,17 +19,19 @@ pub struct Plant {
     pub y: DriveParameters,
 }
 
-/// A plant whose values the rules give (chapter 5.2). They differ in the stiffness of the contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Preset {
-    /// 1000 N/µm.
-    #[default]
-    Stiff,
-    /// 300 N/µm.
-    Mid,
-    /// 80 N/µm.
-    Soft,
+frictcomp::words! {
+    /// A plant whose values the rules give (chapter 5.2). They differ in the stiffness of the contact.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[non_exhaustive]
+    pub enum Preset {
+        /// 1000 N/µm.
+        #[default]
+        Stiff = "stiff",
+        /// 300 N/µm.
+        Mid = "mid",
+        /// 80 N/µm.
+        Soft = "soft",
+    }
 }
 
 /// A word that names no preset.
@@ -46,18 +47,6 @@ impl UnknownPreset {
 }
 
 impl Preset {
-    /// Every preset, the stiffest first.
-    pub const ALL: [Self; 3] = [Self::Stiff, Self::Mid, Self::Soft];
-
-    /// The name on the command line and in plant files.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Stiff => "stiff",
-            Self::Mid => "mid",
-            Self::Soft => "soft",
-        }
-    }
-
     /// The names of all presets, for messages: `stiff, mid, soft`.
     pub fn names() -> String {
         Self::ALL.map(Self::as_str).join(", ")
@@ -80,12 +69,6 @@ impl Preset {
             x: drive.clone(),
             y: drive,
         }
-    }
-}
-
-impl fmt::Display for Preset {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
     }
 }
 

@@ -1,21 +1,22 @@
 //! The contents of a recorded torque: whether the additive current is part of it (R6.21).
 
-use std::fmt;
 use std::str::FromStr;
 
 use crate::trace::Channel;
 use frictcomp_physics::current::Switched;
 
-/// Kind of torque in a channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum TorqueKind {
-    /// Torque or current as the drive measures it, the additive current included.
-    Actual,
-    /// Torque as it is commanded within the drive.
-    Command,
-    /// Output of the speed controller, without the additive current.
-    Loop,
+frictcomp::words! {
+    /// Kind of torque in a channel.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum TorqueKind {
+        /// Torque or current as the drive measures it, the additive current included.
+        Actual = "actual",
+        /// Torque as it is commanded within the drive.
+        Command = "command",
+        /// Output of the speed controller, without the additive current.
+        Loop = "loop",
+    }
 }
 
 /// Words in names, symbols and comments of channels, without blanks and lines.
@@ -78,21 +79,6 @@ impl TorqueKind {
         let mut kinds = WORDS.iter().filter(|(_, words)| tells(words));
         let (kind, _) = kinds.next()?;
         kinds.next().is_none().then_some(*kind)
-    }
-
-    /// Its name on a command line and in a sentence.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Actual => "actual",
-            Self::Command => "command",
-            Self::Loop => "loop",
-        }
-    }
-}
-
-impl fmt::Display for TorqueKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
     }
 }
 

@@ -13,31 +13,18 @@ const ERRORS: f64 = 3.0;
 /// … if it is more than this part, too.
 const PART: f64 = 0.05;
 
-/// A parameter of the friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FrictionParameter {
-    /// Friction without the speed, Fc.
-    Coulomb,
-    /// Friction just after breaking loose, Fs.
-    Breakaway,
-    /// Increase of friction with the speed, fv.
-    Viscous,
-    /// Torque that is the same in both directions.
-    Offset,
-}
-
-impl FrictionParameter {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Coulomb, Self::Breakaway, Self::Viscous, Self::Offset];
-
-    /// Its name in tables and records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Coulomb => "Fc",
-            Self::Breakaway => "Fs",
-            Self::Viscous => "fv",
-            Self::Offset => "offset",
-        }
+frictcomp::words! {
+    /// A parameter of the friction.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum FrictionParameter {
+        /// Friction without the speed, Fc.
+        Coulomb = "Fc",
+        /// Friction just after breaking loose, Fs.
+        Breakaway = "Fs",
+        /// Increase of friction with the speed, fv.
+        Viscous = "fv",
+        /// Torque that is the same in both directions.
+        Offset = "offset",
     }
 }
 

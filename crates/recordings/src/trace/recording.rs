@@ -2,29 +2,19 @@
 
 use super::channel::{Channel, ChannelIndex};
 
-/// Layout of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Layout {
-    /// An export of TwinCAT Scope with rows of attributes.
-    Scope,
-    /// A table with a header.
-    Plain,
-    /// Numbers without any header, taken as an export of TwinCAT Scope.
-    Headless,
-    /// The XML of a SINUMERIK trace.
-    Sinumerik,
-}
-
-impl Layout {
-    /// Its name in a sentence.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Scope => "TwinCAT Scope CSV",
-            Self::Plain => "CSV with a header",
-            Self::Headless => "CSV without a header",
-            Self::Sinumerik => "SINUMERIK trace XML",
-        }
+frictcomp::words! {
+    /// Layout of a file.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Layout {
+        /// An export of TwinCAT Scope with rows of attributes.
+        Scope = "TwinCAT Scope CSV",
+        /// A table with a header.
+        Plain = "CSV with a header",
+        /// Numbers without any header, taken as an export of TwinCAT Scope.
+        Headless = "CSV without a header",
+        /// The XML of a SINUMERIK trace.
+        Sinumerik = "SINUMERIK trace XML",
     }
 }
 

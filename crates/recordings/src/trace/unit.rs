@@ -1,30 +1,22 @@
 //! Units of channels, and what makes the units of lists and traces of them.
 
-/// Quantity of a unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum ChannelQuantity {
-    /// In seconds.
-    Time,
-    /// In 0.1 µm or 0.0001°.
-    Position,
-    /// In µm/s or 0.001°/s.
-    Velocity,
-    /// In drive units, or in what the drive measures.
-    Torque,
+frictcomp::words! {
+    /// Quantity of a unit.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum ChannelQuantity {
+        /// In seconds.
+        Time = "time",
+        /// In 0.1 µm or 0.0001°.
+        Position = "position",
+        /// In µm/s or 0.001°/s.
+        Velocity = "velocity",
+        /// In drive units, or in what the drive measures.
+        Torque = "torque",
+    }
 }
 
 impl ChannelQuantity {
-    /// Its name in a sentence.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Time => "time",
-            Self::Position => "position",
-            Self::Velocity => "velocity",
-            Self::Torque => "torque",
-        }
-    }
-
     /// The unit that the CNC records it in, which is taken where a file names none.
     pub fn own_unit(self) -> &'static str {
         match self {

@@ -81,41 +81,31 @@ impl AuditReport {
     }
 }
 
-/// Effect of a program on an axis, as one word; the most dangerous comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Word {
-    /// It moves the axis as it finds it, and leaves it away from its start-up state.
-    Both,
-    /// It leaves the axis away from its start-up state.
-    Leaves,
-    /// It does so on some ways.
-    Depends,
-    /// It is not known offline.
-    Unknown,
-    /// It moves the axis in the state that it finds.
-    Inherits,
-    /// It may move the axis in the state that it finds.
-    Perhaps,
-    /// It leaves the axis in its start-up state, and does not move it before that.
-    StartUp,
-    /// It neither takes the axis away from its start-up state nor moves it before it is set.
-    Keeps,
+frictcomp::words! {
+    /// Effect of a program on an axis, as one word; the most dangerous comes first.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum Word {
+        /// It moves the axis as it finds it, and leaves it away from its start-up state.
+        Both = "both",
+        /// It leaves the axis away from its start-up state.
+        Leaves = "leaves",
+        /// It does so on some ways.
+        Depends = "depends",
+        /// It is not known offline.
+        Unknown = "unknown",
+        /// It moves the axis in the state that it finds.
+        Inherits = "inherits",
+        /// It may move the axis in the state that it finds.
+        Perhaps = "perhaps",
+        /// It leaves the axis in its start-up state, and does not move it before that.
+        StartUp = "start-up",
+        /// It neither takes the axis away from its start-up state nor moves it before it is set.
+        Keeps = "keeps",
+    }
 }
 
 impl Word {
-    /// Every word, the most dangerous first.
-    pub const ALL: [Self; 8] = [
-        Self::Both,
-        Self::Leaves,
-        Self::Depends,
-        Self::Unknown,
-        Self::Inherits,
-        Self::Perhaps,
-        Self::StartUp,
-        Self::Keeps,
-    ];
-
     /// The word for what a program does to an axis.
     pub fn of(axis: &AxisAudit) -> Self {
         match axis.effect {
@@ -127,20 +117,6 @@ impl Word {
             _ if axis.may_inherit() => Self::Perhaps,
             ProgramEffect::Keeps | ProgramEffect::Depends => Self::Keeps,
             _ => Self::StartUp,
-        }
-    }
-
-    /// The word of the table.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Both => "both",
-            Self::Leaves => "leaves",
-            Self::Depends => "depends",
-            Self::Unknown => "unknown",
-            Self::Inherits => "inherits",
-            Self::Perhaps => "perhaps",
-            Self::StartUp => "start-up",
-            Self::Keeps => "keeps",
         }
     }
 

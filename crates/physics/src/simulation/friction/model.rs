@@ -1,23 +1,24 @@
 //! The friction models by name.
 
-use std::fmt;
 use std::str::FromStr;
 
 use serde::Serialize;
 use thiserror::Error;
 
-/// Model of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum FrictionModel {
-    /// Coulomb, viscous and Stribeck friction without memory (R5.10).
-    Stribeck,
-    /// One bristle (R5.11).
-    #[default]
-    Lugre,
-    /// Generalized Maxwell slip: elements that stick and slip (R5.12).
-    Gms,
+frictcomp::words! {
+    /// Model of friction.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
+    pub enum FrictionModel {
+        /// Coulomb, viscous and Stribeck friction without memory (R5.10).
+        Stribeck = "stribeck",
+        /// One bristle (R5.11).
+        #[default]
+        Lugre = "lugre",
+        /// Generalized Maxwell slip: elements that stick and slip (R5.12).
+        Gms = "gms",
+    }
 }
 
 /// A word that names no friction model.
@@ -26,9 +27,6 @@ pub enum FrictionModel {
 pub struct UnknownFrictionModel(pub String);
 
 impl FrictionModel {
-    /// Every model, the simplest first.
-    pub const ALL: [Self; 3] = [Self::Stribeck, Self::Lugre, Self::Gms];
-
     /// Returns the meaning in a few words.
     pub fn title(self) -> &'static str {
         match self {
@@ -36,21 +34,6 @@ impl FrictionModel {
             Self::Lugre => "LuGre, a single bristle",
             Self::Gms => "Generalized Maxwell-slip, elements that stick and slip",
         }
-    }
-
-    /// The name on the command line and in reports.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Stribeck => "stribeck",
-            Self::Lugre => "lugre",
-            Self::Gms => "gms",
-        }
-    }
-}
-
-impl fmt::Display for FrictionModel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
     }
 }
 

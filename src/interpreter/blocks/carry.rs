@@ -9,6 +9,7 @@ use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis, Moves};
 use crate::interpreter::effects::couple::{ends_following, gear_of};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
@@ -148,7 +149,7 @@ impl Interpreter {
         let plane = || [self.main_axis(b'X'), self.main_axis(b'Y')];
         Some(match row.moves {
             Moves::Plane => match plane() {
-                [Some(first), Some(second)] if self.is_skewed() => {
+                [Some(first), Some(second)] if self.state.control.is_skewed() => {
                     (vec![first, second], row.certainty)
                 }
                 [Some(first), Some(second)] => (vec![first, second], Certainty::Possible),
@@ -158,11 +159,6 @@ impl Interpreter {
             Moves::Channel => (self.path_axes(), row.certainty),
             _ => return None,
         })
-    }
-
-    fn is_skewed(&self) -> bool {
-        let modal = &self.state.control.modal;
-        modal.skewed && !modal.transformed.contains("#MCS")
     }
 
     /// A motion word in a rotated or transformed frame moves its other axes, too.
@@ -270,5 +266,12 @@ impl Interpreter {
         };
         let new: Vec<_> = moving.into_values().filter(is_new).collect();
         self.scratch.also_moved.extend(new);
+    }
+}
+
+impl ControlState {
+    fn is_skewed(&self) -> bool {
+        let modal = &self.modal;
+        modal.skewed && !modal.transformed.contains("#MCS")
     }
 }

@@ -10,6 +10,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::condition::ConditionKind;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
@@ -102,7 +103,7 @@ impl Interpreter {
                     }
                     self.skip_unknown(entry..links.end, cause, span, at)
                 } else {
-                    self.seek(Seeking::Case(value));
+                    self.state.control.seek(Seeking::Case(value));
                     Some(Step::Jump(links.next))
                 }
             }
@@ -114,7 +115,7 @@ impl Interpreter {
                     } else if same_case(&wanted, &value) {
                         None
                     } else {
-                        self.seek(Seeking::Case(wanted));
+                        self.state.control.seek(Seeking::Case(wanted));
                         Some(Step::Jump(links.next))
                     }
                 }
@@ -156,12 +157,6 @@ impl Interpreter {
         })
     }
 
-    fn seek(&mut self, seeking: Seeking) {
-        if let Some(frame) = self.state.control.frames.running_mut() {
-            frame.seeking = Some(seeking);
-        }
-    }
-
     fn branch(
         &mut self,
         condition: Operand,
@@ -182,7 +177,7 @@ impl Interpreter {
             }
             (_, Some(true)) => None,
             (_, Some(false)) => {
-                self.seek(Seeking::Condition);
+                self.state.control.seek(Seeking::Condition);
                 Some(Step::Jump(next))
             }
             (_, None) => return Err(no_condition(span)),
@@ -436,6 +431,14 @@ impl Interpreter {
         );
         let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
         self.tell_once(cause, what, fault, at);
+    }
+}
+
+impl ControlState {
+    fn seek(&mut self, seeking: Seeking) {
+        if let Some(frame) = self.frames.running_mut() {
+            frame.seeking = Some(seeking);
+        }
     }
 }
 

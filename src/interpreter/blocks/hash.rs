@@ -9,6 +9,7 @@ use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::effects::machine_data::{Written, enables, is_machine_data, written};
 use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -43,7 +44,7 @@ impl Interpreter {
                 self.scratch.dwells = true;
                 if let Some(&time) = hash.arguments.first() {
                     let seconds = self.value(time, at)?.number();
-                    self.geometry().dwell = Some(seconds);
+                    self.scratch.geometry().dwell = Some(seconds);
                 }
             }
             // PM/207120267
@@ -64,11 +65,11 @@ impl Interpreter {
                 self.state.control.memory.clear_macros();
                 self.define_machine_macros();
             }
-            "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
+            "#RETAIN CYCLE CHANGES" => self.state.control.retain_cycle_changes(),
             "#COMMENT END" | "#ENDVAR" => {}
             name if is_file_name(name) => self.name_programs(hash, at),
-            opener if description_end(opener).is_some() => self.describe(hash, at),
-            end if self.ends_description(end) => {
+            opener if description_end(opener).is_some() => self.state.control.describe(hash, at),
+            end if self.state.control.ends_description(end) => {
                 if let Some(description) = self.state.control.described.take() {
                     self.state
                         .control
@@ -223,10 +224,12 @@ impl Interpreter {
             outcome.step = Some(Step::End(EndedBy::Error));
         }
     }
+}
 
+impl ControlState {
     /// The cycle that runs keeps what it did to G functions and feed.
     fn retain_cycle_changes(&mut self) {
-        if let Some(frame) = self.state.control.frames.cycle_mut() {
+        if let Some(frame) = self.frames.cycle_mut() {
             frame.restores = None;
         }
     }

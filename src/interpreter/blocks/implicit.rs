@@ -8,6 +8,7 @@ use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::value::Value;
@@ -171,16 +172,18 @@ impl Interpreter {
         for (word, name) in file_names(hash.rest.of(at.text)) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),
-                FileName::Elsewhere(name) => self.named_elsewhere(name),
+                FileName::Elsewhere(name) => self.state.control.named_elsewhere(name),
             };
             self.state.control.named.insert(word, value);
             self.scratch.wrote = true;
         }
     }
+}
 
+impl ControlState {
     /// The text of a variable, or that it is not known.
     fn named_elsewhere(&mut self, name: &str) -> Value {
-        match self.state.control.memory.variable(name) {
+        match self.memory.variable(name) {
             Some(value @ Value::Text(_)) => value,
             _ => Value::Unknown(name.into()),
         }

@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
+use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::hash_parts::point_after;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
@@ -102,7 +103,7 @@ impl Interpreter {
     #[inline]
     fn say(&mut self, done: Result<(), Box<Fault>>, at: &BlockContext<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
-            self.complain(*fault, at);
+            self.scratch.complain(*fault, at);
         }
         if self.is_halted() {
             ControlFlow::Break(())
@@ -115,16 +116,6 @@ impl Interpreter {
     #[inline]
     pub(in crate::interpreter) fn is_halted(&self) -> bool {
         self.options.stop == StopPolicy::FirstError && self.scratch.diagnostics.iter().any(stops)
-    }
-
-    #[cold]
-    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
-        if self.scratch.diagnostics.len() < MAX_SAID || !self.scratch.diagnostics.iter().any(stops)
-        {
-            self.scratch.diagnostics.push(at.diagnostic(fault));
-        } else {
-            self.scratch.unsaid.get_or_insert((fault.span, 0)).1 += 1;
-        }
     }
 
     #[inline(never)]
@@ -159,7 +150,7 @@ impl Interpreter {
             Item::BareNumber(operand, span) => {
                 let value = self.value(*operand, at)?;
                 if outcome.axis_words != AxisWords::Motion {
-                    self.geometry().dwell = Some(value.number());
+                    self.scratch.geometry().dwell = Some(value.number());
                     return Ok(());
                 }
                 let found = span.of(at.text);
@@ -242,7 +233,7 @@ impl Interpreter {
         if self.options.stop == StopPolicy::FirstError {
             return Err(Box::new(fault));
         }
-        self.complain(fault, at);
+        self.scratch.complain(fault, at);
         self.scratch.unread.set(true);
         Ok(())
     }
@@ -330,9 +321,20 @@ impl Interpreter {
         match value {
             Ok(value) => value.number().and_then(rounded),
             Err(fault) => {
-                self.complain(*fault, at);
+                self.scratch.complain(*fault, at);
                 None
             }
+        }
+    }
+}
+
+impl BlockScratch {
+    #[cold]
+    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &BlockContext<'_>) {
+        if self.diagnostics.len() < MAX_SAID || !self.diagnostics.iter().any(stops) {
+            self.diagnostics.push(at.diagnostic(fault));
+        } else {
+            self.unsaid.get_or_insert((fault.span, 0)).1 += 1;
         }
     }
 }

@@ -31,7 +31,7 @@ impl Interpreter {
     /// Takes note of what a commanded trace does not follow in full.
     pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
         if holds == Holds::Once {
-            let geometry = self.geometry();
+            let geometry = self.scratch.geometry();
             geometry.simplified = geometry.simplified.union(what.into());
         } else {
             self.state.control.modal.simplify(what, holds);

@@ -7,6 +7,7 @@ use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::condition::ConditionKind;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
@@ -88,7 +89,7 @@ impl Interpreter {
             if let [(Target::Variable(name), Value::Number(number))] =
                 conclusions(at.block, at.text, expression, truth).as_slice()
                 && let Some(of) = self.active_variable(name)
-                && self.is_effective(of)
+                && self.state.control.is_effective(of)
                 && let Some(says) = Truth::of_switch(*number)
             {
                 return Some((
@@ -102,10 +103,6 @@ impl Interpreter {
             }
         }
         None
-    }
-
-    fn is_effective(&self, (axis, kind): (AxisIndex, Kind)) -> bool {
-        self.state.control.compensation.is_parameterised(axis, kind)
     }
 
     /// Whether a condition may say what a value is: one that the program and the machine hold, and
@@ -373,6 +370,12 @@ impl Interpreter {
             };
             self.scratch.notes.borrow_mut().push(note);
         }
+    }
+}
+
+impl ControlState {
+    fn is_effective(&self, (axis, kind): (AxisIndex, Kind)) -> bool {
+        self.compensation.is_parameterised(axis, kind)
     }
 }
 

@@ -76,7 +76,7 @@ impl Interpreter {
             Ok(found) => found?,
             Err(fault) => {
                 let cause = program(&wanted.name);
-                self.enter_root(&cause, wanted.span, at);
+                self.state.told.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
                 self.scratch.diagnostics.push(at.diagnostic(*fault));
                 return None;

@@ -4,6 +4,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{Part, Wanted};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::Frame;
@@ -121,7 +122,8 @@ impl Interpreter {
                     )));
                 };
                 let number = u32::try_from(number).unwrap_or(u32::MAX);
-                self.warn_too_many_jumps(number, here, back.span, at);
+                self.scratch
+                    .warn_too_many_jumps(number, here, back.span, at);
                 here.saturating_sub(number)
             }
         };
@@ -163,7 +165,9 @@ impl Interpreter {
         outcome.step = Some(Step::ReturnTo(Destination { level, entry }));
         Ok(())
     }
+}
 
+impl BlockScratch {
     /// FC317: the control warns and goes back to the main program (PM/206781707). A subprogram that
     /// is run by itself is none.
     fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &BlockContext<'_>) {
@@ -176,6 +180,6 @@ impl Interpreter {
         );
         let fault = Fault::new(Code::Fc317, span, message)
             .with_help("`M17 [MAIN]` says that the main program is meant");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
+        self.diagnostics.push(at.diagnostic(fault));
     }
 }

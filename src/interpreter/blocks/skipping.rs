@@ -50,7 +50,7 @@ impl Interpreter {
         let words = at.block.words.iter().filter_map(|word| word.value);
         for operand in words.chain(after) {
             if let Err(fault) = self.value(operand, at) {
-                self.complain(*fault, at);
+                self.scratch.complain(*fault, at);
             }
         }
         let commands = at.block.items.iter().filter_map(|item| match item {

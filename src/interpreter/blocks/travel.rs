@@ -8,17 +8,14 @@ use crate::interpreter::coordinates::motion::{
     Arc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
+use crate::interpreter::run::block_scratch::BlockScratch;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::machine::AxisType;
 use crate::text::Span;
 
 impl Interpreter {
-    /// The geometry words of the block.
-    pub(in crate::interpreter) fn geometry(&mut self) -> &mut Geometry {
-        self.scratch.geometry.get_or_insert_default()
-    }
-
     /// I, J, K or R of a circle.
     pub(in crate::interpreter) fn circle_word(
         &mut self,
@@ -30,7 +27,7 @@ impl Interpreter {
         let inch = self.state.control.modal.functions.inch;
         let value = value.filter(|_| metric);
         let value = value.map(|value| if inch { value * 25.4 } else { value });
-        let geometry = self.geometry();
+        let geometry = self.scratch.geometry();
         geometry.span.get_or_insert(span);
         match letter {
             b'R' => geometry.radius = Some(value),
@@ -82,15 +79,8 @@ impl Interpreter {
         }
         let around = self.scratch.moved.len() - own;
         if around > 0 {
-            self.geometry().around = around;
+            self.scratch.geometry().around = around;
         }
-    }
-
-    /// The words of the block that say where axes go.
-    #[inline]
-    pub(in crate::interpreter) fn coordinates(&self) -> usize {
-        let around = self.scratch.geometry.as_ref().map_or(0, |it| it.around);
-        self.scratch.moved.len() - around
     }
 
     /// `G04 P1`: the parameter holds the seconds (PM/206132747).
@@ -100,12 +90,7 @@ impl Interpreter {
             .and_then(|index| u32::try_from(index).ok());
         let value = index.and_then(|index| self.state.control.memory.parameter(index));
         let seconds = value.and_then(|value| value.number());
-        self.geometry().dwell = Some(seconds);
-    }
-
-    /// The position of every axis, for a block that may move.
-    pub(in crate::interpreter) fn stand(&self) -> Vec<Option<f64>> {
-        self.state.control.modal.positions().to_vec()
+        self.scratch.geometry().dwell = Some(seconds);
     }
 
     /// Makes the motion of the block, which started at `from`.
@@ -195,7 +180,8 @@ impl Interpreter {
         };
         let centre = if geometry.centre.iter().any(Option::is_some) {
             let offset = |letter: u8| geometry.centre[usize::from(letter - b'X')];
-            let at = |axis: AxisIndex, letter| self.centre_of(axis, offset(letter), from);
+            let at =
+                |axis: AxisIndex, letter| self.state.control.centre_of(axis, offset(letter), from);
             match (at(one, first), at(two, second)) {
                 (Some(a), Some(b)) => Centre::Point([a, b]),
                 _ => return Form::Unknown("the centre of the circle is not known"),
@@ -215,25 +201,6 @@ impl Interpreter {
             },
             centre,
         })
-    }
-
-    /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
-    /// program (PM/206537483). Only with G162 a word may be left out.
-    fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
-        let modal = &self.state.control.modal;
-        if !modal.is_known(Group::CircleCentre) {
-            return None;
-        }
-        let start = if modal.functions.centre_absolute {
-            modal.reference(axis)
-        } else {
-            from.get(axis.get()).copied().flatten()
-        };
-        let word = match word {
-            None if !modal.functions.centre_absolute => Some(0.0),
-            word => word.flatten(),
-        };
-        start.zip(word).map(|(start, word)| start + word)
     }
 
     /// Computes the velocity of the block from F, overrides and the spindle.
@@ -305,5 +272,45 @@ impl Interpreter {
         let unit_mm = modal.unit_per_min();
         let feed = self.per_minute(ProgrammedFeed { value, unit_mm })?;
         Some(feed * self.override_share(geometry, Haste::Feed)?)
+    }
+}
+
+impl BlockScratch {
+    /// The words of the block that say where axes go.
+    #[inline]
+    pub(in crate::interpreter) fn coordinates(&self) -> usize {
+        let around = self.geometry.as_ref().map_or(0, |it| it.around);
+        self.moved.len() - around
+    }
+
+    /// The geometry words of the block.
+    pub(in crate::interpreter) fn geometry(&mut self) -> &mut Geometry {
+        self.geometry.get_or_insert_default()
+    }
+}
+
+impl ControlState {
+    /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// program (PM/206537483). Only with G162 a word may be left out.
+    fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
+        let modal = &self.modal;
+        if !modal.is_known(Group::CircleCentre) {
+            return None;
+        }
+        let start = if modal.functions.centre_absolute {
+            modal.reference(axis)
+        } else {
+            from.get(axis.get()).copied().flatten()
+        };
+        let word = match word {
+            None if !modal.functions.centre_absolute => Some(0.0),
+            word => word.flatten(),
+        };
+        start.zip(word).map(|(start, word)| start + word)
+    }
+
+    /// The position of every axis, for a block that may move.
+    pub(in crate::interpreter) fn stand(&self) -> Vec<Option<f64>> {
+        self.modal.positions().to_vec()
     }
 }

@@ -14,6 +14,7 @@ use crate::interpreter::coordinates::moving;
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
@@ -173,25 +174,9 @@ impl Interpreter {
         }
         match letter {
             b'F' => outcome.feed = Feed::Given(Some(number)),
-            b'G' => return self.modal_word(number, outcome),
+            b'G' => return self.state.control.modal_word(number, outcome),
             _ => return false,
         }
-        true
-    }
-
-    /// Puts a G function of a group into force, unless the block has another one of the group.
-    #[inline]
-    fn modal_word(&mut self, number: f64, outcome: &mut BlockOutcome) -> bool {
-        let Some(number) = exact(number) else {
-            return false;
-        };
-        let Some(group) = Group::of(number) else {
-            return false;
-        };
-        if *outcome.groups[group as usize].get_or_insert(number) != number {
-            return false;
-        }
-        self.state.control.modal.set(group, number);
         true
     }
 
@@ -283,7 +268,7 @@ impl Interpreter {
             (b'M', Some(2)) => outcome.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => outcome.returns = true,
             (b'S', _) => self.state.control.modal.pace.speed(number),
-            (b'E', _) => self.geometry().end_feed = Some(number),
+            (b'E', _) => self.scratch.geometry().end_feed = Some(number),
             (b'F', _) => outcome.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
@@ -362,10 +347,10 @@ impl Interpreter {
             }
             (None, 60) => {
                 self.scratch.rests.set(true);
-                self.geometry().end = BlockEnd::ExactStop;
+                self.scratch.geometry().end = BlockEnd::ExactStop;
             }
             // PM/206744331
-            (None, 166) => self.geometry().at_full_speed = true,
+            (None, 166) => self.scratch.geometry().at_full_speed = true,
             (None, 163) if self.radius_word(span, at) => outcome.radius = Some(at.in_block(span)),
             (None, 129) => {
                 self.weigh_rapid(span, at);
@@ -390,7 +375,7 @@ impl Interpreter {
                 } else if NO_MOTION.contains(&number) {
                     outcome.axis_words = AxisWords::Other;
                 } else if let Some(reason) = foreign(number) {
-                    self.geometry().foreign = Some(reason);
+                    self.scratch.geometry().foreign = Some(reason);
                     if chain::is_measuring(number) {
                         outcome.axis_words = AxisWords::Measuring;
                     }
@@ -421,9 +406,10 @@ impl Interpreter {
         }
         // The lint of switches on the way looks at arcs (R1.57).
         let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
-        let start = (is_arc || self.options.motions == Motions::Taken).then(|| self.stand());
+        let start =
+            (is_arc || self.options.motions == Motions::Taken).then(|| self.state.control.stand());
         let before = outcome.radius.map(|_| self.ends());
-        let coordinates = self.coordinates();
+        let coordinates = self.scratch.coordinates();
         let modal = &mut self.state.control.modal;
         match outcome.axis_words {
             AxisWords::Motion => modal.move_axes(&mut self.scratch.moved[..coordinates]),
@@ -448,7 +434,7 @@ impl Interpreter {
 
     /// Returns the positions of the axes of the block's words, where they are known.
     fn ends(&self) -> Vec<Option<f64>> {
-        let words = self.scratch.moved[..self.coordinates()].iter();
+        let words = self.scratch.moved[..self.scratch.coordinates()].iter();
         words
             .map(|word| self.state.control.modal.position(word.axis).value)
             .collect()
@@ -468,5 +454,23 @@ impl Interpreter {
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
             self.scratch.diagnostics.push(at.diagnostic(fault));
         }
+    }
+}
+
+impl ControlState {
+    /// Puts a G function of a group into force, unless the block has another one of the group.
+    #[inline]
+    fn modal_word(&mut self, number: f64, outcome: &mut BlockOutcome) -> bool {
+        let Some(number) = exact(number) else {
+            return false;
+        };
+        let Some(group) = Group::of(number) else {
+            return false;
+        };
+        if *outcome.groups[group as usize].get_or_insert(number) != number {
+            return false;
+        }
+        self.modal.set(group, number);
+        true
     }
 }

@@ -4,6 +4,7 @@ use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::moving::{self, Moves, is_between};
 use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
 
@@ -17,7 +18,7 @@ impl Interpreter {
         let group = self.group_of(rest, at);
         self.scratch.wrote = true;
         let changed = self.state.control.couplings.define(&group, axes);
-        self.mark_coupled(changed);
+        self.state.control.mark_coupled(changed);
     }
 
     pub(in crate::interpreter) fn enable_coupling(
@@ -29,21 +30,11 @@ impl Interpreter {
         let group = self.group_of(rest, at);
         self.simplify(Simplification::Coupling, Holds::On);
         if let Some(changed) = self.state.control.couplings.enable(&group) {
-            self.mark_coupled(changed);
-            self.lose_followers(&group);
+            self.state.control.mark_coupled(changed);
+            self.state.control.lose_followers(&group);
         } else {
             // A group of the channel parameters: which axes it couples is not known offline.
             self.pass_over("#ENABLE AX LINK", span, at);
-        }
-    }
-
-    /// Axes that follow others are anywhere from here on: `slave=master` (PM/207120267).
-    fn lose_followers(&mut self, group: &str) {
-        let groups = self.state.control.couplings.groups();
-        let axes = groups.filter(|(name, _)| *name == group);
-        let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
-        for axis in followers.collect::<Vec<_>>() {
-            self.state.control.modal.havoc_position(axis);
         }
     }
 
@@ -55,7 +46,7 @@ impl Interpreter {
         } else {
             self.state.control.couplings.release(&group)
         };
-        self.mark_coupled(changed);
+        self.state.control.mark_coupled(changed);
         if !self.state.control.couplings.is_any() {
             self.simplify(Simplification::Coupling, Holds::Off);
         }
@@ -64,7 +55,7 @@ impl Interpreter {
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
     pub(in crate::interpreter) fn release_couplings(&mut self) {
         let changed = self.state.control.couplings.release_all();
-        self.mark_coupled(changed);
+        self.state.control.mark_coupled(changed);
         self.simplify(Simplification::Coupling, Holds::Off);
     }
 
@@ -78,13 +69,7 @@ impl Interpreter {
         for axis in &changed {
             self.state.control.modal.havoc_position(*axis);
         }
-        self.mark_coupled(changed);
-    }
-
-    /// These axes may be coupled by groups whose members are unknown.
-    pub(in crate::interpreter) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
-        let changed = self.state.control.couplings.havoc_definitions(axes);
-        self.mark_coupled(changed);
+        self.state.control.mark_coupled(changed);
     }
 
     /// Commands by which an axis follows others, beside the coupling groups (R10.7).
@@ -176,13 +161,6 @@ impl Interpreter {
         self.machine.find(word).or_else(by_number)
     }
 
-    fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
-        for axis in changed {
-            let coupling = self.state.control.couplings.of(axis);
-            self.state.control.compensation.set_coupled(axis, coupling);
-        }
-    }
-
     /// The axes that a definition of a coupling group names; `None` for any other command.
     pub(in crate::interpreter) fn defined_axes(
         &self,
@@ -232,6 +210,31 @@ impl Interpreter {
         axes.filter(|(_, axis)| axis.number.is_some_and(|number| numbers.contains(&number)))
             .map(|(position, _)| AxisIndex::new(position))
             .collect()
+    }
+}
+
+impl ControlState {
+    /// These axes may be coupled by groups whose members are unknown.
+    pub(in crate::interpreter) fn havoc_definitions(&mut self, axes: &[AxisIndex]) {
+        let changed = self.couplings.havoc_definitions(axes);
+        self.mark_coupled(changed);
+    }
+
+    /// Axes that follow others are anywhere from here on: `slave=master` (PM/207120267).
+    fn lose_followers(&mut self, group: &str) {
+        let groups = self.couplings.groups();
+        let axes = groups.filter(|(name, _)| *name == group);
+        let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
+        for axis in followers.collect::<Vec<_>>() {
+            self.modal.havoc_position(axis);
+        }
+    }
+
+    fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
+        for axis in changed {
+            let coupling = self.couplings.of(axis);
+            self.compensation.set_coupled(axis, coupling);
+        }
     }
 }
 

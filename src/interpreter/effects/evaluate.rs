@@ -7,6 +7,8 @@ use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::Frame as PositionFrame;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_scratch::BlockScratch;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::{Evaluator, Given, Macros, Scope};
@@ -56,25 +58,9 @@ impl Interpreter {
         let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
         self.scratch.stack = stack;
         if let Some(name) = self.scratch.flushing.take() {
-            self.note_flush(&name, at);
+            self.scratch.note_flush(&name, at);
         }
         value
-    }
-
-    /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
-    /// (R1.42).
-    fn note_flush(&mut self, name: &str, at: &BlockContext<'_>) {
-        let found = at
-            .text
-            .find(name)
-            .map(|start| Span::new(start, start + name.len()));
-        let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
-        let message = format!(
-            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
-        );
-        let fault = Fault::new(Code::Fc412, span, message)
-            .with_help("read it before G41 or G42, into a parameter for instance");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     pub(in crate::interpreter) fn with_evaluator<T>(
@@ -155,7 +141,7 @@ impl Interpreter {
     /// Returns the value of a variable of the machine itself that the dry run knows (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
         if let Some(index) = given_parameter(name) {
-            return self.is_given(index);
+            return self.state.control.is_given(index);
         }
         let own = self.own_variable(name)?;
         let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
@@ -276,15 +262,6 @@ impl Interpreter {
         }
     }
 
-    /// Whether the call gave an own parameter (R2.79).
-    fn is_given(&self, index: u32) -> Option<Value> {
-        let frame = self.state.control.frames.running()?;
-        let name = format!("@P{index}");
-        let given =
-            frame.own.contains_key(&index) || self.state.control.memory.variable(&name).is_some();
-        (given || frame.level > 0).then(|| given.into())
-    }
-
     pub(in crate::interpreter) fn assign(
         &mut self,
         assignment: Assignment,
@@ -377,6 +354,34 @@ impl Interpreter {
             }
             Target::Parameters => self.write(Place::Parameters(cause.clone()), unknown()),
         }
+    }
+}
+
+impl BlockScratch {
+    /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
+    /// (R1.42).
+    fn note_flush(&mut self, name: &str, at: &BlockContext<'_>) {
+        let found = at
+            .text
+            .find(name)
+            .map(|start| Span::new(start, start + name.len()));
+        let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
+        let message = format!(
+            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
+        );
+        let fault = Fault::new(Code::Fc412, span, message)
+            .with_help("read it before G41 or G42, into a parameter for instance");
+        self.diagnostics.push(at.diagnostic(fault));
+    }
+}
+
+impl ControlState {
+    /// Whether the call gave an own parameter (R2.79).
+    fn is_given(&self, index: u32) -> Option<Value> {
+        let frame = self.frames.running()?;
+        let name = format!("@P{index}");
+        let given = frame.own.contains_key(&index) || self.memory.variable(&name).is_some();
+        (given || frame.level > 0).then(|| given.into())
     }
 }
 

@@ -11,6 +11,7 @@ use crate::comp::{AxisIndex, CompensationError, Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
 use crate::interpreter::values::work_budget::ITEM;
@@ -46,23 +47,6 @@ const COMMANDS: [(&str, Exchange); 8] = [
 ];
 
 impl Interpreter {
-    /// The axis that a COMP command switches under the names of the moment.
-    pub(in crate::interpreter) fn addressed(
-        &self,
-        name: &str,
-    ) -> Result<Addressed, CompensationError> {
-        let channel = &self.state.control.channel_axes;
-        if channel.doubtful {
-            return Ok(Addressed::Any);
-        }
-        Ok(match channel.names.get(name) {
-            None => Addressed::Axis(self.state.control.compensation.resolve(name)?),
-            Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
-            Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
-            Some(Meaning::Unknown) => Addressed::Any,
-        })
-    }
-
     /// Executes an exchange command.
     pub(in crate::interpreter) fn exchange_axes(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let Some(exchange) = exchange(&hash.name) else {
@@ -76,9 +60,9 @@ impl Interpreter {
         }
         match exchange {
             Exchange::Restore if self.state.control.channel_axes == ChannelAxes::default() => {}
-            Exchange::Restore => self.havoc_exchange(),
+            Exchange::Restore => self.state.control.havoc_exchange(),
             Exchange::Undescribed => {
-                self.havoc_exchange();
+                self.state.control.havoc_exchange();
                 let fault = Fault::new(
                     Code::Fc902,
                     hash.span,
@@ -116,7 +100,7 @@ impl Interpreter {
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
             if let Some(Meaning::Axis(axis)) = meaning
-                && self.was_released(axis)
+                && self.state.control.was_released(axis)
             {
                 self.state.rests_on.insert(Question::AxisExchange);
                 if self.machine.readings.takes_second(Question::AxisExchange) {
@@ -131,13 +115,6 @@ impl Interpreter {
                 names.insert(name.to_owned(), meaning.unwrap_or(Meaning::Unknown));
             }
         }
-    }
-
-    /// Whether the channel gave an axis away and does not have it under any name.
-    fn was_released(&self, axis: AxisIndex) -> bool {
-        let names = self.state.control.channel_axes.names.values();
-        let mut names = names.copied();
-        names.any(|meaning| meaning == Meaning::Released(Some(axis)))
     }
 
     /// Friction compensation of an axis is that of the start of the control, where the machine is read
@@ -197,10 +174,36 @@ impl Interpreter {
             self.release_axis(name);
         }
     }
+}
+
+impl ControlState {
+    /// The axis that a COMP command switches under the names of the moment.
+    pub(in crate::interpreter) fn addressed(
+        &self,
+        name: &str,
+    ) -> Result<Addressed, CompensationError> {
+        let channel = &self.channel_axes;
+        if channel.doubtful {
+            return Ok(Addressed::Any);
+        }
+        Ok(match channel.names.get(name) {
+            None => Addressed::Axis(self.compensation.resolve(name)?),
+            Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
+            Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
+            Some(Meaning::Unknown) => Addressed::Any,
+        })
+    }
 
     /// An exchange that may or may not have been executed.
     pub(in crate::interpreter) fn havoc_exchange(&mut self) {
-        self.state.control.channel_axes.doubtful = true;
+        self.channel_axes.doubtful = true;
+    }
+
+    /// Whether the channel gave an axis away and does not have it under any name.
+    fn was_released(&self, axis: AxisIndex) -> bool {
+        let names = self.channel_axes.names.values();
+        let mut names = names.copied();
+        names.any(|meaning| meaning == Meaning::Released(Some(axis)))
     }
 }
 

@@ -7,6 +7,7 @@ use super::descriptions::DESCRIPTIONS;
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified::{self, Holds};
+use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
 use crate::interpreter::values::memory::unescaped;
@@ -52,19 +53,9 @@ impl Interpreter {
         let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
         if self.scratch.also_moved.iter().filter(possible).count() < count {
             for axis in (0..count).map(AxisIndex::new) {
-                self.perhaps_move(axis);
+                self.scratch.perhaps_move(axis);
             }
         }
-    }
-
-    /// It is not known whether an axis moves.
-    pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
-        self.scratch.also_moved.push(MovedAxis {
-            axis,
-            span: Span::default(),
-            kind: MotionKind::Unknown,
-            certainty: Certainty::Possible,
-        });
     }
 
     /// Every parameter and variable becomes unknown.
@@ -141,5 +132,17 @@ impl Interpreter {
                 self.state.control.modal.havoc_hash(name);
             }
         }
+    }
+}
+
+impl BlockScratch {
+    /// It is not known whether an axis moves.
+    pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
+        self.also_moved.push(MovedAxis {
+            axis,
+            span: Span::default(),
+            kind: MotionKind::Unknown,
+            certainty: Certainty::Possible,
+        });
     }
 }

@@ -5,37 +5,11 @@ use std::sync::Arc;
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::undecided::Told;
 use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Interpreter {
-    /// Remembers where an unknown value came in first.
-    pub(in crate::interpreter) fn enter_root(
-        &mut self,
-        cause: &Arc<str>,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
-        self.state.told.enter(cause, || at.place(at.in_block(span)));
-    }
-
-    /// The message with the block that brought the value in, where its own block does not show it.
-    pub(in crate::interpreter) fn with_origin(
-        &self,
-        said: Diagnostic,
-        cause: &str,
-        at: &BlockContext<'_>,
-    ) -> Diagnostic {
-        let is_shown = at.text.contains(cause) || at.block.skip.is_some();
-        let origin = self.state.told.origin(cause).filter(|_| !is_shown);
-        match origin {
-            Some(origin) if (&origin.file, origin.first_line) != (at.file, at.line) => {
-                said.with_label(origin.clone(), "the unknown value comes from here")
-            }
-            _ => said,
-        }
-    }
-
     /// Says something about an unknown value once a program (FC902); again only where `what` differs.
     pub(in crate::interpreter) fn tell_once(
         &mut self,
@@ -46,8 +20,8 @@ impl Interpreter {
     ) {
         let span = fault.span;
         let said = at.diagnostic(fault);
-        let said = self.with_origin(said, cause, at);
-        self.enter_root(cause, span, at);
+        let said = self.state.told.with_origin(said, cause, at);
+        self.state.told.enter_root(cause, span, at);
         if self
             .state
             .told
@@ -56,6 +30,35 @@ impl Interpreter {
             self.scratch.diagnostics.push(said);
         } else {
             self.scratch.aside.withheld.push(said);
+        }
+    }
+}
+
+impl Told {
+    /// Remembers where an unknown value came in first.
+    pub(in crate::interpreter) fn enter_root(
+        &mut self,
+        cause: &Arc<str>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        self.enter(cause, || at.place(at.in_block(span)));
+    }
+
+    /// The message with the block that brought the value in, where its own block does not show it.
+    pub(in crate::interpreter) fn with_origin(
+        &self,
+        said: Diagnostic,
+        cause: &str,
+        at: &BlockContext<'_>,
+    ) -> Diagnostic {
+        let is_shown = at.text.contains(cause) || at.block.skip.is_some();
+        let origin = self.origin(cause).filter(|_| !is_shown);
+        match origin {
+            Some(origin) if (&origin.file, origin.first_line) != (at.file, at.line) => {
+                said.with_label(origin.clone(), "the unknown value comes from here")
+            }
+            _ => said,
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
+use crate::interpreter::run::path::Track;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
@@ -216,24 +217,11 @@ impl Interpreter {
         work.diagnostics.append(&mut work.of_some_ways);
     }
 
-    /// Drops readings that an action of the control may change; a `#` command may wait for any
-    /// value (R14.1).
-    #[cold]
-    fn outdate_readings(&mut self, block: &Block) {
-        let readings = &mut self.state.track.readings;
-        let mut items = block.items.iter();
-        if items.clone().any(|item| matches!(item, Item::Hash(_))) {
-            readings.clear();
-        } else if !block.words.is_empty() || !items.all(is_still) {
-            readings.act();
-        }
-    }
-
     /// Makes unknown the effects of a block that may call, or leave for, something else.
     #[inline]
     fn havoc_ways(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) {
         if !self.state.track.readings.is_empty() {
-            self.outdate_readings(at.block);
+            self.state.track.outdate_readings(at.block);
         }
         if !self.pending.is_empty() {
             self.havoc_called(finder);
@@ -348,6 +336,21 @@ impl Interpreter {
                     text: at.text.to_owned(),
                 });
             }
+        }
+    }
+}
+
+impl Track {
+    /// Drops readings that an action of the control may change; a `#` command may wait for any
+    /// value (R14.1).
+    #[cold]
+    fn outdate_readings(&mut self, block: &Block) {
+        let readings = &mut self.readings;
+        let mut items = block.items.iter();
+        if items.clone().any(|item| matches!(item, Item::Hash(_))) {
+            readings.clear();
+        } else if !block.words.is_empty() || !items.all(is_still) {
+            readings.act();
         }
     }
 }

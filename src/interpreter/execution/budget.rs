@@ -68,7 +68,7 @@ impl Interpreter {
         match index.innermost_loop(entry) {
             Some(opener) => {
                 let place = index.block_place(opener);
-                let passes = match self.passes(unit, opener) {
+                let passes = match self.state.track.passes(unit, opener) {
                     Some(passes) => format!("in this loop, after {passes} passes"),
                     None => "in this loop".to_owned(),
                 };

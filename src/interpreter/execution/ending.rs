@@ -6,9 +6,11 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::store::Programs;
 use crate::interpreter::programs::unit::Unit;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::block_scratch::OwnEnd;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
@@ -23,19 +25,13 @@ use crate::text::{Place, Span};
 impl Interpreter {
     /// Whether what is wrong with the main program keeps it from running.
     pub(in crate::interpreter) fn is_refused(&self) -> bool {
-        !self.refused().is_empty() && self.options.stop == StopPolicy::FirstError
+        !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
     }
 
     /// Ends a program that does not run.
     pub(in crate::interpreter) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
-        let refused = self.refused();
+        let refused = self.programs.refused();
         self.ended(ended_by(&refused.said), &refused, observer)
-    }
-
-    /// Returns the faults that keep the main program from running at all.
-    pub(in crate::interpreter) fn refused(&self) -> Collected {
-        let main = self.programs.units().first();
-        main.map_or(Collected::default(), |unit| unit.index.refused.clone())
     }
 
     /// Ends a program whose text is in memory.
@@ -47,7 +43,7 @@ impl Interpreter {
         let RunOutcome::Ended(by) = outcome else {
             return outcome;
         };
-        let mut notes = self.refused();
+        let mut notes = self.programs.refused();
         notes.extend(self.scratch.over.drain(..));
         if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
             notes.extend(self.missing_end());
@@ -65,7 +61,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         let mut notes = Cow::Borrowed(notes);
-        if let Some(open) = self.open_description()
+        if let Some(open) = self.state.control.open_description()
             && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
         {
             notes.to_mut().push(open);
@@ -139,44 +135,19 @@ impl Interpreter {
             place,
             is_passed_into: at.is_some_and(|end| end.is_passed_into),
             cause: None,
-            compensation: self.left_with(own.as_deref()),
+            compensation: self.state.control.left_with(own.as_deref()),
         });
         let others = others.into_iter().filter_map(|end| {
-            let place = self.place_of(end.place)?;
+            let place = self.programs.place_of(end.place)?;
             let is_reached = at.is_some_and(|at| at.place == place);
             (!is_reached).then(|| ProgramEnd {
                 place,
                 is_passed_into: false,
                 cause: Some(end.cause),
-                compensation: self.left_with(Some(&end.kinds)),
+                compensation: self.state.control.left_with(Some(&end.kinds)),
             })
         });
         reached.into_iter().chain(others).collect()
-    }
-
-    /// The state after a program end with these kinds.
-    fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
-        let mut compensation = self.state.control.compensation.clone();
-        for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
-            let axis = AxisIndex::new(position);
-            compensation.restore(axis, kinds.selected, kinds.unknown);
-        }
-        let _ = compensation.program_end();
-        compensation
-    }
-
-    /// The place of a block that was not executed.
-    fn place_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Place> {
-        let index = &self.programs.units().get(unit)?.index;
-        let mut block = Block::default();
-        let mut reader = index.reader(entry)?;
-        let raw = reader.next(&mut block)?;
-        Some(Place {
-            file: index.source.name().clone(),
-            text: raw.text.into(),
-            first_line: raw.line,
-            span: Span::new(0, raw.text.len()),
-        })
     }
 
     /// Blocks that no run of the program and of the files that it calls reached, for their syntax.
@@ -234,5 +205,40 @@ impl Interpreter {
                 .filter(|fault| !is_harmless(&self.machine.harmless, fault, raw.text))
                 .map(|fault| at.diagnostic(fault.clone())),
         );
+    }
+}
+
+impl Programs {
+    /// The place of a block that was not executed.
+    fn place_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Place> {
+        let index = &self.units().get(unit)?.index;
+        let mut block = Block::default();
+        let mut reader = index.reader(entry)?;
+        let raw = reader.next(&mut block)?;
+        Some(Place {
+            file: index.source.name().clone(),
+            text: raw.text.into(),
+            first_line: raw.line,
+            span: Span::new(0, raw.text.len()),
+        })
+    }
+
+    /// Returns the faults that keep the main program from running at all.
+    pub(in crate::interpreter) fn refused(&self) -> Collected {
+        let main = self.units().first();
+        main.map_or(Collected::default(), |unit| unit.index.refused.clone())
+    }
+}
+
+impl ControlState {
+    /// The state after a program end with these kinds.
+    fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
+        let mut compensation = self.compensation.clone();
+        for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
+            let axis = AxisIndex::new(position);
+            compensation.restore(axis, kinds.selected, kinds.unknown);
+        }
+        let _ = compensation.program_end();
+        compensation
     }
 }

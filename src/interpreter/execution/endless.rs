@@ -13,6 +13,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::store::Programs;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -81,7 +82,7 @@ impl Interpreter {
             if let Enough::TooMany(cause) = &why {
                 self.havoc_loop(cause, finder);
             }
-            let out = self.way_out()?;
+            let out = self.state.track.way_out()?;
             self.leave_loop(&why, &out, at, finder)
         });
         left.unwrap_or(Step::Jump(target))
@@ -228,7 +229,7 @@ impl Interpreter {
         last.passes += 1;
         let (passes, is_due) = (last.passes, last.is_due());
         if passes == 1
-            && let Some(cause) = self.left_often(place.unit, head)
+            && let Some(cause) = self.state.track.left_often(place.unit, head)
         {
             return Some(Enough::TooMany(cause));
         }
@@ -238,7 +239,11 @@ impl Interpreter {
         if self.repeats() {
             return Some(Enough::Repeated);
         }
-        let out = self.way_out().filter(|_| passes >= MOST_PASSES)?;
+        let out = self
+            .state
+            .track
+            .way_out()
+            .filter(|_| passes >= MOST_PASSES)?;
         Some(Enough::TooMany(out.cause))
     }
 
@@ -267,22 +272,6 @@ impl Interpreter {
             *self.state.reads.borrow_mut() = Reads::default();
         }
         repeats
-    }
-
-    /// The value that may end a loop which was left often enough.
-    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
-        let mut left = self.state.track.left_loops.iter();
-        let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
-        (found.times >= RUN_THROUGH).then(|| found.cause.clone())
-    }
-
-    /// Returns a place where the innermost loop may be left.
-    fn way_out(&self) -> Option<WayOut> {
-        let last = self.state.track.loops.last()?;
-        self.state
-            .track
-            .ways
-            .out_of(last.depth, last.from, last.since)
     }
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
@@ -354,11 +343,36 @@ impl Interpreter {
     pub(in crate::interpreter) fn endless_loop(&self) -> Option<Diagnostic> {
         let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
-        Some(self.endless(known, counters))
+        Some(self.programs.endless(known, counters))
+    }
+}
+
+impl Track {
+    /// The value that may end a loop which was left often enough.
+    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
+        let mut left = self.left_loops.iter();
+        let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
+        (found.times >= RUN_THROUGH).then(|| found.cause.clone())
     }
 
+    /// Returns the number of repetitions of the loop that begins at a block.
+    pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
+        let loops = self.loops.iter().rev();
+        let mut known = loops.filter(|known| known.unit == unit);
+        let found = known.find(|known| known.head == opener);
+        found.map(|known| known.passes)
+    }
+
+    /// Returns a place where the innermost loop may be left.
+    fn way_out(&self) -> Option<WayOut> {
+        let last = self.loops.last()?;
+        self.ways.out_of(last.depth, last.from, last.since)
+    }
+}
+
+impl Programs {
     fn endless(&self, known: &Loop, counters: &[Target]) -> Diagnostic {
-        let place = self.programs.index(known.unit).block_place(known.head);
+        let place = self.index(known.unit).block_place(known.head);
         let passes = known.passes;
         let names: Vec<String> = counters.iter().map(|name| format!("`{name}`")).collect();
         let but = if names.is_empty() {
@@ -374,14 +388,6 @@ impl Interpreter {
         Diagnostic::new(Code::Fc910, place, message)
             .with_help("nothing after the loop runs; to see it, remove the loop or give it an end")
             .with_help(Advice::EndLoop)
-    }
-
-    /// Returns the number of repetitions of the loop that begins at a block.
-    pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
-        let loops = self.state.track.loops.iter().rev();
-        let mut known = loops.filter(|known| known.unit == unit);
-        let found = known.find(|known| known.head == opener);
-        found.map(|known| known.passes)
     }
 }
 

@@ -39,7 +39,7 @@ impl Interpreter {
             self.state.ended.push(ended);
         }
         if self.enter_first() {
-            self.havoc_last_motion();
+            self.scratch.havoc_last_motion();
             return None;
         }
         let last = self.state.ended.pop()?;

@@ -3,6 +3,7 @@
 use crate::comp::KindSet;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{BranchSide, Path};
@@ -36,7 +37,7 @@ impl Interpreter {
                 Step::Jump(to)
             };
             if let Step::Jump(to) = goes_on {
-                self.set_next(to);
+                self.state.control.set_next(to);
                 // A program that the block calls runs on each way.
                 if let Some(call @ Step::Call(_)) = step {
                     let _ = self.follow(call.clone());
@@ -76,9 +77,11 @@ impl Interpreter {
             self.state.track.marked = side.marked;
         }
     }
+}
 
+impl ControlState {
     fn set_next(&mut self, to: EntryIndex) {
-        if let Some(frame) = self.state.control.frames.running_mut() {
+        if let Some(frame) = self.frames.running_mut() {
             frame.next = to;
         }
     }

@@ -11,6 +11,7 @@ use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -79,7 +80,7 @@ impl Interpreter {
                     let other = self.state.pending.swap_remove(place);
                     let mine = self.leave_path();
                     self.enter_path(other);
-                    self.havoc_last_motion();
+                    self.scratch.havoc_last_motion();
                     self.state.pending.push(mine);
                     place = 0;
                 }
@@ -94,12 +95,6 @@ impl Interpreter {
         joined
     }
 
-    /// The block before was executed on another way.
-    pub(in crate::interpreter) fn havoc_last_motion(&mut self) {
-        self.scratch.moved.clear();
-        self.scratch.aside.last_moved.clear();
-    }
-
     /// Another way comes to the block that is executed next.
     pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
         let mut mine = self.leave_path();
@@ -112,7 +107,7 @@ impl Interpreter {
         let cost = ITEM * (8 + differing) + self.machine.axes.len() * 4;
         self.state.effort.charge(cost);
         self.enter_path(mine);
-        self.havoc_last_motion();
+        self.scratch.havoc_last_motion();
         self.tell_join(&before, parted);
     }
 
@@ -146,7 +141,7 @@ impl Interpreter {
             return;
         };
         let place = condition.place.clone();
-        let mut kinds = self.differing_kinds(met);
+        let mut kinds = self.state.control.differing_kinds(met);
         for (kind, axes) in &mut kinds {
             axes.retain(|axis| {
                 let key = (&place.file, place.first_line, kind, axis.get());
@@ -208,13 +203,23 @@ impl Interpreter {
             limit_to(said, &ways_of(&reach, &self.state.conditions));
         }
     }
+}
 
+impl BlockScratch {
+    /// The block before was executed on another way.
+    pub(in crate::interpreter) fn havoc_last_motion(&mut self) {
+        self.moved.clear();
+        self.aside.last_moved.clear();
+    }
+}
+
+impl ControlState {
     /// The kinds in which two ways differ, with their axes.
     fn differing_kinds(&self, met: &[ControlState; 2]) -> BTreeMap<Kind, Vec<AxisIndex>> {
         let mut kinds: BTreeMap<Kind, Vec<AxisIndex>> = BTreeMap::new();
         let [mine, theirs] = met.each_ref().map(|control| &control.compensation);
         for axis in (0..mine.len()).map(AxisIndex::new) {
-            for kind in self.state.control.compensation.unknown(axis).iter() {
+            for kind in self.compensation.unknown(axis).iter() {
                 if mine.state(axis, kind) != theirs.state(axis, kind) {
                     kinds.entry(kind).or_default().push(axis);
                 }

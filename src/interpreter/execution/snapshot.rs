@@ -5,7 +5,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::fingerprint::Fingerprint;
+use super::trust::Trust;
 use crate::interpreter::programs::index::{EntryIndex, Index};
+use crate::interpreter::programs::store::Programs;
 use crate::interpreter::programs::unit::Unit;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Options, SourceMode, StopPolicy};
@@ -166,19 +168,22 @@ impl Interpreter {
                 .programs
                 .hold(Index::new(text, options.limits.nesting));
         }
-        resumed.check_state().map_err(ResumeError::Damaged)?;
+        Trust::of(&resumed).check().map_err(ResumeError::Damaged)?;
         resumed
+            .programs
             .mark_executed(&snapshot.executed)
             .map_err(ResumeError::Damaged)?;
         Ok(resumed)
     }
+}
 
+impl Programs {
     fn mark_executed(&mut self, executed: &[Vec<EntryIndex>]) -> Result<(), &'static str> {
-        if executed.len() > self.programs.units().len() {
+        if executed.len() > self.units().len() {
             return Err("executed blocks of a file that is not there");
         }
         for (unit, executed) in executed.iter().enumerate() {
-            let unit = self.programs.unit_mut(unit);
+            let unit = self.unit_mut(unit);
             for &entry in executed {
                 let place = usize::try_from(entry).unwrap_or(usize::MAX);
                 let block = unit.executed.get_mut(place);

@@ -303,7 +303,7 @@ impl Interpreter {
         if let Some(sought) = self.sought.take() {
             return self.ended(EndedBy::Error, &one(sought.missing), observer);
         }
-        let mut said = self.refused();
+        let mut said = self.programs.refused();
         let by = if let Stage::Beyond(Some(by)) = stage {
             by
         } else {

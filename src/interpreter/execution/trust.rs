@@ -2,6 +2,7 @@
 //! looked up later without further checks.
 
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::programs::store::Programs;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -9,9 +10,11 @@ use crate::interpreter::run::path::{Loop, Track};
 use crate::interpreter::run::possible::Possible;
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{Request, Step};
 use crate::interpreter::run::untouched::Untouched;
 use crate::interpreter::run::ways::Ways;
+use crate::machine::Machine;
 use crate::text::Place;
 
 /// Counters of a run stay below this for centuries, and a damaged one above it would run over.
@@ -23,10 +26,26 @@ const MOST_LINES: u32 = 1 << 31;
 /// Verdict on a saved state, with the missing item that it names.
 type Doubt = Result<(), &'static str>;
 
-impl Interpreter {
+/// The machine and the files that a state has to fit.
+pub(in crate::interpreter) struct Trust<'a> {
+    machine: &'a Machine,
+    programs: &'a Programs,
+    state: &'a State,
+}
+
+impl<'a> Trust<'a> {
+    /// The state of a run, before anything is done with it.
+    pub(in crate::interpreter) fn of(run: &'a Interpreter) -> Self {
+        Self {
+            machine: &run.machine,
+            programs: &run.programs,
+            state: &run.state,
+        }
+    }
+
     /// Whether everything that the state names is there.
-    pub(in crate::interpreter) fn check_state(&self) -> Doubt {
-        let state = &self.state;
+    pub(in crate::interpreter) fn check(&self) -> Doubt {
+        let state = self.state;
         holds(
             state.occurred.len() == self.machine.axes.len(),
             "occurrences of other axes",
@@ -109,7 +128,7 @@ impl Interpreter {
     }
 
     fn check_counters(&self) -> Doubt {
-        let state = &self.state;
+        let state = self.state;
         let counted = [
             state.seq,
             state.blocks,
@@ -131,7 +150,7 @@ impl Interpreter {
     }
 
     fn check_parked(&self) -> Doubt {
-        let state = &self.state;
+        let state = self.state;
         let parked = match &state.parked {
             Some(Step::Jump(entry)) => state
                 .control
@@ -158,7 +177,7 @@ impl Interpreter {
         holds(cycles, "a cycle on a way that is not there")
     }
 
-    pub(in crate::interpreter) fn has(&self, found: ProgramId) -> bool {
+    fn has(&self, found: ProgramId) -> bool {
         let unit = self.programs.units().get(found.unit);
         unit.is_some_and(|unit| found.section < unit.index.sections.len())
     }

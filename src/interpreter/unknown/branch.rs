@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region};
 use crate::interpreter::run::ways::{AxisKinds, Branch, JumpTarget, WayEnd};
@@ -64,7 +65,7 @@ impl Interpreter {
         if region.ends.is_empty() {
             return;
         }
-        let kinds = self.all_kinds();
+        let kinds = self.state.control.all_kinds();
         for &place in &region.ends {
             self.state.track.ways.note_end(WayEnd {
                 place,
@@ -72,17 +73,6 @@ impl Interpreter {
                 kinds: kinds.clone(),
             });
         }
-    }
-
-    /// Returns the selected and unknown kinds of each axis.
-    pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
-        let compensation = &self.state.control.compensation;
-        let axes = (0..compensation.len()).map(AxisIndex::new);
-        let kinds = axes.map(|axis| AxisKinds {
-            selected: compensation.selected(axis),
-            unknown: compensation.unknown(axis),
-        });
-        kinds.collect()
     }
 
     /// A jump that may be taken; whether anything differs where it is.
@@ -127,5 +117,18 @@ impl Interpreter {
             Exit::Far => vec![JumpTarget::Far],
             Exit::End => vec![JumpTarget::End],
         }
+    }
+}
+
+impl ControlState {
+    /// Returns the selected and unknown kinds of each axis.
+    pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
+        let compensation = &self.compensation;
+        let axes = (0..compensation.len()).map(AxisIndex::new);
+        let kinds = axes.map(|axis| AxisKinds {
+            selected: compensation.selected(axis),
+            unknown: compensation.unknown(axis),
+        });
+        kinds.collect()
     }
 }

@@ -8,6 +8,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::ways::{
@@ -97,14 +98,6 @@ impl Interpreter {
         here
     }
 
-    fn kinds(&self, axis: AxisIndex) -> AxisKinds {
-        let compensation = &self.state.control.compensation;
-        AxisKinds {
-            selected: compensation.selected(axis),
-            unknown: compensation.unknown(axis),
-        }
-    }
-
     /// A way that leaves now.
     fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
         let count = self.state.control.compensation.len();
@@ -116,7 +109,7 @@ impl Interpreter {
             latest: self.state.seq,
             cause,
             standing: PathState {
-                kinds: self.all_kinds(),
+                kinds: self.state.control.all_kinds(),
                 modal: self.state.control.modal.clone(),
                 cycles: self.state.control.cycles.clone(),
                 couplings: self.state.control.couplings.version(),
@@ -205,7 +198,7 @@ impl Interpreter {
         if !self.state.track.ways.is_open() {
             return;
         }
-        let own = self.all_kinds();
+        let own = self.state.control.all_kinds();
         let mut tails = HashSet::new();
         let open = std::mem::take(&mut self.state.track.ways.open);
         for mut way in open {
@@ -253,7 +246,7 @@ impl Interpreter {
         } = way;
         for (position, kinds) in standing.kinds.iter().enumerate() {
             let axis = AxisIndex::new(position);
-            let known = self.kinds(axis);
+            let known = self.state.control.kinds(axis);
             let differing = known.differing(*kinds);
             self.havoc(axis, differing.without(known.unknown));
         }
@@ -317,6 +310,16 @@ impl Interpreter {
                     return;
                 }
             }
+        }
+    }
+}
+
+impl ControlState {
+    fn kinds(&self, axis: AxisIndex) -> AxisKinds {
+        let compensation = &self.compensation;
+        AxisKinds {
+            selected: compensation.selected(axis),
+            unknown: compensation.unknown(axis),
         }
     }
 }

@@ -17,6 +17,7 @@ use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
+use crate::interpreter::programs::store::Programs;
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
 use crate::interpreter::run::cycles::after_motion_only;
@@ -503,7 +504,7 @@ impl Interpreter {
         let mut may_effects = self.may_effects((unit, range.start));
         may_effects.blocks(unit, range.clone());
         if may_effects.whole
-            && let Some(section) = self.section_of((unit, range.start))
+            && let Some(section) = self.programs.section_of((unit, range.start))
         {
             may_effects.blocks(unit, section);
         }
@@ -540,7 +541,7 @@ impl Interpreter {
         may_effects.block(at);
         may_effects.expand(at);
         if may_effects.whole
-            && let Some(section) = self.section_of(may_effects.place)
+            && let Some(section) = self.programs.section_of(may_effects.place)
         {
             may_effects.blocks(unit, section);
         }
@@ -555,14 +556,6 @@ impl Interpreter {
             may_effects.blocks(unit, *entry..entry + 1);
         }
         may_effects.region
-    }
-
-    /// The blocks of the section that holds one.
-    fn section_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Range<EntryIndex>> {
-        let sections = &self.programs.index(unit).sections;
-        let around = |section: &&Section| (section.start..section.end).contains(&entry);
-        let section = sections.iter().find(around)?;
-        Some(section.start..section.end)
     }
 
     /// Notes the values of the machine that a block would read.
@@ -580,6 +573,16 @@ impl Interpreter {
             });
             let _ = self.with_evaluator(at, |evaluator| evaluator.value(read, &mut Vec::new()));
         }
+    }
+}
+
+impl Programs {
+    /// The blocks of the section that holds one.
+    fn section_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Range<EntryIndex>> {
+        let sections = &self.index(unit).sections;
+        let around = |section: &&Section| (section.start..section.end).contains(&entry);
+        let section = sections.iter().find(around)?;
+        Some(section.start..section.end)
     }
 }
 

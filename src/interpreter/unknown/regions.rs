@@ -12,6 +12,7 @@ use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::Scan;
@@ -150,7 +151,7 @@ impl Interpreter {
     fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
         let modal = &mut self.state.control.modal;
         match effect {
-            Effect::Compensation(axis, kinds) => match self.addressed(axis) {
+            Effect::Compensation(axis, kinds) => match self.state.control.addressed(axis) {
                 Ok(Addressed::Axis(axis)) => {
                     self.see(axis);
                     self.havoc(axis, *kinds);
@@ -167,7 +168,7 @@ impl Interpreter {
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.havoc_position(*axis);
-                self.perhaps_move(*axis);
+                self.scratch.perhaps_move(*axis);
                 self.see(*axis);
             }
             Effect::Positions => {
@@ -185,10 +186,10 @@ impl Interpreter {
             Effect::Hash(name) => {
                 self.havoc_hash(name, cause);
                 if is_exchange(name) {
-                    self.havoc_exchange();
+                    self.state.control.havoc_exchange();
                 }
             }
-            Effect::Coupling(axes) => self.havoc_definitions(axes),
+            Effect::Coupling(axes) => self.state.control.havoc_definitions(axes),
             Effect::Followers(axes) => self.state.control.couplings.havoc_followers(axes),
             Effect::Function(word) => self.havoc_function(*word, unit, cause),
             Effect::FileName(word) => {
@@ -226,7 +227,9 @@ impl Interpreter {
             if self.is_external(&call) {
                 self.leave_to_machine(&call.name);
                 let name = call.name.clone();
-                self.perhaps_repeat(&call, RepeatedCall::External(name));
+                self.state
+                    .control
+                    .perhaps_repeat(&call, RepeatedCall::External(name));
                 continue;
             }
             let caller = self
@@ -259,7 +262,9 @@ impl Interpreter {
                     continue;
                 }
             };
-            self.perhaps_repeat(&call, RepeatedCall::Perhaps(found));
+            self.state
+                .control
+                .perhaps_repeat(&call, RepeatedCall::Perhaps(found));
             if !seen.insert((found.unit, found.section)) {
                 continue;
             }
@@ -277,11 +282,13 @@ impl Interpreter {
             self.pending.clear();
         }
     }
+}
 
+impl ControlState {
     /// A modal cycle of a region may be in force after it.
     fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.control.cycles.add(Repeated {
+            self.cycles.add(Repeated {
                 call,
                 own: BTreeMap::new(),
                 after_motion_only,

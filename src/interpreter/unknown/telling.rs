@@ -50,7 +50,7 @@ impl Interpreter {
         };
         let fault = Fault::new(Code::Fc901, span, message).with_help(how_to_set(cause));
         let said = at.diagnostic(fault);
-        let said = self.with_origin(said, cause, at);
+        let said = self.state.told.with_origin(said, cause, at);
         self.scratch.undecided = Some(Box::new(Undecided {
             cause: cause.clone(),
             said: self.scratch.diagnostics.len(),
@@ -58,7 +58,7 @@ impl Interpreter {
             differing: Differing::default(),
         }));
         self.scratch.diagnostics.push(said);
-        self.enter_root(cause, span, at);
+        self.state.told.enter_root(cause, span, at);
     }
 
     /// Completes the message about a part of the program, or withholds it where nothing differs or
@@ -138,7 +138,7 @@ impl Interpreter {
             let Effect::Compensation(name, kinds) = effect else {
                 continue;
             };
-            if let Ok(Addressed::Axis(axis)) = self.addressed(name) {
+            if let Ok(Addressed::Axis(axis)) = self.state.control.addressed(name) {
                 let state = |kind: &Kind| self.state.control.compensation.state(axis, *kind);
                 let set = kinds
                     .iter()

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null;
 
 use frictcomp::comp::CompensationError;
-use frictcomp::diagnostic::Code;
+use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::session::StateError;
 use frictcomp::syntax::Fault;
 use frictcomp_host::HostError;
@@ -98,7 +98,7 @@ impl From<HostError> for Failure {
         if let HostError::Configuration { diagnostics, .. } = &error {
             for said in diagnostics {
                 message.push_str("; ");
-                message.push_str(&crate::machine::line(said));
+                message.push_str(&line(said));
             }
         }
         Self::Machine(message)
@@ -157,6 +157,18 @@ pub(crate) fn last_message() -> *const c_char {
 /// The code of the last error, where it has one.
 pub(crate) fn last_code() -> *const c_char {
     LAST.with_borrow(|last| last.code.as_ref().map_or(null(), |text| text.as_ptr()))
+}
+
+/// A message in one line, with its place in front as compilers have it.
+pub(crate) fn line(said: &Diagnostic) -> String {
+    let (file, start) = (&said.place.file, said.place.start());
+    let Diagnostic {
+        severity,
+        code,
+        message,
+        ..
+    } = said;
+    format!("{file}:{start}: {severity}[{code}] {message}")
 }
 
 /// A text for C, without the NUL that would end it early.

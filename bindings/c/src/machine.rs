@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frictcomp::comp::AxisIndex;
-use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::machine::Machine;
 use frictcomp::parse_comp;
 use frictcomp_host::{ConfigurationChoice, FileRegistry, LoadedMachine, MachineOptions, Machines};
 
-use crate::failure::{Failure, c_text};
+use crate::failure::{Failure, c_text, line};
 
 /// A machine: its axes, and what the lists of the control say about their compensation.
 #[derive(Debug)]
@@ -104,17 +103,6 @@ impl FrictcompMachine {
 
 fn names(machine: &Machine) -> Vec<CString> {
     machine.axes.iter().map(|axis| c_text(&axis.name)).collect()
-}
-
-/// A message in one line, with its place in front as compilers have it.
-pub(crate) fn line(said: &Diagnostic) -> String {
-    let severity = match said.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Info => "info",
-    };
-    let (file, start) = (&said.place.file, said.place.start());
-    format!("{file}:{start}: {severity}[{}] {}", said.code, said.message)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use arrow_schema::{ArrowError, Field, Schema, SchemaRef};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 
-use crate::failure::refused;
+use crate::exceptions::refused;
 
 /// The name that the `PyCapsule` interface of Arrow gives a stream.
 const STREAM: &CStr = c"arrow_array_stream";

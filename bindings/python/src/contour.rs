@@ -18,7 +18,8 @@ use frictcomp_report::svg::Frame;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::failure::{Failure, refused};
+use crate::exceptions::refused;
+use crate::failure::Failure;
 use crate::json;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, watched_machine_of};

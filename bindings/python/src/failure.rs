@@ -10,12 +10,11 @@ use frictcomp_physics::circle::CircleError;
 use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::current::FollowError;
 use frictcomp_recordings::identify::IdentifyError;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::PyDict;
 
-use crate::messages::{PyMessage, PyMessages};
+use crate::exceptions::error;
+use crate::messages::PyMessage;
 
 /// Why something could not be done.
 #[derive(Debug)]
@@ -100,24 +99,6 @@ impl Failure {
     }
 }
 
-/// Raises the first error among messages, with all of them.
-pub(crate) fn raised_for(py: Python<'_>, messages: &PyMessages) -> PyResult<()> {
-    let errors: Vec<PyMessage> = messages.listed_errors().cloned().collect();
-    let Some(first) = errors.first() else {
-        return Ok(());
-    };
-    let message = first.to_string();
-    let given = PyDict::new(py);
-    given.set_item("messages", errors)?;
-    Err(error(py, &message, &given)?)
-}
-
-fn error(py: Python<'_>, message: &str, given: &Bound<'_, PyDict>) -> PyResult<PyErr> {
-    static ERROR: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    let class = ERROR.import(py, "frictcomp._error", "Error")?;
-    Ok(PyErr::from_value(class.call((message,), Some(given))?))
-}
-
 impl From<HostError> for Failure {
     fn from(error: HostError) -> Self {
         let file = match &error {
@@ -156,9 +137,4 @@ impl From<NoDrivenContour> for Failure {
         let failure = Self::new(error.to_string());
         Self { help, ..failure }
     }
-}
-
-/// An argument with a value that makes no sense.
-pub(crate) fn refused(message: impl Into<String>) -> PyErr {
-    PyValueError::new_err(message.into())
 }

@@ -4,7 +4,7 @@ use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::UnknownName;
 use pyo3::prelude::*;
 
-use crate::failure::refused;
+use crate::exceptions::refused;
 use crate::several::Several;
 
 /// `"FRICT"`, `"all"`, or several kinds.

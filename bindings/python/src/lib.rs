@@ -7,6 +7,7 @@ mod check;
 mod command;
 mod contour;
 mod current;
+mod exceptions;
 mod failure;
 mod identify;
 mod json;

@@ -5,7 +5,7 @@ use frictcomp::session::{Limits, Options};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::failure::refused;
+use crate::exceptions::refused;
 use crate::several::Several;
 
 /// The deepest nesting of macros that can be allowed.

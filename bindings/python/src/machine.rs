@@ -15,7 +15,8 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::failure::{Failure, refused};
+use crate::exceptions::refused;
+use crate::failure::Failure;
 use crate::program::Programs;
 use crate::several::Several;
 

@@ -13,11 +13,11 @@ use frictcomp::{Diagnostic, Severity};
 use frictcomp_host::LoadedMachine;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyList, PySlice};
+use pyo3::types::{PyCapsule, PyDict, PyList, PySlice};
 use serde::{Deserialize, Serialize};
 
 use crate::arrow::{Column, Table};
-use crate::failure::raised_for;
+use crate::exceptions::error;
 use crate::pickled::{self, Reduced};
 
 /// A word of a table of frictcomp, or one that was pickled.
@@ -282,11 +282,6 @@ impl PyMessages {
         Self(said)
     }
 
-    /// The errors that are listed.
-    pub(crate) fn listed_errors(&self) -> impl Iterator<Item = &PyMessage> {
-        self.0.messages.iter().filter(|message| message.is_error())
-    }
-
     /// How many of a severity there are, listed or not.
     fn count_of(&self, severity: &str) -> u64 {
         let messages = self.0.messages.iter();
@@ -454,8 +449,16 @@ impl PyMessages {
     }
 
     /// Raises ``Error`` where there is a message of severity error.
-    fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
-        raised_for(py, self)
+    pub(crate) fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
+        let errors = self.0.messages.iter().filter(|message| message.is_error());
+        let errors: Vec<PyMessage> = errors.cloned().collect();
+        let Some(first) = errors.first() else {
+            return Ok(());
+        };
+        let message = first.to_string();
+        let given = PyDict::new(py);
+        given.set_item("messages", errors)?;
+        Err(error(py, &message, &given)?)
     }
 
     fn __repr__(&self) -> String {

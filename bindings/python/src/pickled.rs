@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::failure::refused;
+use crate::exceptions::refused;
 
 /// What `__reduce__` gives: the function that makes the object anew, and its arguments.
 pub(crate) type Reduced<A> = (Py<PyAny>, A);

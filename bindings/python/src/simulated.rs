@@ -28,7 +28,8 @@ use frictcomp_report::value_lists::render_tuned;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{Failure, refused};
+use crate::exceptions::refused;
+use crate::failure::Failure;
 use crate::json;
 use crate::pickled::{self, Reduced};
 use crate::several::Several;

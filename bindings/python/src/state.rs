@@ -9,7 +9,8 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{Failure, refused};
+use crate::exceptions::refused;
+use crate::failure::Failure;
 
 /// What a run leaves and the next one starts with: states, variables, value lists.
 #[pyclass(frozen, eq, name = "State", module = "frictcomp")]

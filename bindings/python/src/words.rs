@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use pyo3::PyResult;
 
-use crate::failure::refused;
+use crate::exceptions::refused;
 
 /// What a word means; the usual where there is none.
 pub(crate) fn meant<T: FromStr<Err: Display> + Default>(word: Option<&str>) -> PyResult<T> {

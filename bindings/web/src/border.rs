@@ -1,4 +1,4 @@
-//! What the page calls, and what it is told meanwhile.
+//! What the page calls.
 //!
 //! The page asks for room, writes the bytes of a question or a file into it and calls [`ask`] or [`put`].
 //! The answer stays until the next question; its place and length are asked for.
@@ -19,47 +19,6 @@ struct Border {
     engine: Engine,
     sent: Vec<u8>,
     answer: Vec<u8>,
-}
-
-#[cfg(target_family = "wasm")]
-unsafe extern "C" {
-    /// Tells the page how far a run is: executed blocks, and the line of the main program.
-    safe fn progress(blocks: f64, line: u32);
-
-    /// Whether it is time to say how far other work is: 1, at most a few times a second.
-    safe fn due() -> u32;
-
-    /// Tells the page how far it is, in so many bytes of text at a place.
-    safe fn told(at: *const u8, length: usize);
-}
-
-/// Nobody watches.
-#[cfg(not(target_family = "wasm"))]
-fn progress(_: f64, _: u32) {}
-
-/// Nobody watches.
-#[cfg(not(target_family = "wasm"))]
-fn due() -> u32 {
-    0
-}
-
-/// Nobody watches.
-#[cfg(not(target_family = "wasm"))]
-fn told(_: *const u8, _: usize) {}
-
-/// Whether it is time to say how far work is.
-pub(crate) fn is_due() -> bool {
-    due() == 1
-}
-
-/// Tells the page how far work is.
-pub(crate) fn tell(progress: &str) {
-    told(progress.as_ptr(), progress.len());
-}
-
-/// Tells the page how far a run is.
-pub(crate) fn show_progress(blocks: u32, line: u32) {
-    progress(f64::from(blocks), line);
 }
 
 /// Makes room for so many bytes and says where it is.

@@ -15,11 +15,11 @@ use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot};
 use frictcomp_report::svg::Frame;
 use serde::Serialize;
 
-use crate::border::show_progress;
 use crate::contour::expect_axes;
 use crate::dropped::Dropped;
 use crate::refusal::Refusal;
 use crate::run::{RunSettings, json};
+use crate::watched::show_progress;
 use crate::wording::page;
 
 /// Cycles between two signs of progress.

@@ -9,8 +9,8 @@ use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
 use frictcomp::timeline::{AxisSummary, EndedBy, Footing, Record, Sink};
 
-use crate::border::show_progress;
 use crate::rows::Rows;
+use crate::watched::show_progress;
 
 /// More messages are counted, not kept.
 const MOST_MESSAGES: usize = 10_000;

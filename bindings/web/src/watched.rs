@@ -1,8 +1,34 @@
-//! The page, which hears how far long work is.
+//! What the page is told while work takes long.
+
+#![allow(unsafe_code, reason = "the functions of the page are foreign")]
 
 use frictcomp_host::{Progress, Watcher};
 
-use crate::border::{is_due, tell};
+#[cfg(target_family = "wasm")]
+unsafe extern "C" {
+    /// Tells the page how far a run is: executed blocks, and the line of the main program.
+    safe fn progress(blocks: f64, line: u32);
+
+    /// Whether it is time to say how far other work is: 1, at most a few times a second.
+    safe fn due() -> u32;
+
+    /// Tells the page how far it is, in so many bytes of text at a place.
+    safe fn told(at: *const u8, length: usize);
+}
+
+/// Nobody watches.
+#[cfg(not(target_family = "wasm"))]
+fn progress(_: f64, _: u32) {}
+
+/// Nobody watches.
+#[cfg(not(target_family = "wasm"))]
+fn due() -> u32 {
+    0
+}
+
+/// Nobody watches.
+#[cfg(not(target_family = "wasm"))]
+fn told(_: *const u8, _: usize) {}
 
 /// The page as a watcher. It ends work by ending the thread of the engine.
 #[derive(Debug)]
@@ -10,10 +36,16 @@ pub(crate) struct Page;
 
 impl Watcher for Page {
     fn is_due(&self) -> bool {
-        is_due()
+        due() == 1
     }
 
     fn show(&self, progress: &Progress) {
-        tell(&progress.to_string());
+        let words = progress.to_string();
+        told(words.as_ptr(), words.len());
     }
+}
+
+/// Tells the page how far a run is.
+pub(crate) fn show_progress(blocks: u32, line: u32) {
+    progress(f64::from(blocks), line);
 }

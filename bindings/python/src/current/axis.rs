@@ -3,10 +3,11 @@
 use frictcomp::comp::State;
 use frictcomp::lists::AxisType;
 use frictcomp_physics::current::{Added, Commanded};
+use frictcomp_report::pictures::AxisPlot;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::picture::{Marks, drawn};
+use super::picture::{Columns, Marks, drawn};
 use crate::failure::Failure;
 use crate::pickled::{self, Reduced};
 use crate::states;
@@ -15,14 +16,14 @@ use crate::states;
 #[pyclass(frozen, name = "AxisCurrent", module = "frictcomp")]
 pub(crate) struct PyAxisCurrent {
     pub(super) axis: NamedAxis,
-    pub(super) t: Py<PyArray1<f64>>,
+    t: Py<PyArray1<f64>>,
     x: Py<PyArray1<f64>>,
-    pub(super) v: Py<PyArray1<f64>>,
-    pub(super) w_before: Py<PyArray1<f64>>,
-    pub(super) w_after: Py<PyArray1<f64>>,
-    pub(super) current: Py<PyArray1<f64>>,
+    v: Py<PyArray1<f64>>,
+    w_before: Py<PyArray1<f64>>,
+    w_after: Py<PyArray1<f64>>,
+    current: Py<PyArray1<f64>>,
     output: Py<PyArray1<i16>>,
-    pub(super) states: Py<PyArray1<i8>>,
+    states: Py<PyArray1<i8>>,
     unknown_cycles: usize,
     counted: Counted,
     remarks: Vec<String>,
@@ -274,7 +275,7 @@ impl PyAxisCurrent {
 
     /// The picture of current, velocity, weights and states over time.
     fn svg(slf: &Bound<'_, Self>) -> PyResult<String> {
-        drawn(&[slf.get()], &Marks::default(), slf.py())
+        drawn(vec![slf.get().plot(slf.py())?], &Marks::default())
     }
 
     fn __len__(&self, py: Python<'_>) -> usize {
@@ -294,6 +295,22 @@ impl PyAxisCurrent {
 }
 
 impl PyAxisCurrent {
+    /// Its plot, and the columns that are drawn there.
+    pub(super) fn plot<'py>(&self, py: Python<'py>) -> PyResult<(AxisPlot, Columns<'py>)> {
+        let read = |array: &Py<PyArray1<f64>>| array.bind(py).try_readonly();
+        let columns = Columns {
+            t: read(&self.t)?,
+            floats: [
+                read(&self.v)?,
+                read(&self.w_before)?,
+                read(&self.w_after)?,
+                read(&self.current)?,
+            ],
+            states: self.states.bind(py).try_readonly()?,
+        };
+        Ok((AxisPlot::new(&self.axis.name, self.axis.axis_type), columns))
+    }
+
     /// Refuses to give currents of which some are not known.
     fn known(&self, py: Python<'_>) -> PyResult<()> {
         if self.unknown_cycles == 0 {

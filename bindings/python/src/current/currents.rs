@@ -126,8 +126,8 @@ impl PyCurrents {
     /// The picture of currents, velocities, weights and states over time, as ``frictcomp current --svg``
     /// draws it.
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
-        let axes: Vec<&PyAxisCurrent> = self.axes.iter().map(Py::get).collect();
-        drawn(&axes, &self.marks, py)
+        let axes = self.axes.iter().map(|axis| axis.get().plot(py));
+        drawn(axes.collect::<PyResult<_>>()?, &self.marks)
     }
 
     fn __len__(&self, py: Python<'_>) -> usize {

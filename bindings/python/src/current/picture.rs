@@ -4,11 +4,10 @@ use frictcomp_physics::current::Added;
 use frictcomp_physics::motion::Cause;
 use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot};
 use frictcomp_report::svg::Frame;
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::axis::PyAxisCurrent;
 use crate::states::STATES;
 
 /// Cycles at which something begins.
@@ -39,25 +38,16 @@ impl Marks {
 }
 
 /// The columns of an axis that are drawn.
-struct Columns<'py> {
-    floats: [PyReadonlyArray1<'py, f64>; 4],
-    states: PyReadonlyArray1<'py, i8>,
+pub(super) struct Columns<'py> {
+    /// Times.
+    pub(super) t: PyReadonlyArray1<'py, f64>,
+    /// Velocity, both weights and the current.
+    pub(super) floats: [PyReadonlyArray1<'py, f64>; 4],
+    /// Positions in `STATES`.
+    pub(super) states: PyReadonlyArray1<'py, i8>,
 }
 
-impl<'py> Columns<'py> {
-    fn of(axis: &PyAxisCurrent, py: Python<'py>) -> PyResult<Self> {
-        let read = |array: &Py<PyArray1<f64>>| array.bind(py).try_readonly();
-        Ok(Self {
-            floats: [
-                read(&axis.v)?,
-                read(&axis.w_before)?,
-                read(&axis.w_after)?,
-                read(&axis.current)?,
-            ],
-            states: axis.states.bind(py).try_readonly()?,
-        })
-    }
-
+impl Columns<'_> {
     /// Velocity, state and current of a cycle.
     fn sample(&self, cycle: usize) -> Option<(f64, u8, Added)> {
         let mut values = [0.0; 4];
@@ -78,14 +68,11 @@ impl<'py> Columns<'py> {
 }
 
 /// The picture of axes over time.
-pub(super) fn drawn(axes: &[&PyAxisCurrent], marks: &Marks, py: Python<'_>) -> PyResult<String> {
-    let plots = axes.iter().map(|it| &it.axis);
-    let plots = plots.map(|axis| AxisPlot::new(&axis.name, axis.axis_type));
-    let mut plot = CurrentPlot::new(plots.collect());
-    let columns = axes.iter().map(|axis| Columns::of(axis, py));
-    let columns: Vec<Columns<'_>> = columns.collect::<PyResult<_>>()?;
-    let times = match axes.first() {
-        Some(first) => first.t.bind(py).try_readonly()?.as_slice()?.to_vec(),
+pub(super) fn drawn(axes: Vec<(AxisPlot, Columns<'_>)>, marks: &Marks) -> PyResult<String> {
+    let (plots, columns): (Vec<AxisPlot>, Vec<Columns<'_>>) = axes.into_iter().unzip();
+    let mut plot = CurrentPlot::new(plots);
+    let times = match columns.first() {
+        Some(first) => first.t.as_slice()?.to_vec(),
         None => Vec::new(),
     };
     let mut begins = marks.begins.iter().peekable();

@@ -14,7 +14,8 @@ use pyo3::prelude::*;
 
 use super::axis::{AxisCycles, Counted, NamedAxis, PyAxisCurrent, array};
 use super::expect_numpy;
-use crate::failure::{Failure, refused};
+use crate::exceptions::refused;
+use crate::failure::Failure;
 use crate::identify::given_units;
 use crate::words::meant;
 use crate::work::interruptible;

@@ -12,7 +12,7 @@ use pyo3::types::{PyBytes, PyCapsule};
 use serde::{Deserialize, Serialize};
 
 use crate::arrow::Table;
-use crate::failure::{raised_for, refused};
+use crate::exceptions::refused;
 use crate::json::Json;
 use crate::messages::{PyMessages, Said, Word};
 use crate::pickled::{self, Reduced};
@@ -198,7 +198,7 @@ impl PyTimeline {
 
     /// Raises ``Error`` where there is a message of severity error.
     fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
-        raised_for(py, self.messages.get())
+        self.messages.get().raise_for_errors(py)
     }
 
     /// The picture of the states of friction compensation over the executed blocks of a program.

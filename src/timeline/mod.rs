@@ -8,6 +8,7 @@
 //! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
 
 mod feed_moves;
+mod in_force;
 mod possible;
 mod record;
 mod serial;
@@ -15,8 +16,10 @@ mod serial;
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 pub use feed_moves::FeedMoves;
+pub use in_force::{ReadingInForce, ReadingsInForce};
 pub use possible::Possible;
 pub use record::{
     AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Join, Record, Repeat, Row, SCHEMA,
     Sink, StateView, Summary, TOOL,
 };
+pub use serial::States;

@@ -1,16 +1,43 @@
 //! The serialised form of records (chapter 9.2): the keys, and their order.
 
+use std::collections::BTreeMap;
+
 use serde::{Serialize, Serializer};
 
+use super::in_force::ReadingsInForce;
 use super::possible::Possible;
 use super::record::{
     DiagnosticRecord, End, Join, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL,
 };
-use crate::comp::{Change, Kind, KindSet, State};
+use crate::comp::{AxisIndex, Change, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::WayCondition;
 
+/// The states of axes as a record ends with them: those of friction compensation, and those of each
+/// selected kind where that is not friction compensation alone (R9.12).
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct States<'a> {
+    friction: Friction<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compensation: Option<OfKinds<'a>>,
+    #[serde(skip_serializing_if = "Possible::is_empty")]
+    possible: Possible<'a>,
+}
+
+impl<'a> States<'a> {
+    /// Those of some kinds.
+    pub fn of(state: StateView<'a>, kinds: KindSet) -> Self {
+        let is_plain = kinds == KindSet::of(Kind::Frict);
+        Self {
+            friction: Friction(state),
+            compensation: (!is_plain).then_some(OfKinds { state, kinds }),
+            possible: Possible::of(state, kinds),
+        }
+    }
+}
+
 /// Axis → state of friction compensation.
+#[derive(Debug, Clone, Copy)]
 struct Friction<'a>(StateView<'a>);
 
 impl Serialize for Friction<'_> {
@@ -20,8 +47,34 @@ impl Serialize for Friction<'_> {
     }
 }
 
-fn friction_of(state: StateView<'_>) -> Possible<'_> {
-    Possible::of(state, KindSet::of(Kind::Frict))
+/// Axis → kind → state.
+#[derive(Debug, Clone, Copy)]
+struct OfKinds<'a> {
+    state: StateView<'a>,
+    kinds: KindSet,
+}
+
+impl Serialize for OfKinds<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let axes = self.state.axes();
+        serializer.collect_map(axes.map(|(axis, name)| (name, OfAxis { of: *self, axis })))
+    }
+}
+
+struct OfAxis<'a> {
+    of: OfKinds<'a>,
+    axis: AxisIndex,
+}
+
+impl Serialize for OfAxis<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let OfKinds { state, kinds } = self.of;
+        serializer.collect_map(
+            kinds
+                .iter()
+                .map(|kind| (kind, state.state(self.axis, kind))),
+        )
+    }
 }
 
 /// The names of the listed axes.
@@ -49,29 +102,19 @@ impl Serialize for Uncompensated<'_> {
     }
 }
 
-/// The changes of friction compensation.
+/// The changes of some kinds.
 struct Changes<'a> {
-    changes: &'a [Change],
+    all: &'a [Change],
     state: StateView<'a>,
-}
-
-#[derive(Serialize)]
-struct ChangeObject<'a> {
-    axis: &'a str,
-    kind: Kind,
-    from: State,
-    to: State,
+    kinds: KindSet,
 }
 
 impl<'a> Changes<'a> {
-    fn of(changes: &'a [Change], state: StateView<'a>) -> Self {
-        Self { changes, state }
-    }
-
     fn iter(&self) -> impl Iterator<Item = &'a Change> {
-        self.changes
+        let kinds = self.kinds;
+        self.all
             .iter()
-            .filter(|change| change.kind == Kind::Frict)
+            .filter(move |change| kinds.contains(change.kind))
     }
 
     fn is_empty(&self) -> bool {
@@ -81,7 +124,14 @@ impl<'a> Changes<'a> {
 
 impl Serialize for Changes<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter().map(|change| ChangeObject {
+        #[derive(Serialize)]
+        struct Object<'a> {
+            axis: &'a str,
+            kind: Kind,
+            from: State,
+            to: State,
+        }
+        serializer.collect_seq(self.iter().map(|change| Object {
             axis: self.state.name(change.axis),
             kind: change.kind,
             from: change.from,
@@ -90,6 +140,7 @@ impl Serialize for Changes<'_> {
     }
 }
 
+/// A record before its states.
 #[derive(Serialize)]
 #[serde(tag = "record", rename_all = "lowercase")]
 enum Object<'a> {
@@ -99,17 +150,11 @@ enum Object<'a> {
         axes: Axes<'a>,
         #[serde(skip_serializing_if = "Option::is_none")]
         remark: Option<&'a str>,
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
     },
     Program {
         program: u32,
         file: &'a str,
         name: Option<&'a str>,
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
     },
     Block {
         program: u32,
@@ -123,18 +168,12 @@ enum Object<'a> {
         #[serde(skip_serializing_if = "Option::is_none")]
         branch: Option<&'a [Vec<WayCondition>]>,
         changes: Changes<'a>,
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
     },
     Join {
         program: u32,
         seq: u64,
         file: &'a str,
         line: u32,
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
     },
     Diagnostic {
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,136 +187,157 @@ enum Object<'a> {
         program: u32,
         seq: u64,
         by: &'static str,
+        // Program end never changes friction compensation (R1.27); kinds with manual activation
+        // fall off.
         #[serde(skip_serializing_if = "Changes::is_empty")]
         changes: Changes<'a>,
         #[serde(skip_serializing_if = "<[_]>::is_empty")]
         repeated: &'a [Repeat],
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
     },
     Summary {
         programs: u32,
         blocks: u64,
         errors: u64,
         warnings: u64,
-        opaque: &'a std::collections::BTreeMap<String, u64>,
+        opaque: &'a BTreeMap<String, u64>,
         #[serde(skip_serializing_if = "Uncompensated::is_empty")]
         uncompensated: Uncompensated<'a>,
-        friction: Friction<'a>,
-        #[serde(skip_serializing_if = "Possible::is_empty")]
-        possible: Possible<'a>,
+        #[serde(skip_serializing_if = "ReadingsInForce::is_empty")]
+        rests_on: ReadingsInForce,
     },
 }
 
-impl Serialize for Row<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let object = Object::Block {
-            program: self.program,
-            seq: self.seq,
-            file: self.file,
-            line: self.line,
-            n: self.number,
-            level: self.level,
-            text: self.text,
-            branch: self.branch,
-            changes: Changes::of(self.changes, self.state),
-            friction: Friction(self.state),
-            possible: friction_of(self.state),
-        };
-        object.serialize(serializer)
+impl<'a> Object<'a> {
+    fn of(record: &Record<'a>, kinds: KindSet) -> Self {
+        let changes = |all, state| Changes { all, state, kinds };
+        match *record {
+            Record::Session { state, remark } => Self::Session {
+                schema: SCHEMA,
+                tool: TOOL,
+                axes: Axes(state),
+                remark,
+            },
+            Record::Machine(diagnostic) => Self::said(&DiagnosticRecord::of_machine(diagnostic)),
+            Record::Program {
+                program,
+                file,
+                name,
+                ..
+            } => Self::Program {
+                program,
+                file,
+                name,
+            },
+            Record::Block(row) => Self::Block {
+                program: row.program,
+                seq: row.seq,
+                file: row.file,
+                line: row.line,
+                n: row.number,
+                level: row.level,
+                text: row.text,
+                branch: row.branch,
+                changes: changes(row.changes, row.state),
+            },
+            Record::Join(join) => Self::Join {
+                program: join.program,
+                seq: join.seq,
+                file: join.file,
+                line: join.line,
+            },
+            Record::End(end) => Self::End {
+                program: end.program,
+                seq: end.seq,
+                by: end.by.as_str(),
+                changes: changes(end.changes, end.state),
+                repeated: end.repeated,
+            },
+            Record::Summary(summary) => Self::Summary {
+                programs: summary.programs,
+                blocks: summary.blocks,
+                errors: summary.count(Severity::Error),
+                warnings: summary.count(Severity::Warning),
+                opaque: summary.opaque,
+                uncompensated: Uncompensated(summary),
+                rests_on: ReadingsInForce::of(summary.rests_on, summary.state.machine),
+            },
+        }
+    }
+
+    fn said(record: &DiagnosticRecord<'a>) -> Self {
+        Self::Diagnostic {
+            program: record.block.map(|(program, _)| program),
+            seq: record.block.map(|(_, seq)| seq),
+            diagnostic: record.diagnostic,
+        }
     }
 }
 
-impl Serialize for Join<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let object = Object::Join {
-            program: self.program,
-            seq: self.seq,
-            file: self.file,
-            line: self.line,
-            friction: Friction(self.state),
-            possible: friction_of(self.state),
-        };
-        object.serialize(serializer)
+impl<'a> Record<'a> {
+    /// The state after the record; `None` for a statement about the machine's lists.
+    pub fn state(&self) -> Option<StateView<'a>> {
+        match *self {
+            Self::Machine(_) => None,
+            Self::Session { state, .. } | Self::Program { state, .. } => Some(state),
+            Self::Block(row) => Some(row.state),
+            Self::Join(join) => Some(join.state),
+            Self::End(end) => Some(end.state),
+            Self::Summary(summary) => Some(summary.state),
+        }
     }
-}
 
-impl Serialize for End<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let object = Object::End {
-            program: self.program,
-            seq: self.seq,
-            by: self.by.as_str(),
-            changes: Changes::of(self.changes, self.state),
-            repeated: self.repeated,
-            friction: Friction(self.state),
-            possible: friction_of(self.state),
-        };
-        object.serialize(serializer)
-    }
-}
-
-impl Serialize for Summary<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let object = Object::Summary {
-            programs: self.programs,
-            blocks: self.blocks,
-            errors: self.count(Severity::Error),
-            warnings: self.count(Severity::Warning),
-            opaque: self.opaque,
-            uncompensated: Uncompensated(self),
-            friction: Friction(self.state),
-            possible: friction_of(self.state),
-        };
-        object.serialize(serializer)
+    /// The serialised form with the changes of some kinds. `states` are [`States`], or what a writer
+    /// keeps of those of the last record.
+    pub fn with_states<S: Serialize>(&self, kinds: KindSet, states: S) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Whole<'a, S> {
+            #[serde(flatten)]
+            object: Object<'a>,
+            #[serde(flatten)]
+            states: S,
+        }
+        Whole {
+            object: Object::of(self, kinds),
+            states,
+        }
     }
 }
 
 impl Serialize for Record<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match *self {
-            Self::Session { state, remark } => Object::Session {
-                schema: SCHEMA,
-                tool: TOOL,
-                axes: Axes(state),
-                remark,
-                friction: Friction(state),
-                possible: friction_of(state),
-            }
-            .serialize(serializer),
-            Self::Machine(diagnostic) => {
-                DiagnosticRecord::of_machine(diagnostic).serialize(serializer)
-            }
-            Self::Program {
-                program,
-                file,
-                name,
-                state,
-            } => Object::Program {
-                program,
-                file,
-                name,
-                friction: Friction(state),
-                possible: friction_of(state),
-            }
-            .serialize(serializer),
-            Self::Block(ref row) => row.serialize(serializer),
-            Self::Join(ref join) => join.serialize(serializer),
-            Self::End(ref end) => end.serialize(serializer),
-            Self::Summary(summary) => summary.serialize(serializer),
-        }
+        let kinds = KindSet::of(Kind::Frict);
+        let states = self.state().map(|state| States::of(state, kinds));
+        self.with_states(kinds, states).serialize(serializer)
+    }
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Record::Block(*self).serialize(serializer)
+    }
+}
+
+impl Serialize for Join<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Record::Join(*self).serialize(serializer)
+    }
+}
+
+impl Serialize for End<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Record::End(*self).serialize(serializer)
+    }
+}
+
+impl Serialize for Summary<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Record::Summary(self).serialize(serializer)
     }
 }
 
 impl Serialize for DiagnosticRecord<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let object = Object::Diagnostic {
-            program: self.block.map(|(program, _)| program),
-            seq: self.block.map(|(_, seq)| seq),
-            diagnostic: self.diagnostic,
-        };
-        object.serialize(serializer)
+        Object::said(self).serialize(serializer)
     }
 }
 

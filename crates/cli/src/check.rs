@@ -25,13 +25,13 @@ use super::watch::FileWatch;
 use frictcomp::diagnostic::Severity;
 use frictcomp::session::{Causes, Findings, NoteKind, Notes};
 use frictcomp::text::shown_path;
-use frictcomp::timeline::{Record, Sink};
+use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 use frictcomp_host::{
     Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
     LoadedMachine, Naming, Revision, SingleRun, find_programs, in_order, is_source, main_programs,
     processors, run_alone,
 };
-use frictcomp_report::assumptions::ReadingsInForce;
+use frictcomp_report::assumptions::rests_on_text;
 use frictcomp_report::{ListingFormat, command_line, wrap};
 
 /// Print all messages of all programs; each program runs from the start of the control
@@ -202,7 +202,7 @@ fn check(
         let beside = in_callers_remark(in_callers) + &passed_over(found.passed_over);
         console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
-        if let Some(said) = listing.tally().rests_on.in_words() {
+        if let Some(said) = rests_on_text(&listing.tally().rests_on) {
             console.remark(&said);
         }
     }

@@ -17,8 +17,7 @@ use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::drive_interface::DriveReport;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
-use frictcomp::timeline::{FeedMoves, SCHEMA};
-use frictcomp_report::assumptions::ReadingsInForce;
+use frictcomp::timeline::{FeedMoves, ReadingsInForce, SCHEMA};
 use frictcomp_report::drives::drive_record;
 use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
 

@@ -14,7 +14,7 @@ use control::Control;
 use folder::{Bench, json};
 use frictcomp::readings::{Question, Way};
 use frictcomp_host::conformance::{Case, find_cases};
-use frictcomp_report::assumptions::DIFFERENCES;
+use frictcomp_report::assumptions::differences;
 use workspace::root;
 
 const MACHINE: &str = "[machine]\ncnc_build = \"3.1.3081.5\"\n\n[[axis]]\nname = \"X\"\nnumber = 1\n\
@@ -487,7 +487,7 @@ fn the_page_of_differences_is_that_of_the_data() {
             "\n## {title}\n\n| what | the control | frictcomp | rule |\n|---|---|---|---|\n"
         )
         .expect("text");
-        for it in DIFFERENCES.iter().filter(|it| it.kind == kind) {
+        for it in differences().iter().filter(|it| it.kind == kind) {
             writeln!(
                 text,
                 "| {} | {} | {} | {} |",

@@ -1,25 +1,10 @@
-//! What frictcomp assumes where the documents leave something open: the one table, a file a
-//! chapter. `docs/assumptions.md` and the part of a report that names what its run depends on are
-//! made from it.
+//! What frictcomp assumes where the documents leave something open, and where it differs from the
+//! control on purpose: two tables as data. `docs/assumptions.md`, the page of differences and the part
+//! of a report that names what its run depends on are made from them.
 
-mod assumption;
-mod chapters;
-mod circle;
-mod command;
-mod contour;
-mod current;
-mod differences;
-mod drives;
-mod identification;
 mod in_force;
-mod language;
-mod lists;
-mod motion;
-mod runs;
-mod stiction;
+mod table;
 
-pub(crate) use assumption::Met;
-pub use assumption::{Assumption, When};
-pub use chapters::{CHAPTERS, Chapter};
-pub use differences::{DIFFERENCES, Difference};
-pub use in_force::{ReadingInForce, ReadingsInForce};
+pub use in_force::rests_on_text;
+pub(crate) use table::Met;
+pub use table::{Assumption, Chapter, Difference, When, chapters, differences};

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::parts::{Caption, Column, Row, Table, with_code};
-use crate::assumptions::{Assumption, CHAPTERS, Met};
+use crate::assumptions::{Assumption, Met, chapters};
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Basis, Question, Readings};
 
@@ -17,7 +17,7 @@ const COLUMNS: [Column<'_>; 4] = [
 /// The assumptions that this run made, and folded all others.
 pub(super) fn render(met: &Met, readings: &(Readings, Option<CncBuild>)) -> Markup {
     let made = |assumption: &&Assumption| assumption.is_met(met);
-    let all = CHAPTERS.iter().flat_map(|chapter| chapter.assumptions);
+    let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);
     html! {
         p {
             "The documents of the control leave things open. This run depends on or met these \
@@ -27,8 +27,8 @@ pub(super) fn render(met: &Met, readings: &(Readings, Option<CncBuild>)) -> Mark
         details {
             summary { "All other assumptions that can change a result" }
             "\n"
-            @for chapter in CHAPTERS {
-                (table(chapter.title, chapter.assumptions.iter().filter(|it| !made(it)), readings))
+            @for chapter in chapters() {
+                (table(&chapter.title, chapter.assumptions.iter().filter(|it| !made(it)), readings))
             }
         }
     }
@@ -60,7 +60,10 @@ fn table(
         columns: &COLUMNS,
     };
     table.render(assumptions.map(|it| {
-        let sentence = it.sentence.to_owned() + &said_of(it.rule, readings);
-        Row::new(it.rule, [&sentence, it.changes, it.shows].map(with_code))
+        let sentence = it.sentence.clone() + &said_of(&it.rule, readings);
+        Row::new(
+            &it.rule,
+            [&*sentence, &it.changes, &it.shows].map(with_code),
+        )
     }))
 }

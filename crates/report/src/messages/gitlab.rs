@@ -1,14 +1,38 @@
 //! Code Quality reports of GitLab, which shows them beside the changed lines of a merge request.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::Hasher;
 
-use crate::strings::{integer, string};
+use crate::strings::append_json;
 use fnv::FnvHasher;
-use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use serde::Serialize;
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;
+
+/// A message as GitLab reads it.
+#[derive(Serialize)]
+struct Issue<'a> {
+    description: Cow<'a, str>,
+    check_name: Code,
+    fingerprint: String,
+    severity: &'static str,
+    location: Location,
+}
+
+#[derive(Serialize)]
+struct Location {
+    path: String,
+    lines: Lines,
+}
+
+#[derive(Serialize)]
+struct Lines {
+    begin: u32,
+    end: u32,
+}
 
 /// The messages so far.
 #[derive(Debug, Default)]
@@ -25,22 +49,20 @@ impl MessageFormat for GitLab {
     fn message(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         out.extend_from_slice(if self.said.is_empty() { b"\n" } else { b",\n" });
         let path = diagnostic.place.file.replace('\\', "/");
-        let fingerprint = self.fingerprint(&path, diagnostic);
-        out.extend_from_slice(b"{\"description\":");
-        string(out, &diagnostic.line());
-        out.extend_from_slice(b",\"check_name\":");
-        string(out, diagnostic.code.as_str());
-        out.extend_from_slice(b",\"fingerprint\":");
-        string(out, &fingerprint);
-        out.extend_from_slice(b",\"severity\":");
-        string(out, severity(diagnostic.severity));
-        out.extend_from_slice(b",\"location\":{\"path\":");
-        string(out, &path);
-        out.extend_from_slice(b",\"lines\":{\"begin\":");
-        integer(out, diagnostic.place.start().line);
-        out.extend_from_slice(b",\"end\":");
-        integer(out, diagnostic.place.end().line);
-        out.extend_from_slice(b"}}}");
+        let issue = Issue {
+            description: diagnostic.line(),
+            check_name: diagnostic.code,
+            fingerprint: self.fingerprint(&path, diagnostic),
+            severity: severity(diagnostic.severity),
+            location: Location {
+                lines: Lines {
+                    begin: diagnostic.place.start().line,
+                    end: diagnostic.place.end().line,
+                },
+                path,
+            },
+        };
+        append_json(out, &issue);
     }
 
     fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {

@@ -3,10 +3,10 @@
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use crate::assumptions::ReadingsInForce;
 use crate::diagnostics::Look;
 use crate::output::Output;
 use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::timeline::ReadingsInForce;
 
 use super::format::ListingFormat;
 use super::message_format::MessageFormat;

@@ -1,11 +1,12 @@
 //! A JSON object for each message, by lines or in one document.
 
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::timeline::{DiagnosticRecord, ReadingsInForce};
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::json;
-use crate::records::{append_diagnostic, append_rests_on};
-use crate::strings::integer;
-use frictcomp::diagnostic::{Diagnostic, Severity};
+use crate::strings::append_json;
 
 use super::message_format::MessageFormat;
 use super::tally::Tally;
@@ -59,9 +60,7 @@ impl MessageFormat for Objects {
 
     fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic) {
         self.object(out, |out| {
-            out.extend_from_slice(b"{\"record\":\"diagnostic\"");
-            append_diagnostic(out, message);
-            out.push(b'}');
+            append_json(out, &DiagnosticRecord::of_machine(message));
         });
     }
 
@@ -72,20 +71,32 @@ impl MessageFormat for Objects {
     }
 
     fn close(&mut self, out: &mut Vec<u8>, tally: &Tally) {
-        self.object(out, |out| append_tally(out, tally));
+        self.object(out, |out| append_json(out, &Summary::of(tally)));
         out.extend_from_slice(self.closing);
     }
 }
 
-fn append_tally(out: &mut Vec<u8>, tally: &Tally) {
-    out.extend_from_slice(b"{\"record\":\"summary\",\"files\":");
-    integer(out, tally.files);
-    out.extend_from_slice(b",\"errors\":");
-    integer(out, tally.of(Severity::Error));
-    out.extend_from_slice(b",\"warnings\":");
-    integer(out, tally.of(Severity::Warning));
-    out.extend_from_slice(b",\"infos\":");
-    integer(out, tally.of(Severity::Info));
-    append_rests_on(out, &tally.rests_on);
-    out.push(b'}');
+/// The counts, and the readings on which the results rest (R15.3).
+#[derive(Serialize)]
+struct Summary<'a> {
+    record: &'static str,
+    files: u64,
+    errors: u64,
+    warnings: u64,
+    infos: u64,
+    #[serde(skip_serializing_if = "ReadingsInForce::is_empty")]
+    rests_on: &'a ReadingsInForce,
+}
+
+impl<'a> Summary<'a> {
+    fn of(tally: &'a Tally) -> Self {
+        Self {
+            record: "summary",
+            files: tally.files,
+            errors: tally.of(Severity::Error),
+            warnings: tally.of(Severity::Warning),
+            infos: tally.of(Severity::Info),
+            rests_on: &tally.rests_on,
+        }
+    }
 }

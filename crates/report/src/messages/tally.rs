@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::assumptions::ReadingsInForce;
 use frictcomp::diagnostic::Severity;
+use frictcomp::timeline::ReadingsInForce;
 
 /// Number of files examined, and of diagnostics of each severity.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

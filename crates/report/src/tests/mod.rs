@@ -1,7 +1,6 @@
 //! Every format over one session made by hand.
 
 mod player;
-mod serial;
 
 use std::io::{self, Write};
 

@@ -4,14 +4,14 @@ use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
 use crate::advice::{all_home, axis_advice, error_advice, is_home};
-use crate::assumptions::ReadingsInForce;
+use crate::assumptions::rests_on_text;
 use crate::diagnostics::Look;
 use crate::feed_moves::feed_moves_text;
 use crate::strings::grouped;
 use crate::visible::last_part;
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
-use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
+use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summary};
 
 use super::line::{BOLD, DIM, Line, Paragraph, style};
 
@@ -192,7 +192,8 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     } else if out.len() == bare && is_all_home {
         Paragraph::new(DIM, all_home(&summary.axes, summary.footing)).write(out, look);
     }
-    if let Some(text) = ReadingsInForce::of(summary.rests_on, summary.state.machine).in_words() {
+    let rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
+    if let Some(text) = rests_on_text(&rests_on) {
         Paragraph::new(DIM, &text).write(out, look);
     }
     for axis in &summary.axes {

@@ -1,8 +1,14 @@
-//! Assignment of lints to commands, motions and ends.
+//! The lints, a file each, and their assignment to commands, motions and ends.
+
+mod jump;
+mod left_away;
+mod moved_before;
+mod repeated;
+mod shared_block;
+mod undescribed;
 
 use super::linter::{LeftAway, Linter, Taken};
 use super::memory;
-use super::{left_away, moved_before, repeated, shared_block, undescribed};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Ended, EndedBy, Executed};
 use crate::readings::Question;

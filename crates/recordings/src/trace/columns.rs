@@ -45,4 +45,6 @@ pub(super) struct Columns {
     pub(super) count: usize,
     pub(super) described: Vec<Column>,
     pub(super) groups: Vec<Group>,
+    /// Remark on what is assumed of them.
+    pub(super) remark: Option<&'static str>,
 }

@@ -4,8 +4,14 @@ use super::cell::{Separator, Value, text, value};
 use super::channel::Channel;
 use super::columns::{Column, Columns, Group, Line, TimeScale};
 use super::error::TraceProblem;
-use super::recording::Layout;
+use super::recording::{Layout, Rows};
 use super::unit::{Unit, split_unit};
+
+/// A table with a header.
+const WITH_NAMES: Layout = Layout::new("CSV with a header", Rows::Whole);
+
+/// Numbers without any header, taken as an export of TwinCAT Scope.
+const WITHOUT_NAMES: Layout = Layout::new("CSV without a header", Rows::Ragged);
 
 /// The separators in the order in which they are tried.
 const SEPARATORS: [Separator; 5] = [
@@ -94,7 +100,7 @@ fn named(lines: &[&[u8]], separator: Separator) -> Columns {
         }
     };
     Columns {
-        layout: Layout::Plain,
+        layout: WITH_NAMES,
         separator,
         count,
         described: names.into_iter().enumerate().map(column).collect(),
@@ -102,6 +108,7 @@ fn named(lines: &[&[u8]], separator: Separator) -> Columns {
             time: None,
             scale: TimeScale::Seconds(1.0),
         }],
+        remark: None,
     }
 }
 
@@ -129,11 +136,12 @@ pub(super) fn headless(rows: &[Line], separator: Option<Separator>) -> Columns {
     };
     let first = numbers(0);
     let mut columns = Columns {
-        layout: Layout::Headless,
+        layout: WITHOUT_NAMES,
         separator,
         count,
         described: Vec::new(),
         groups: Vec::new(),
+        remark: Some("the file has no header: its first column is taken as the time in ms"),
     };
     for at in 0..count {
         if count > 1 && (at == 0 || counts_like(&numbers(at), &first)) {

@@ -2,19 +2,31 @@
 
 use super::channel::{Channel, ChannelIndex};
 
-frictcomp::words! {
-    /// Layout of a file.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-    #[non_exhaustive]
-    pub enum Layout {
-        /// An export of TwinCAT Scope with rows of attributes.
-        Scope = "TwinCAT Scope CSV",
-        /// A table with a header.
-        Plain = "CSV with a header",
-        /// Numbers without any header, taken as an export of TwinCAT Scope.
-        Headless = "CSV without a header",
-        /// The XML of a SINUMERIK trace.
-        Sinumerik = "SINUMERIK trace XML",
+/// Layout of a file; each is described in the file that reads it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Layout {
+    name: &'static str,
+    pub(super) rows: Rows,
+}
+
+/// Form of the rows of numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Rows {
+    /// Each has all numbers.
+    Whole,
+    /// As Scope writes them: shorter where channels have ended, repeated for slow ones, and followed
+    /// by other lines after a blank one.
+    Ragged,
+}
+
+impl Layout {
+    pub(super) const fn new(name: &'static str, rows: Rows) -> Self {
+        Self { name, rows }
+    }
+
+    /// Returns its name in a sentence.
+    pub fn as_str(self) -> &'static str {
+        self.name
     }
 }
 

@@ -8,7 +8,10 @@ use super::cell::{Separator, is_data, text};
 use super::channel::{Channel, CncObject, ScopeDrawing, parse_address};
 use super::columns::{Column, Columns, Group, Line, TimeScale};
 use super::error::TraceProblem;
-use super::recording::Layout;
+use super::recording::{Layout, Rows};
+
+/// An export of TwinCAT Scope with rows of attributes.
+const LAYOUT: Layout = Layout::new("TwinCAT Scope CSV", Rows::Ragged);
 
 /// The attributes of channels. What begins another one stands before it.
 const ATTRIBUTES: [&str; 21] = [
@@ -215,7 +218,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
     // Without time columns a row of numbers is as much shorter as there are groups.
     let is_timed = in_row > count - divided.starts.len() || in_row == 0;
     let mut columns = Columns {
-        layout: Layout::Scope,
+        layout: LAYOUT,
         separator: of_numbers,
         count: if is_timed {
             count
@@ -224,6 +227,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
         },
         described: Vec::new(),
         groups: Vec::new(),
+        remark: None,
     };
     let rows: Vec<Vec<Vec<String>>> = rows.iter().map(|row| divided.segments(row)).collect();
     let keys: Vec<&str> = attributes(above).map(|(key, _)| key).collect();

@@ -5,7 +5,7 @@ use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::columns::{Columns, Group, TimeScale};
 use super::error::TraceProblem;
-use super::recording::{Layout, Samples, TraceRecording};
+use super::recording::{Layout, Rows, Samples, TraceRecording};
 
 /// A table whose header is known.
 pub(super) struct Table {
@@ -24,6 +24,8 @@ pub(super) struct Table {
     origin: Option<u64>,
     is_after_blank: bool,
     is_over: bool,
+    /// Remark on what is assumed of the columns.
+    remark: Option<&'static str>,
     remarks: Vec<String>,
 }
 
@@ -64,9 +66,8 @@ impl Table {
                     .described
                     .get(pick.channel.0)
                     .map(|column| column.at),
-                scale: match columns.layout {
-                    Layout::Plain => TimeScale::Seconds(pick.unit.factor),
-                    _ if pick.is_unit_assumed => TimeScale::Scope,
+                scale: match columns.layout.rows {
+                    Rows::Ragged if pick.is_unit_assumed => TimeScale::Scope,
                     _ => TimeScale::Seconds(pick.unit.factor),
                 },
             }),
@@ -123,6 +124,7 @@ impl Table {
             origin: None,
             is_after_blank: false,
             is_over: false,
+            remark: columns.remark,
             remarks: Vec::new(),
         })
     }
@@ -140,7 +142,7 @@ impl Table {
             self.is_over = true;
             return Ok(());
         }
-        let may_end = self.layout != Layout::Plain && self.is_after_blank && self.rows > 0;
+        let may_end = self.layout.rows == Rows::Ragged && self.is_after_blank && self.rows > 0;
         if may_end && !is_data(row, Some(self.separator)) {
             self.is_over = true;
             self.remarks.push(format!(
@@ -214,13 +216,13 @@ impl Table {
                     note(&mut self.decimals, mark, line)?;
                     // Scope repeats the row of a slow channel until its next sample.
                     let is_repeated =
-                        self.layout != Layout::Plain && times.values.last() == Some(&time);
+                        self.layout.rows == Rows::Ragged && times.values.last() == Some(&time);
                     sampled[at] = !is_repeated;
                     if !is_repeated {
                         times.values.push(time);
                     }
                 }
-                Value::Missing if self.layout != Layout::Plain => sampled[at] = false,
+                Value::Missing if self.layout.rows == Rows::Ragged => sampled[at] = false,
                 _ => return Err(not_a_number(line, "time", cell)),
             }
         }
@@ -267,7 +269,7 @@ impl Table {
     /// Whether a row is as wide as the header. Rows of Scope may be short.
     fn check_width(&self, line: u64, cells: usize) -> Result<(), TraceProblem> {
         let columns = self.count;
-        let may_be_short = self.layout != Layout::Plain;
+        let may_be_short = self.layout.rows == Rows::Ragged;
         if cells == columns || cells < columns && may_be_short {
             return Ok(());
         }
@@ -293,7 +295,7 @@ impl Table {
             let found = &mut wanted.samples;
             // A channel that is shorter than others ends; it is not without samples.
             while found.values.last().is_some_and(|value| value.is_nan())
-                && self.layout != Layout::Plain
+                && self.layout.rows == Rows::Ragged
             {
                 found.values.pop();
                 found.missing.count -= 1;
@@ -311,10 +313,7 @@ impl Table {
         for clock in &mut clocks {
             clock.shrink_to_fit();
         }
-        if self.layout == Layout::Headless {
-            let remark = "the file has no header: its first column is taken as the time in ms";
-            self.remarks.push(remark.to_owned());
-        }
+        self.remarks.extend(self.remark.map(str::to_owned));
         TraceRecording {
             layout: self.layout,
             channels: self.channels,

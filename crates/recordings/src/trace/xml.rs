@@ -12,7 +12,10 @@ use super::cell::{Value, of_old_systems, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::error::TraceProblem;
-use super::recording::{Layout, Samples, TraceRecording};
+use super::recording::{Layout, Rows, Samples, TraceRecording};
+
+/// The XML of a SINUMERIK trace.
+const LAYOUT: Layout = Layout::new("SINUMERIK trace XML", Rows::Whole);
 
 /// An element is not longer.
 const MOST_ELEMENT: usize = 1 << 20;
@@ -303,7 +306,7 @@ impl Xml {
             remarks.push("the times are those of the records".to_owned());
         }
         Ok(TraceRecording {
-            layout: Layout::Sinumerik,
+            layout: LAYOUT,
             channels,
             samples,
             clocks,

@@ -1,8 +1,8 @@
 //! FC405: the command takes effect before the motion of its block (R1.9, R1.55).
 
-use super::memory::place;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::Executed;
+use crate::lint::memory::place;
 
 pub(super) fn lint(executed: &Executed<'_>) -> Option<Diagnostic> {
     if executed.moved.is_empty() {

@@ -1,10 +1,10 @@
 //! FC409: friction compensation is switched while the axis moves on (R1.57).
 
-use super::linter::Linter;
-use super::memory::{Jump, place};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{AxisWord, BlockEnd, Executed, Form, Group, PositionFrame, Travel};
+use crate::lint::linter::Linter;
+use crate::lint::memory::{Jump, place};
 use crate::readings::Question;
 
 impl Linter<'_> {

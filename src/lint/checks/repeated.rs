@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use super::linter::{Linter, Taken};
-use super::memory::{Deed, Site, place};
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::lint::linter::{Linter, Taken};
+use crate::lint::memory::{Deed, Site, place};
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);

@@ -1,11 +1,11 @@
 //! FC401: a program leaves a kind away from its start-up state (R1.50). FC407: it moved the axis before, so that
 //! its second run differs from the first (R1.53).
 
-use super::linter::{EndNote, LeftAway, Linter};
-use super::memory::{Deed, MovedBefore, Site};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
+use crate::lint::linter::{EndNote, LeftAway, Linter};
+use crate::lint::memory::{Deed, MovedBefore, Site};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 

@@ -1,10 +1,10 @@
 //! FC403: the program moves an axis in a state that an earlier program left (R1.52).
 
-use super::history::Maker;
-use super::linter::Linter;
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::{Certainty, Executed, Found, MotionKind};
+use crate::lint::history::Maker;
+use crate::lint::linter::Linter;
 
 /// A message shows a block with so many characters.
 const MAX_SHOWN: usize = 60;

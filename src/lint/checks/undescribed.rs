@@ -1,9 +1,9 @@
 //! FC408: a command whose effect depends on a machine that is not described (R1.37).
 
-use super::linter::{Linter, Taken};
-use super::memory::place;
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::lint::linter::{Linter, Taken};
+use crate::lint::memory::place;
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let command = &taken.outcome.command;

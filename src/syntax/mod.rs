@@ -67,6 +67,8 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
+#[cfg(not(feature = "unstable"))]
+pub(crate) use mask::code_of;
 #[cfg(feature = "unstable")]
 pub use mask::code_of;
 pub(crate) use mask::goes_on;

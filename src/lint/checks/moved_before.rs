@@ -5,6 +5,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::{Certainty, Executed, Found, MotionKind};
 use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
+use crate::syntax::code_of;
 
 /// A message shows a block with so many characters.
 const MAX_SHOWN: usize = 60;
@@ -83,14 +84,11 @@ fn way(kind: MotionKind) -> &'static str {
     }
 }
 
-/// The text of a block as far as its first comment.
-fn code(text: &str) -> &str {
-    text.split([';', '(']).next().unwrap_or(text)
-}
-
 /// Program, line and block.
 fn named(maker: &Maker) -> String {
-    let words: Vec<&str> = code(&maker.text).split_whitespace().collect();
+    let code: Vec<String> = maker.text.lines().map(code_of).collect();
+    let code = code.join(" ");
+    let words: Vec<&str> = code.split_whitespace().collect();
     let text = words.join(" ");
     let mut shown: String = text.chars().take(MAX_SHOWN).collect();
     if shown.len() < text.len() {

@@ -11,9 +11,11 @@ use crate::error::HostError;
 use crate::input::{Input, Naming};
 use crate::switched_axes::switched_axes;
 use frictcomp::comp::{AxisIndex, Kind, State};
-use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::readings::{Basis, Question};
 use frictcomp::session::{Session, SessionOptions};
+use frictcomp::syntax::ast::{Address, Block, Item, Word};
+use frictcomp::syntax::parse_block;
 use frictcomp::timeline::{EndedBy, PositionFrame, Record, Row, StateView};
 
 /// Executed blocks at most; they are kept until the recording is laid beside them.
@@ -221,23 +223,25 @@ fn is_active(state: StateView<'_>, axis: AxisIndex) -> Option<bool> {
 
 /// The rules of the open questions that a block depends on and no control has answered.
 fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
-    let text = row.text;
-    let upper = text.to_uppercase();
-    let commands = upper.matches("COMP ").count();
-    let is_skipped = text.trim_start().starts_with('/');
-    let on_axes = ["#PUT AX", "#CALL AX", "#SET AX"];
+    let block = parse_block(row.text);
+    let is_comp = |item: &&Item| matches!(item, Item::Comp(_) | Item::BadCommand(_));
+    let commands = block.items.iter().filter(is_comp).count();
+    let names = |wanted: &str| {
+        let is_named = |item: &Item| matches!(item, Item::Hash(it) if it.name.starts_with(wanted));
+        block.items.iter().any(is_named)
+    };
     let asked = [
-        (Question::WithMotion, commands > 0 && moves(&upper)),
+        (Question::WithMotion, commands > 0 && moves(&block)),
         (Question::OrderInBlock, commands > 1),
         (
             Question::LowerCase,
-            commands > text.matches("COMP ").count(),
+            block.faults.iter().any(|it| it.code == Code::Fc404),
         ),
-        (Question::SkipLevel, is_skipped),
-        (Question::MachineData, upper.contains("#MACHINE DATA")),
+        (Question::SkipLevel, block.skip.is_some()),
+        (Question::MachineData, names("#MACHINE DATA")),
         (
             Question::AxisExchange,
-            on_axes.iter().any(|it| upper.contains(it)),
+            ["#PUT AX", "#CALL AX", "#SET AX"].into_iter().any(names),
         ),
     ];
     let open = asked
@@ -246,27 +250,18 @@ fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
     open.map(|(question, _)| question.facts().rule).collect()
 }
 
-/// Whether a block holds words outside of brackets that may move an axis.
-fn moves(text: &str) -> bool {
-    let mut depth = 0_u32;
-    let outside = text.chars().filter(|letter| {
-        match letter {
-            '[' => depth += 1,
-            ']' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        depth == 0
+/// Whether a block holds words that may move an axis.
+fn moves(block: &Block) -> bool {
+    let is_axis = |word: &Word| match word.address {
+        Address::Letter(letter) => b"XYZABCUVW".contains(&letter),
+        Address::Name(_) | Address::Main(b'X'..=b'Z') => true,
+        _ => false,
+    };
+    let items = block.items.iter().filter_map(|item| match item {
+        Item::Word(word) => Some(word),
+        _ => None,
     });
-    let outside: String = outside.collect();
-    let mut words = outside.split_whitespace();
-    words.any(|word| {
-        let mut letters = word.chars();
-        let is_axis = letters.next().is_some_and(|it| "XYZABCUVW".contains(it));
-        is_axis
-            && letters
-                .next()
-                .is_some_and(|it| it.is_ascii_digit() || "-.=".contains(it))
-    })
+    block.words.iter().chain(items).any(is_axis)
 }
 
 /// Whether no control of this build has answered a question.

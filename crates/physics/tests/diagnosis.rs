@@ -36,7 +36,7 @@ fn after(direction: Direction, angle: f64) -> f64 {
 const NOTHING: (&str, Deviation, &[Finding]) = ("nothing", |_, _| 0.0, &[]);
 
 /// Faults with what is to be said of them.
-const FAULTS: [(&str, Deviation, &[Finding]); 9] = [
+const FAULTS: [(&str, Deviation, &[Finding]); 11] = [
     (
         "backlash of 8 and 2 µm",
         |direction, angle| backlash([8.0, 2.0], direction, angle),
@@ -86,6 +86,16 @@ const FAULTS: [(&str, Deviation, &[Finding]); 9] = [
             6.0 * time(direction, angle) / (TAU * RADIUS / (FEED / 60.0)) * angle.cos()
         },
         &[Finding::OtherShape],
+    ),
+    (
+        "screw of Y, ±4 µm every 40 mm",
+        |_, angle| 4.0 * angle.sin() * (TAU * RADIUS * angle.sin() / 40.0 + 0.7).sin(),
+        &[Finding::Periodic],
+    ),
+    (
+        "vibration of X, ±2 µm at 180 Hz",
+        |direction, angle| 2.0 * angle.cos() * (TAU * 180.0 * time(direction, angle)).sin(),
+        &[Finding::Vibration],
     ),
 ];
 
@@ -217,6 +227,23 @@ fn two_turns_without_a_shift_show_none() {
                 "{name}, {noise} µm: {said:?}"
             );
         }
+    }
+}
+
+#[test]
+fn noise_that_swings_everywhere_is_no_stick_slip() {
+    // R5.28: noise whose neighbouring samples are alike, as behind a slow loop, by sines of no common period.
+    let swinging: Deviation = |direction, angle| {
+        let time = time(direction, angle);
+        let sines = (0..40).map(|at| {
+            let hertz = 3.0 + 1.37 * f64::from(at);
+            (TAU * hertz * time + f64::from(at * at)).sin()
+        });
+        0.12 * sines.sum::<f64>()
+    };
+    for (name, fault, _) in [NOTHING, FAULTS[0], FAULTS[3]] {
+        let said = said(&[fault, swinging], 0.1, ONE_TURN);
+        assert!(!said.contains(&Finding::StickSlip), "{name}: {said:?}");
     }
 }
 

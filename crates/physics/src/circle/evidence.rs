@@ -7,11 +7,12 @@ use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::drift::Drift;
 use super::evidence_shape::OtherShape;
-use super::linear::Normal;
+use super::oscillation::Oscillation;
+use super::periodic::Periodic;
 use super::profile::{Quality, RadialProfile};
-use super::residual::{Series, other_shape};
+use super::series::{Series, beyond_noise};
+use super::shapes::Shapes;
 use super::swings::stick_slip;
-use super::turning::Turning;
 
 /// A term is noticeable from so many standard errors on …
 const SIGNIFICANT: f64 = 3.0;
@@ -28,8 +29,8 @@ const REST_OF_NOISE: f64 = 0.3;
 /// … and from this part of a step of the encoder on.
 const REST_OF_STEP: f64 = 0.5;
 
-/// Rounds in which shapes and a periodic error are told apart.
-const ROUNDS: usize = 3;
+/// A shape explains at least this part of what is left.
+const EXPLAINS: f64 = 0.2;
 
 /// Evidence in a recording, with its limits.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -90,32 +91,44 @@ impl CircleEvidence {
         quality: Quality,
     ) -> Option<Self> {
         let paths: Vec<(Direction, &RadialProfile)> = paths.collect();
-        let series: Vec<Series> = paths
-            .iter()
-            .map(|&(direction, profile)| Series::of(profile, direction, quality.samples))
-            .collect::<Option<_>>()?;
-        let mut shapes = Shapes::fit(&series)?;
+        let in_steps = |steps: fn(&RadialProfile, Direction, usize) -> Option<Series>| {
+            let paths = paths.iter();
+            let series =
+                paths.map(|&(direction, profile)| steps(profile, direction, quality.samples));
+            series.collect::<Option<Vec<Series>>>()
+        };
+        let [coarse, fine] = [in_steps(Series::coarse)?, in_steps(Series::fine)?];
+        let mut shapes = Shapes::fit(&coarse)?;
         let noise_um = quality.noise_um;
-        let of_mean = noise_um * series.first()?.noise_share;
         let floor = (REST_OF_NOISE * noise_um)
             .max(LEAST_REST_UM)
             .max(REST_OF_STEP * quality.step_um);
-        let rest = |shapes: &Shapes| (shapes.rms.powi(2) - of_mean.powi(2)).max(0.0).sqrt();
-        let mut rest_um = rest(&shapes);
+        let mut left = shapes.less(&fine, None);
+        let mut rest_um = rest(&shapes, &left, noise_um);
         let mut other = None;
         if rest_um > floor {
-            let found = other_shape(&shapes.left, of_mean);
-            if let Some(mut periodic) = found.periodic {
-                for _ in 0..ROUNDS {
-                    let without: Vec<Series> = series.iter().map(|it| it.less(&periodic)).collect();
-                    shapes = Shapes::fit(&without)?;
-                    let with: Vec<Series> =
-                        shapes.left.iter().map(|it| it.plus(&periodic)).collect();
-                    periodic = periodic.again(&with)?;
-                }
-                rest_um = rest(&shapes);
+            let least = EXPLAINS * rest_um * rest_um;
+            let oscillation = Oscillation::search(&shapes.left, &left);
+            let oscillation = oscillation.filter(|it| it.explains > least);
+            let explained = oscillation.map_or(least, |it| it.explains);
+            let periodic = Periodic::search(&shapes).filter(|it| it.explains() > explained);
+            other = Some(match (&periodic, oscillation) {
+                (Some(periodic), _) => OtherShape::Periodic {
+                    axis: periodic.screw.axis,
+                    pitch_mm: 1.0 / periodic.screw.frequency,
+                    amplitude_um: periodic.amplitude_um(),
+                },
+                (None, Some(oscillation)) => OtherShape::Vibration {
+                    hertz: oscillation.hertz,
+                    amplitude_um: oscillation.amplitude_um,
+                },
+                (None, None) => OtherShape::Unknown,
+            });
+            if let Some(periodic) = periodic {
+                shapes = shapes.with(&periodic, &coarse)?;
+                left = shapes.less(&fine, Some(&periodic));
+                rest_um = rest(&shapes, &left, noise_um);
             }
-            other = Some(found.shape());
         }
         let is_explained = matches!(
             other,
@@ -145,73 +158,10 @@ impl CircleEvidence {
     }
 }
 
-/// Fitted shapes, and the paths less them.
-struct Shapes {
-    terms: Vec<Term>,
-    left: Vec<Series>,
-    rms: f64,
-}
-
-impl Shapes {
-    fn fit(series: &[Series]) -> Option<Self> {
-        if series.len() == 2 {
-            let names = [
-                (6, ShapeTerm::Scale, 2.0),
-                (7, ShapeTerm::Squareness, 2.0),
-                (8, ShapeTerm::Gain, 2.0),
-                (9, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
-                (10, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),
-                (11, ShapeTerm::Play(PlaneAxis::X), 1.0),
-                (12, ShapeTerm::Play(PlaneAxis::Y), 1.0),
-            ];
-            return Self::of::<13>(series, both_row, &names);
-        }
-        let names = [
-            (5, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
-            (6, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),
-        ];
-        Self::of::<7>(series, single_row, &names)
-    }
-
-    fn of<const N: usize>(
-        series: &[Series],
-        row: fn(Turning, Direction) -> [f64; N],
-        names: &[(usize, ShapeTerm, f64)],
-    ) -> Option<Self> {
-        let mut normal = Normal::<N>::new();
-        for one in series {
-            for (angle, value) in one.samples() {
-                normal.add(row(angle, one.direction), value);
-            }
-        }
-        let spreads = normal.spreads()?;
-        let found = normal.solve()?;
-        let model = |angle: Turning, direction: Direction| -> f64 {
-            let row = row(angle, direction);
-            row.iter().zip(found).map(|(part, size)| part * size).sum()
-        };
-        let left: Vec<Series> = series
-            .iter()
-            .map(|one| one.map(|angle, value| value - model(angle, one.direction)))
-            .collect();
-        let (sum, count) = left
-            .iter()
-            .flat_map(Series::samples)
-            .fold((0.0, 0.0), |(sum, count), (_, value)| {
-                (sum + value * value, count + 1.0)
-            });
-        let of_blocks = left.iter().map(Series::block_variance).fold(0.0, f64::max);
-        let terms = names.iter().map(|&(at, shape, factor)| Term {
-            shape,
-            size_um: factor * found[at],
-            error_um: factor * (spreads[at] * of_blocks).sqrt(),
-        });
-        Some(Self {
-            terms: terms.collect(),
-            rms: (sum / f64::max(count, 1.0)).sqrt(),
-            left,
-        })
-    }
+/// What neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or of the fine
+/// ones, in which a fast oscillation shows.
+fn rest(shapes: &Shapes, fine: &[Series], noise_um: f64) -> f64 {
+    beyond_noise(&shapes.left, noise_um).max(beyond_noise(fine, noise_um))
 }
 
 /// The shift of each axis in µm a turn.
@@ -227,42 +177,4 @@ fn drifts(drift: Drift) -> [Term; 2] {
             error_um: error * UM_PER_MM,
         });
     std::array::from_fn(|_| terms.next().expect("two axes"))
-}
-
-/// Steps where X and Y reverse: half of them against the direction of the axis.
-fn steps(angle: Turning, turning: f64) -> [f64; 2] {
-    [
-        0.5 * turning * angle.sin.signum() * angle.cos,
-        -0.5 * turning * angle.cos.signum() * angle.sin,
-    ]
-}
-
-fn both_row(angle: Turning, direction: Direction) -> [f64; 13] {
-    let Turning { cos, sin } = angle;
-    let turning = direction.sign();
-    let of = |which: f64| if turning * which > 0.0 { 1.0 } else { 0.0 };
-    let [ccw, cw] = [of(1.0), of(-1.0)];
-    let [x, y] = steps(angle, turning);
-    let diagonal = 2.0 * cos * sin;
-    [
-        ccw,
-        cw,
-        ccw * cos,
-        ccw * sin,
-        cw * cos,
-        cw * sin,
-        cos * cos - sin * sin,
-        diagonal,
-        turning * diagonal,
-        x,
-        y,
-        0.5 * turning * cos.abs(),
-        -0.5 * turning * sin.abs(),
-    ]
-}
-
-fn single_row(angle: Turning, direction: Direction) -> [f64; 7] {
-    let Turning { cos, sin } = angle;
-    let [x, y] = steps(angle, direction.sign());
-    [1.0, cos, sin, cos * cos - sin * sin, 2.0 * cos * sin, x, y]
 }

@@ -28,14 +28,28 @@ impl<const N: usize> Normal<N> {
         }
     }
 
+    /// Holds unknowns that no equation has at 0.
+    pub(super) fn hold_unused(&mut self) {
+        for at in 0..N {
+            if self.matrix[at][at] == 0.0 {
+                self.matrix[at][at] = 1.0;
+            }
+        }
+    }
+
+    /// The unknowns of the same equations with other values, of which these are the sums with each row.
+    pub(super) fn solve_for(&self, right: [f64; N]) -> Option<[f64; N]> {
+        let matrix = self.matrix;
+        Self { matrix, right }.solve()
+    }
+
     /// The variances of the unknowns for values of the variance 1, one independent of the other.
     pub(super) fn spreads(&self) -> Option<[f64; N]> {
         let mut spreads = [0.0; N];
         for (at, spread) in spreads.iter_mut().enumerate() {
-            let mut unit = self.clone();
-            unit.right = [0.0; N];
-            unit.right[at] = 1.0;
-            *spread = unit.solve()?[at];
+            let mut unit = [0.0; N];
+            unit[at] = 1.0;
+            *spread = self.solve_for(unit)?[at];
         }
         Some(spreads)
     }

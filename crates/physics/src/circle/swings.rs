@@ -1,5 +1,7 @@
 //! Swings after a reversal: an axis that sticks and slips does not come to rest in one (R5.28).
 
+use std::ops::RangeInclusive;
+
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::profile::{PER_DEGREE, RadialProfile, UM_PER_M};
@@ -10,6 +12,10 @@ const AVERAGED_S: f64 = 0.008;
 /// Swings are counted for so many s after a crossing, or for as many degrees.
 const AFTER_S: f64 = 0.3;
 const AFTER_DEG: f64 = 14.0;
+
+/// Swings that are there before a crossing, too, are not its own: they are counted on as long a way, but
+/// not back to the crossing of the other axis.
+const BEFORE_DEG: f64 = 45.0;
 
 /// Fewer extremes are those of a peak.
 const FEWEST: usize = 4;
@@ -30,44 +36,66 @@ pub(super) fn stick_slip(
     noise_um: f64,
 ) -> Option<f64> {
     let crossings = || Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
-    let mut found: Vec<(usize, f64)> = paths
+    let found: Vec<Swings> = paths
         .iter()
         .flat_map(|&(direction, profile)| {
-            crossings().map(move |crossing| swings(profile, direction, crossing, noise_um))
+            crossings().map(move |crossing| Swings::of(profile, direction, crossing, noise_um))
         })
         .collect::<Option<_>>()?;
-    found.sort_by_key(|it| it.0);
-    let (count, _) = *found.get(found.len() / 2)?;
-    let largest = found.iter().map(|it| it.1).fold(0.0, f64::max);
-    (count >= FEWEST).then_some(largest)
+    let median = |count: fn(&Swings) -> usize| {
+        let mut counts: Vec<usize> = found.iter().map(count).collect();
+        counts.sort_unstable();
+        counts.get(counts.len() / 2).copied()
+    };
+    let largest = found.iter().map(|it| it.largest_um).fold(0.0, f64::max);
+    let [after, before] = [median(|it| it.after)?, median(|it| it.before)?];
+    (after >= FEWEST && before < after / 2).then_some(largest)
 }
 
-/// Extremes after a crossing, and the largest swing between two of them.
-fn swings(
-    profile: &RadialProfile,
-    direction: Direction,
-    crossing: Crossing,
-    noise_um: f64,
-) -> Option<(usize, f64)> {
-    let turning = 360.0 / profile.turn_s()?;
-    let degrees = (AFTER_S * turning).clamp(AFTER_DEG, 80.0);
-    #[allow(clippy::cast_possible_truncation)] // at most 8000
-    let angles = |degrees: f64| (degrees * f64::from(PER_DEGREE)).round() as i32;
-    let points = profile.fixed(crossing, direction, 0..=angles(degrees));
-    let path: Vec<f64> = points
-        .map(|(_, point)| point.deviation * UM_PER_M)
-        .collect();
-    let width = usize::try_from(angles(AVERAGED_S * turning))
-        .unwrap_or(1)
-        .max(1);
-    #[allow(clippy::cast_precision_loss)] // at most some hundred
-    let mean = |window: &[f64]| window.iter().sum::<f64>() / window.len() as f64;
-    let smooth: Vec<f64> = path.windows(width).map(mean).collect();
-    let [low, high] = smooth.iter().fold([f64::MAX, f64::MIN], |[low, high], it| {
-        [low.min(*it), high.max(*it)]
-    });
-    let least = (PART * (high - low)).max(LEAST_UM).max(OF_NOISE * noise_um);
-    Some(extremes(&smooth, least))
+/// Swings around a crossing.
+struct Swings {
+    /// Extremes after it.
+    after: usize,
+    /// Extremes before it: those of noise or of an oscillation.
+    before: usize,
+    /// The largest swing after it.
+    largest_um: f64,
+}
+
+impl Swings {
+    fn of(
+        profile: &RadialProfile,
+        direction: Direction,
+        crossing: Crossing,
+        noise_um: f64,
+    ) -> Option<Self> {
+        let turning = 360.0 / profile.turn_s()?;
+        let degrees = (AFTER_S * turning).clamp(AFTER_DEG, 80.0);
+        #[allow(clippy::cast_possible_truncation)] // at most 8000
+        let angles = |degrees: f64| (degrees * f64::from(PER_DEGREE)).round() as i32;
+        let width = usize::try_from(angles(AVERAGED_S * turning))
+            .unwrap_or(1)
+            .max(1);
+        #[allow(clippy::cast_precision_loss)] // at most some hundred
+        let mean = |window: &[f64]| window.iter().sum::<f64>() / window.len() as f64;
+        let smooth = |ways: RangeInclusive<i32>| -> Vec<f64> {
+            let points = profile.fixed(crossing, direction, ways);
+            let path: Vec<f64> = points.map(|(_, it)| it.deviation * UM_PER_M).collect();
+            path.windows(width).map(mean).collect()
+        };
+        let after = smooth(0..=angles(degrees));
+        let before = smooth(-angles(degrees.min(BEFORE_DEG))..=0);
+        let [low, high] = after.iter().fold([f64::MAX, f64::MIN], |[low, high], it| {
+            [low.min(*it), high.max(*it)]
+        });
+        let least = (PART * (high - low)).max(LEAST_UM).max(OF_NOISE * noise_um);
+        let (after, largest_um) = extremes(&after, least);
+        Some(Self {
+            after,
+            before: extremes(&before, least).0,
+            largest_um,
+        })
+    }
 }
 
 /// The extremes of a path between swings of at least this size, and the largest swing.

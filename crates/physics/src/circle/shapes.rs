@@ -1,0 +1,227 @@
+//! The shapes that are fitted to recorded paths at once, with their standard errors (R5.28).
+
+use super::crossing::PlaneAxis;
+use super::direction::Direction;
+use super::evidence::{ShapeTerm, Term};
+use super::linear::Normal;
+use super::periodic::{Periodic, Screw};
+use super::series::Series;
+use super::turning::Turning;
+
+/// Number of fitted shapes, centres and radii included.
+const SHAPES: usize = 13;
+
+/// One value for each shape.
+type Row = [f64; SHAPES];
+
+/// Shapes that both directions tell, with their places in a row, and how many times its unknown each is.
+const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
+    (6, ShapeTerm::Scale, 2.0),
+    (7, ShapeTerm::Squareness, 2.0),
+    (8, ShapeTerm::Gain, 2.0),
+    (9, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
+    (10, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),
+    (11, ShapeTerm::Play(PlaneAxis::X), 1.0),
+    (12, ShapeTerm::Play(PlaneAxis::Y), 1.0),
+];
+
+/// Those that one direction tells.
+const OF_ONE: [(usize, ShapeTerm, f64); 2] = [
+    (9, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
+    (10, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),
+];
+
+/// Shapes that one direction cannot tell from others.
+const UNTOLD: [usize; 3] = [8, 11, 12];
+
+/// Fitted shapes, and the paths less them.
+pub(super) struct Shapes {
+    normal: Normal<SHAPES>,
+    is_single: bool,
+    found: Row,
+    pub(super) terms: Vec<Term>,
+    pub(super) left: Vec<Series>,
+}
+
+impl Shapes {
+    pub(super) fn fit(series: &[Series]) -> Option<Self> {
+        let is_single = series.len() == 1;
+        let mut normal = Normal::<SHAPES>::new();
+        for one in series {
+            for (angle, value) in one.steps() {
+                normal.add(row(angle, one.direction, is_single), value);
+            }
+        }
+        normal.hold_unused();
+        let shapes = Self {
+            found: normal.clone().solve()?,
+            normal,
+            is_single,
+            terms: Vec::new(),
+            left: Vec::new(),
+        };
+        let spreads = shapes.normal.spreads()?;
+        Some(shapes.judged(series, &spreads, None))
+    }
+
+    /// The shapes together with a periodic error, which takes from each what it may be as well.
+    pub(super) fn with(&self, periodic: &Periodic, series: &[Series]) -> Option<Self> {
+        let joint = &periodic.joint;
+        let mut found = self.found;
+        let mut spreads = self.normal.spreads()?;
+        for (at, (unknown, spread)) in found.iter_mut().zip(&mut spreads).enumerate() {
+            let shares = joint.shares.map(|it| it[at]);
+            *unknown -= shares[0] * joint.parts[0] + shares[1] * joint.parts[1];
+            *spread += joint.spread(shares);
+        }
+        let shapes = Self {
+            normal: self.normal.clone(),
+            is_single: self.is_single,
+            found,
+            terms: Vec::new(),
+            left: Vec::new(),
+        };
+        Some(shapes.judged(series, &spreads, Some(periodic)))
+    }
+
+    /// The screw's own part of what the shapes leave.
+    pub(super) fn joint(&self, screw: &Screw) -> Option<Joint> {
+        let mut sums = [[0.0; SHAPES]; 2];
+        let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
+        for one in &self.left {
+            for (angle, value) in one.steps() {
+                let columns = screw.columns(angle, one.radius_mm);
+                let row = row(angle, one.direction, self.is_single);
+                for (sums, column) in sums.iter_mut().zip(columns) {
+                    for (sum, part) in sums.iter_mut().zip(row) {
+                        *sum += part * column;
+                    }
+                }
+                let [c, s] = columns;
+                for (sum, part) in squares.iter_mut().zip([c * c, c * s, s * s]) {
+                    *sum += part;
+                }
+                products[0] += c * value;
+                products[1] += s * value;
+                count += 1.0;
+            }
+        }
+        let shares = [
+            self.normal.solve_for(sums[0])?,
+            self.normal.solve_for(sums[1])?,
+        ];
+        let dot = |one: &Row, other: &Row| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let own = [
+            squares[0] - dot(&sums[0], &shares[0]),
+            squares[1] - dot(&sums[0], &shares[1]),
+            squares[2] - dot(&sums[1], &shares[1]),
+        ];
+        let joint = Joint::new(own, squares, products)?;
+        Some(Joint {
+            shares,
+            explains: joint.explains / f64::max(count, 1.0),
+            ..joint
+        })
+    }
+
+    fn judged(mut self, series: &[Series], spreads: &Row, periodic: Option<&Periodic>) -> Self {
+        self.left = self.less(series, periodic);
+        let of_blocks = self.left.iter().map(Series::block_variance);
+        let of_blocks = of_blocks.fold(0.0, f64::max);
+        let told: &[(usize, ShapeTerm, f64)] = if self.is_single { &OF_ONE } else { &OF_BOTH };
+        let term = |&(at, shape, factor): &(usize, ShapeTerm, f64)| Term {
+            shape,
+            size_um: factor * self.found[at],
+            error_um: factor * (spreads[at] * of_blocks).sqrt(),
+        };
+        self.terms = told.iter().map(term).collect();
+        self
+    }
+
+    /// Paths less the shapes, and less a periodic error.
+    pub(super) fn less(&self, series: &[Series], periodic: Option<&Periodic>) -> Vec<Series> {
+        let less = |one: &Series| {
+            one.less(|angle, direction| {
+                let row = row(angle, direction, self.is_single);
+                let of_shapes: f64 = row.iter().zip(self.found).map(|(a, b)| a * b).sum();
+                of_shapes + periodic.map_or(0.0, |it| it.at(angle, one.radius_mm))
+            })
+        };
+        series.iter().map(less).collect()
+    }
+}
+
+/// The error of a screw beside the shapes.
+pub(super) struct Joint {
+    /// The amplitudes of its cosine and its sine.
+    pub(super) parts: [f64; 2],
+    /// Mean square that it explains.
+    pub(super) explains: f64,
+    inverse: [f64; 3],
+    /// How much of each shape the cosine and the sine are.
+    shares: [Row; 2],
+}
+
+impl Joint {
+    /// The fit of two columns with the squares that are their own, of all their squares.
+    pub(super) fn new(own: [f64; 3], squares: [f64; 3], products: [f64; 2]) -> Option<Self> {
+        /// Columns of which less is their own are shapes.
+        const LEAST_OWN: f64 = 1e-6;
+        let determinant = own[0] * own[2] - own[1] * own[1];
+        let is_firm = determinant > LEAST_OWN * squares[0] * squares[2];
+        let inverse = [own[2], -own[1], own[0]].map(|it| it / determinant);
+        let parts = [
+            inverse[0] * products[0] + inverse[1] * products[1],
+            inverse[1] * products[0] + inverse[2] * products[1],
+        ];
+        is_firm.then_some(Self {
+            parts,
+            explains: parts[0] * products[0] + parts[1] * products[1],
+            inverse,
+            shares: [[0.0; SHAPES]; 2],
+        })
+    }
+
+    /// The variance that an uncertain screw adds to a shape of which it has such shares.
+    fn spread(&self, [c, s]: [f64; 2]) -> f64 {
+        c * c * self.inverse[0] + 2.0 * c * s * self.inverse[1] + s * s * self.inverse[2]
+    }
+}
+
+/// Steps where X and Y reverse: half of them against the direction of the axis.
+fn steps(angle: Turning, turning: f64) -> [f64; 2] {
+    [
+        0.5 * turning * angle.sin.signum() * angle.cos,
+        -0.5 * turning * angle.cos.signum() * angle.sin,
+    ]
+}
+
+fn row(angle: Turning, direction: Direction, is_single: bool) -> Row {
+    let Turning { cos, sin } = angle;
+    let turning = direction.sign();
+    let of = |which: f64| if turning * which > 0.0 { 1.0 } else { 0.0 };
+    let [ccw, cw] = [of(1.0), of(-1.0)];
+    let [x, y] = steps(angle, turning);
+    let diagonal = 2.0 * cos * sin;
+    let mut row = [
+        ccw,
+        cw,
+        ccw * cos,
+        ccw * sin,
+        cw * cos,
+        cw * sin,
+        cos * cos - sin * sin,
+        diagonal,
+        turning * diagonal,
+        x,
+        y,
+        0.5 * turning * cos.abs(),
+        -0.5 * turning * sin.abs(),
+    ];
+    if is_single {
+        for at in UNTOLD {
+            row[at] = 0.0;
+        }
+    }
+    row
+}

@@ -1,5 +1,5 @@
-// Bundles the extension, and the script of the timeline view, each into one file, and puts the pages of
-// the codes and the licences of what is inside beside them.
+// Bundles the extension, and the scripts of its views, each into one file, and puts the pages of the
+// codes, the style of pictures and the licences of what is inside beside them.
 import { cpSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
@@ -14,22 +14,26 @@ const extension = await build({
   target: "node20",
   external: ["vscode"],
 });
-const view = await build({
+const views = await build({
   ...common,
-  entryPoints: ["src/view/timeline.ts"],
-  outfile: "dist/timeline.js",
+  entryPoints: { timeline: "src/view/timeline.ts", contour: "src/contour/page.ts" },
+  outdir: "dist",
   platform: "browser",
   format: "iife",
   target: "es2022",
 });
 cpSync("../../docs/codes", "dist/codes", { recursive: true });
+// A webview tells the theme by a class of its body, and not through `prefers-color-scheme`.
+const style = readFileSync("../../crates/report/src/svg/style.css", "utf8");
+const dark = "body:is(.vscode-dark, .vscode-high-contrast:not(.vscode-high-contrast-light))";
+writeFileSync("dist/picture.css", style.replaceAll("@media (prefers-color-scheme:dark)", dark));
 
 /** The folder of the npm package that a bundled file belongs to, if it is of one. */
 function packageOf(file) {
   return /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(file)?.[0];
 }
 
-const files = [extension, view].flatMap((bundle) => Object.keys(bundle.metafile.inputs));
+const files = [extension, views].flatMap((bundle) => Object.keys(bundle.metafile.inputs));
 const packages = [...new Set(files.map(packageOf).filter(Boolean))].sort();
 const licences = packages.map((folder) => {
   const { name, version, license } = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));

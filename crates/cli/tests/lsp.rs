@@ -2,6 +2,8 @@
 
 #[path = "lsp/calls.rs"]
 mod calls;
+#[path = "lsp/contour.rs"]
+mod contour;
 #[path = "lsp/fixes.rs"]
 mod fixes;
 mod folder;

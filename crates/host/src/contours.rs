@@ -57,6 +57,9 @@ pub enum NoDrivenContour {
         /// The machine time in s.
         after_s: f64,
     },
+    /// Nobody waits for it any more.
+    #[error("the contour was stopped")]
+    Stopped,
     /// Standard input, which can be read only once.
     #[error("standard input can be read only once, and a contour needs the program twice")]
     OnlyOnce,
@@ -66,7 +69,7 @@ pub enum NoDrivenContour {
 /// somebody watches; a second one drives them. `sink` is made for the axes that are driven.
 ///
 /// # Errors
-/// The program cannot be read or its axes cannot be driven, or a drive is unstable.
+/// The program cannot be read or its axes cannot be driven, a drive is unstable, or the watcher stops it.
 pub fn drive_contour<S: ContourSink>(
     input: &Input,
     loaded: &LoadedMachine,
@@ -87,6 +90,9 @@ pub fn drive_contour<S: ContourSink>(
     };
     let mut ahead = Ahead::new(&loaded, setup.planner);
     run_alone(input, &loaded, alone(), &mut ahead)?;
+    if loaded.watch.is_stopped() {
+        return Err(NoDrivenContour::Stopped);
+    }
     let (moving, seconds) = ahead.finish();
     let [first, second] = &setup.plane;
     let axes = moving.driven(
@@ -108,6 +114,9 @@ pub fn drive_contour<S: ContourSink>(
         seconds,
     };
     run_alone(input, &loaded, alone(), &mut watched)?;
+    if loaded.watch.is_stopped() {
+        return Err(NoDrivenContour::Stopped);
+    }
     contour.finish();
     if contour.is_unstable() {
         return Err(NoDrivenContour::Unstable {
@@ -184,6 +193,9 @@ impl<S: ContourSink> Sink for WatchedContour<'_, S> {
             seconds: whole(self.contour.machine_time_s()),
             all: whole(self.seconds),
         });
+        if self.watch.is_stopped() {
+            return ControlFlow::Break(());
+        }
         flow
     }
 }

@@ -3,6 +3,8 @@ import { constants, accessSync } from "node:fs";
 import * as path from "node:path";
 import * as vscode from "vscode";
 import { findBinary, type Found } from "./binary";
+import { ContourPanel } from "./contour/panel";
+import { contourOptions, contourSettings } from "./contour/settings";
 import { registerDebugger } from "./debug";
 import { foreignLanguage, isServed, programLanguages } from "./languages";
 import { furtherLanguages, isProgram } from "./programs";
@@ -19,6 +21,7 @@ export function activate(context: vscode.ExtensionContext): void {
   });
   const status = new StatusBar((uri, position) => server.states(uri, position));
   const view = new TimelineView(context.extensionUri, (uri) => server.timeline(uri));
+  const contour = new ContourPanel(context.extensionUri, (uri, stop) => server.contour(uri, stop));
   const wanted = context.extension.packageJSON as { version: string };
   const trouble = new Trouble();
   const program = async (): Promise<string | undefined> => {
@@ -41,6 +44,7 @@ export function activate(context: vscode.ExtensionContext): void {
     }
     status.refresh();
     view.refresh();
+    contour.refresh();
   };
   // Nothing happens before there is something to check.
   const meet = (document: vscode.TextDocument): void => {
@@ -57,8 +61,9 @@ export function activate(context: vscode.ExtensionContext): void {
     server,
     status,
     view,
+    contour,
     ...registerDebugger(program),
-    ...commands({ server, reports, program, start }),
+    ...commands({ server, reports, contour, program, start }),
     vscode.workspace.onDidOpenTextDocument(meet),
     vscode.workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration("frictcomp")) {
@@ -77,11 +82,12 @@ export function activate(context: vscode.ExtensionContext): void {
 interface Parts {
   server: Server;
   reports: Reports;
+  contour: ContourPanel;
   program: () => Promise<string | undefined>;
   start: () => Promise<void>;
 }
 
-function commands({ server, reports, program, start }: Parts): vscode.Disposable[] {
+function commands({ server, reports, contour, program, start }: Parts): vscode.Disposable[] {
   return [
     vscode.commands.registerCommand("frictcomp.runProgram", async () => {
       const document = activeProgram();
@@ -96,13 +102,20 @@ function commands({ server, reports, program, start }: Parts): vscode.Disposable
         await reports.showRun("Audit", file, ["audit", folder.fsPath], folder.fsPath);
       }
     }),
-    vscode.commands.registerCommand("frictcomp.contourOfProgram", async () => {
+    vscode.commands.registerCommand("frictcomp.contourOfProgram", () => {
+      const document = activeProgram();
+      if (document) {
+        contour.open(document.uri);
+      }
+    }),
+    vscode.commands.registerCommand("frictcomp.reportContour", async () => {
       const document = activeProgram();
       const file = document && (await program());
-      // The command line reads the file: what is not saved would not be in the picture.
+      // The command line reads the file: what is not saved would not be in the report.
       if (document && file !== undefined && (await document.save())) {
         const { fsPath } = document.uri;
-        await reports.showRun("Contour", file, ["contour", fsPath], path.dirname(fsPath));
+        const folder = workspaceFolder()?.fsPath ?? path.dirname(fsPath);
+        await reports.showRun("Contour", file, ["contour", fsPath, ...contourOptions(contourSettings())], folder);
       }
     }),
     vscode.commands.registerCommand("frictcomp.simulateCircle", async () => {

@@ -32,6 +32,30 @@ export interface Timeline {
   remark: string | null;
 }
 
+/** What a block drives of the path: a line through points of the picture. */
+export interface Stretch {
+  /** The number of its file, from 0. */
+  file: number;
+  /** Its line, from 0. */
+  line: number;
+  points: [number, number][];
+}
+
+/** The answer of `frictcomp/contour`: the picture of the path, and what stands where in it. */
+export interface Contour {
+  /** The picture; none where nothing was driven. */
+  svg: string | null;
+  /** The URIs of the programs whose blocks are driven. */
+  files: string[];
+  /** The path block by block, in the order of driving. */
+  stretches: Stretch[];
+  /** The worst reversals, the worst first. */
+  worst: { file: number; line: number; words: string }[];
+  figures: string;
+  /** What the contour rests on, and what is missing of it. */
+  remarks: string[];
+}
+
 /** The answer of a command that shows a report: a page that needs nothing else. */
 export interface Report {
   html: string;

@@ -7,9 +7,11 @@ import {
   TransportKind,
   type LanguageClientOptions,
 } from "vscode-languageclient/node";
+import type { ContourAnswer } from "./contour/panel";
+import { contourSettings } from "./contour/settings";
 import { selector } from "./languages";
 import { furtherLanguages } from "./programs";
-import type { Report, States, Timeline } from "./protocol";
+import type { Contour, Report, States, Timeline } from "./protocol";
 
 /** The identifier of ISG's extension, to which definitions and references are left. */
 const ISG_EXTENSION = "isg-cnc.vscode-isg-cnc";
@@ -73,6 +75,20 @@ export class Server implements vscode.Disposable {
     return this.ask("frictcomp/timeline", { textDocument: { uri: uri.toString() } });
   }
 
+  /** Drives a program; it is stopped where nobody waits any more. */
+  async contour(uri: vscode.Uri, stop: vscode.CancellationToken): Promise<ContourAnswer> {
+    const client = this.client;
+    if (!client?.isRunning()) {
+      return { reason: "the language server of frictcomp is not running" };
+    }
+    try {
+      const params = { textDocument: { uri: uri.toString() } };
+      return { contour: await client.sendRequest<Contour>("frictcomp/contour", params, stop) };
+    } catch (error) {
+      return { reason: error instanceof Error ? error.message : String(error) };
+    }
+  }
+
   /** Runs a command of the server on a document; what it answers is shown by the middleware. */
   async command(command: string, uri: vscode.Uri): Promise<void> {
     await vscode.commands.executeCommand(command, { uri: uri.toString() });
@@ -90,6 +106,7 @@ export class Server implements vscode.Disposable {
       navigation: settings.get<string>("navigation"),
       maxBlocks: settings.get<number>("maxBlocks"),
       languages: furtherLanguages(),
+      contour: contourSettings(),
       isgExtension: vscode.extensions.getExtension(ISG_EXTENSION) !== undefined,
       pages: vscode.Uri.joinPath(this.extension, ...PAGES).toString(),
     };

@@ -138,7 +138,7 @@ pub(super) struct Documents {
     names: SharedMap<PathBuf, BTreeSet<String>>,
     /// Contents of the texts, by the paths of their files.
     texts: SharedMap<PathBuf, Arc<String>>,
-    /// The folder of texts that have no file.
+    /// The folder of the project, and of texts that have no file.
     folder: PathBuf,
 }
 
@@ -206,6 +206,11 @@ impl Documents {
     /// All open texts.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<Document>> {
         self.open.iter().map(|(_, document)| document)
+    }
+
+    /// The folder of the project.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// The disk of the system with the open texts in place of their files.

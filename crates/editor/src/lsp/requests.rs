@@ -12,6 +12,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use super::contour::{self, ContourRequest};
 use super::custom::{StatesRequest, TimelineRequest};
 use super::refusal::Refusal;
 use super::view::View;
@@ -31,6 +32,8 @@ pub(super) enum Needs {
     Check,
     /// Time: no other question may wait for it.
     Time,
+    /// Time for a simulation: not even a report may wait for it.
+    Simulation,
 }
 
 /// A question, and who answers it.
@@ -46,7 +49,7 @@ pub(super) fn handler(method: &str) -> Option<(Needs, Handler)> {
     Some((known.needs, known.handler))
 }
 
-static KNOWN: [Known; 21] = [
+static KNOWN: [Known; 22] = [
     known::<HoverRequest>(Needs::Check, |view, params| {
         answer(view, params, hover::hover)
     }),
@@ -70,6 +73,10 @@ static KNOWN: [Known; 21] = [
     }),
     known::<TimelineRequest>(Needs::Check, |view, params| {
         answer(view, params, custom::timeline)
+    }),
+    known::<ContourRequest>(Needs::Simulation, |view, params| {
+        let contour = contour::contour(view, &serde_json::from_value(params)?)?;
+        Ok(serde_json::to_value(contour)?)
     }),
     known::<DocumentSymbolRequest>(Needs::Texts, |view, params| {
         answer(view, params, navigation::symbols)

@@ -28,6 +28,7 @@ use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
 use super::delivery::{CheckedFor, Delivery};
 use super::documents::{Document, Documents, Kind, is_of_a_user};
+use super::lanes::{Lanes, Question};
 use super::log::log;
 use super::messages::{ByText, Translator};
 use super::project_calls::ProjectCalls;
@@ -54,20 +55,18 @@ pub enum Shutdown {
     Abrupt,
 }
 
-/// A question on its way to who answers it.
-struct Question {
-    id: RequestId,
-    handler: Handler,
-    params: Value,
-    view: View,
-}
-
 /// Work that is done.
 enum Done {
     /// A text was checked; `None` where it has changed meanwhile.
     Checked(Option<Box<Analysis>>),
     /// A question was answered.
     Answered(Response),
+}
+
+impl From<Response> for Done {
+    fn from(response: Response) -> Self {
+        Self::Answered(response)
+    }
 }
 
 /// A question that waits for the check of a text.
@@ -129,9 +128,7 @@ struct Server<'c> {
     delivery: Delivery,
     checks: Checks,
     checking: Worker<Job>,
-    answering: Worker<Question>,
-    /// Answers that take their time.
-    reporting: Worker<Question>,
+    lanes: Lanes,
     done: Receiver<Done>,
     waiting: Vec<Waiting>,
     /// Questions of the client on their way, and what the server asked the client.
@@ -156,9 +153,8 @@ impl<'c> Server<'c> {
             users: Users::default(),
             delivery: Delivery::default(),
             checks: Checks::default(),
-            checking: checking(sender.clone())?,
-            answering: answering("answers", sender.clone())?,
-            reporting: answering("reports", sender)?,
+            lanes: Lanes::new(&sender)?,
+            checking: checking(sender)?,
             done,
             waiting: Vec::new(),
             queue: ReqQueue::default(),
@@ -265,23 +261,21 @@ impl<'c> Server<'c> {
     fn ask(&mut self, id: RequestId, (needs, handler): (Needs, Handler), params: Value) {
         let cancel = Cancel::default();
         self.queue.incoming.register(id.clone(), cancel.clone());
-        let lane = match needs {
-            Needs::Texts | Needs::Check => &self.answering,
-            Needs::Time => &self.reporting,
+        let view = View {
+            client: Arc::clone(&self.client),
+            documents: self.documents.clone(),
+            analyses: self.analyses.clone(),
+            shown: self.delivery.shown().clone(),
+            calls: self.calls.clone(),
+            cancel,
         };
-        lane.send(Question {
+        let question = Question {
             id,
             handler,
             params,
-            view: View {
-                client: Arc::clone(&self.client),
-                documents: self.documents.clone(),
-                analyses: self.analyses.clone(),
-                shown: self.delivery.shown().clone(),
-                calls: self.calls.clone(),
-                cancel,
-            },
-        });
+            view,
+        };
+        self.lanes.send(needs, question);
     }
 
     fn answered(&mut self, response: Response) {
@@ -574,25 +568,5 @@ fn checking(done: Sender<Done>) -> io::Result<Worker<Job>> {
     Worker::new("checks", move |job: Job| {
         // The receiver is gone with the server.
         let _ = done.send(Done::Checked(job.run().map(Box::new)));
-    })
-}
-
-/// A thread of answers.
-fn answering(name: &str, done: Sender<Done>) -> io::Result<Worker<Question>> {
-    Worker::new(name, move |question: Question| {
-        let Question {
-            id,
-            handler,
-            params,
-            view,
-        } = question;
-        if view.cancel.is_set() {
-            return;
-        }
-        let response = match handler(&view, params) {
-            Ok(result) => Response::new_ok(id, result),
-            Err(refusal) => refusal.of(id),
-        };
-        let _ = done.send(Done::Answered(response));
     })
 }

@@ -1,5 +1,7 @@
 //! Settings of the user of an editor (R12.4, R12.7).
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 
 /// Executed blocks of a program that are checked while one types.
@@ -17,8 +19,29 @@ pub(super) enum Navigation {
     Off,
 }
 
+/// What drives the contour of a program: the keys below `contour` (R12.17).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ContourSettings {
+    /// `contour.plant`: the drives, a preset or a file.
+    pub(super) plant: String,
+    /// `contour.plane`: the axes of the plane.
+    pub(super) plane: [String; 2],
+    /// `contour.start`: where axes stand before the program, in mm or degrees.
+    pub(super) start: BTreeMap<String, f64>,
+}
+
+impl Default for ContourSettings {
+    fn default() -> Self {
+        Self {
+            plant: "stiff".to_owned(),
+            plane: ["X", "Y"].map(str::to_owned),
+            start: BTreeMap::new(),
+        }
+    }
+}
+
 /// The settings of the client, the keys of `frictcomp`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Settings {
     /// `inlayHints.enable`: changes of states are shown in the text.
     pub(super) inlay_hints: bool,
@@ -34,6 +57,8 @@ pub(super) struct Settings {
     pub(super) pages: Option<String>,
     /// `languages`: further languages of the editor whose texts are programs, whatever they are called.
     pub(super) languages: Vec<String>,
+    /// What drives a contour.
+    pub(super) contour: ContourSettings,
 }
 
 impl Default for Settings {
@@ -46,6 +71,7 @@ impl Default for Settings {
             max_blocks: MAX_BLOCKS,
             pages: None,
             languages: Vec::new(),
+            contour: ContourSettings::default(),
         }
     }
 }
@@ -105,6 +131,36 @@ impl Settings {
             self.languages = names.collect::<Option<_>>()?;
             Some(())
         });
+        let contour = &mut self.contour;
+        read(
+            &["contour", "plant"],
+            "`stiff`, `mid`, `soft` or a file",
+            &mut |value| {
+                let plant = value.as_str()?.trim();
+                let usual = || ContourSettings::default().plant;
+                contour.plant = Some(plant.to_owned())
+                    .filter(|it| !it.is_empty())
+                    .unwrap_or_else(usual);
+                Some(())
+            },
+        );
+        read(&["contour", "plane"], "a list of two axes", &mut |value| {
+            let [first, second] = value.as_array()?.as_slice() else {
+                return None;
+            };
+            contour.plane = [first.as_str()?.to_owned(), second.as_str()?.to_owned()];
+            Some(())
+        });
+        read(
+            &["contour", "start"],
+            "positions of axes in mm or degrees",
+            &mut |value| {
+                let axes = value.as_object()?.iter();
+                let axes = axes.map(|(axis, at)| Some((axis.clone(), at.as_f64()?)));
+                contour.start = axes.collect::<Option<_>>()?;
+                Some(())
+            },
+        );
         wrong
     }
 

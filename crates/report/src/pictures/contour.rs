@@ -23,18 +23,54 @@ const MOST_BANDS: usize = 5000;
 /// Number of the worst reversals with a label.
 const NAMED: usize = 6;
 
-/// The block of a reversal, or of the largest deviation.
-#[derive(Debug, Clone, Default)]
+/// Number of the worst reversals beside a contour that is followed.
+const LISTED: usize = 10;
+
+/// The block of a reversal, of the largest deviation, or of a stretch of the path.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 struct Spot {
     file: Arc<str>,
     line: u32,
+}
+
+/// A contour on which a block is found, and a block on which its place is.
+#[derive(Debug, Clone)]
+pub struct FollowedContour {
+    /// The path without the deviation over time.
+    pub chart: PlaneChart,
+    /// The path block by block, in the order of driving.
+    pub stretches: Vec<BlockStretch>,
+    /// The worst reversals with their words, the worst first.
+    pub worst: Vec<WorstReversal>,
+}
+
+/// What a block drives of the path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockStretch {
+    /// Its file.
+    pub file: Arc<str>,
+    /// Its line, from 1.
+    pub line: u32,
+    /// A line through points of the picture, in its units.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A reversal with its words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WorstReversal {
+    /// The file of its block.
+    pub file: Arc<str>,
+    /// The line of its block, from 1.
+    pub line: u32,
+    /// The axis, its feed, its state and its glitch.
+    pub words: String,
 }
 
 /// A contour while it comes in, in memory that does not grow with the length of the program.
 #[derive(Debug, Clone)]
 pub struct ContourPicture {
     axes: [String; 2],
-    points: Vec<PlanePoint>,
+    points: Vec<(PlanePoint, Spot)>,
     /// Cycles that are drawn as one point.
     every: u64,
     filled: u64,
@@ -73,11 +109,10 @@ impl ContourPicture {
             (PositionFrame::Machine, true, true) => Stroke::Compensated,
             (PositionFrame::Machine, true, false) => Stroke::Uncompensated,
         };
-        self.keep(PlanePoint {
-            place: [point.positions[0], point.positions[1]],
-            error: point.error_mm,
-            stroke,
-        });
+        let spot = Spot {
+            file: Arc::clone(&point.cause.file),
+            line: point.cause.line,
+        };
         let deviation = &point.deviation_um;
         let each = [deviation.programmed, deviation.all_on, deviation.all_off];
         for (curve, deviation) in self.curves.iter_mut().zip(each) {
@@ -89,11 +124,14 @@ impl ContourPicture {
         }
         if point.counts && each[0].abs() > self.largest_um {
             self.largest_um = each[0].abs();
-            self.largest_at = Spot {
-                file: Arc::clone(&point.cause.file),
-                line: point.cause.line,
-            };
+            self.largest_at = spot.clone();
         }
+        let kept = PlanePoint {
+            place: [point.positions[0], point.positions[1]],
+            error: point.error_mm,
+            stroke,
+        };
+        self.keep(kept, spot);
         let names = &self.axes;
         for ((bands, state), name) in self.bands.iter_mut().zip(&*point.cause.friction).zip(names) {
             extend(bands, name, (point.time_s, *state));
@@ -101,26 +139,28 @@ impl ContourPicture {
     }
 
     /// Of the cycles that make a point the one with the largest deviation is kept.
-    fn keep(&mut self, point: PlanePoint) {
+    fn keep(&mut self, point: PlanePoint, spot: Spot) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;
         match self.points.last_mut() {
-            Some(last) if !is_full && last.stroke == point.stroke => {
-                if size(&point) > size(last) {
-                    *last = point;
+            Some(last) if !is_full && last.0.stroke == point.stroke => {
+                if size(&point) > size(&last.0) {
+                    *last = (point, spot);
                 }
                 self.filled += 1;
             }
             _ => {
-                self.points.push(point);
+                self.points.push((point, spot));
                 self.filled = 1;
             }
         }
         if self.points.len() >= MOST_POINTS {
             let pairs = self.points.chunks(2);
             let joined = pairs.map(|pair| match pair {
-                [one, other] if size(other) > size(one) || other.stroke != one.stroke => *other,
-                _ => pair[0],
+                [(one, _), (other, _)] if size(other) > size(one) || other.stroke != one.stroke => {
+                    pair[1].clone()
+                }
+                _ => pair[0].clone(),
             });
             self.points = joined.collect();
             self.every *= 2;
@@ -168,6 +208,45 @@ impl ContourPicture {
         }
     }
 
+    /// The path alone, on which an editor finds the block of a place and the place of a block.
+    pub fn followed(mut self, program: &str) -> FollowedContour {
+        let spots: Vec<Spot> = self.points.iter().map(|(_, spot)| spot.clone()).collect();
+        self.rank();
+        let worst = self
+            .marks
+            .iter()
+            .take(LISTED)
+            .map(|(mark, spot)| WorstReversal {
+                file: Arc::clone(&spot.file),
+                line: spot.line,
+                words: mark.title.clone(),
+            });
+        let worst = worst.collect();
+        let mut chart = self.chart(program);
+        chart.below = None;
+        let mut ends: Vec<usize> = (1..spots.len())
+            .filter(|&at| spots[at] != spots[at - 1])
+            .collect();
+        ends.extend((!spots.is_empty()).then_some(spots.len()));
+        let drawn = chart.drawn(&ends).into_iter().zip(&ends);
+        let stretches = drawn.map(|(points, end)| BlockStretch {
+            file: Arc::clone(&spots[end - 1].file),
+            line: spots[end - 1].line,
+            points,
+        });
+        FollowedContour {
+            stretches: stretches.collect(),
+            chart,
+            worst,
+        }
+    }
+
+    /// Puts the worst reversals first.
+    fn rank(&mut self) {
+        self.marks
+            .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
+    }
+
     /// The picture: the path above, deviations over time below.
     pub fn chart(self, program: &str) -> PlaneChart {
         self.linked_chart(program, |_, _| None)
@@ -182,8 +261,7 @@ impl ContourPicture {
         for (mark, spot) in &mut self.marks {
             mark.href = link(&spot.file, spot.line);
         }
-        self.marks
-            .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
+        self.rank();
         let uncompensated = self.marks.iter().filter(|(mark, _)| mark.ringed).count();
         for (mark, spot) in self.marks.iter_mut().take(NAMED) {
             mark.label = Some(format!("line {}: {:.1} µm", spot.line, mark.weight));
@@ -201,7 +279,7 @@ impl ContourPicture {
             below: Some(self.strip()),
             title,
             description,
-            points: self.points,
+            points: self.points.into_iter().map(|(point, _)| point).collect(),
             marks: self.marks.into_iter().map(|(mark, _)| mark).collect(),
             axes: self.axes,
         }

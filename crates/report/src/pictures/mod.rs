@@ -13,7 +13,7 @@ mod units;
 
 pub use circle::circle;
 pub use commission::{friction_of_axis, glitches_by_feed};
-pub use contour::ContourPicture;
+pub use contour::{BlockStretch, ContourPicture, FollowedContour, WorstReversal};
 pub use current::{AxisPlot, AxisSample, CurrentPlot};
 pub use friction::{friction_states, friction_trend};
 pub use identification::{friction_curve, residuals_over_position, segments_on_trace};

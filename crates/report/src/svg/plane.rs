@@ -153,6 +153,19 @@ impl Fit {
 }
 
 impl PlaneChart {
+    /// Where the path is drawn: a line through points of the picture for each stretch of the points, in
+    /// its units. A stretch begins where the one before it ends.
+    pub fn drawn(&self, ends: &[usize]) -> Vec<Vec<[f64; 2]>> {
+        let fit = Fit::of(&self.points);
+        let begins = std::iter::once(0).chain(ends.iter().map(|end| end.saturating_sub(1)));
+        let stretches = begins.zip(ends).map(|(begin, end)| {
+            let points = self.points.get(begin..*end).unwrap_or_default();
+            let places = points.iter().map(|point| fit.place(point.place));
+            thinned(places).into_iter().map(<[f64; 2]>::from).collect()
+        });
+        stretches.collect()
+    }
+
     /// The picture, with a bar that says how far the deviation is magnified.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();

@@ -1,5 +1,5 @@
 // One session with the extension in VS Code, in a browser, as a user would have it: the demo program,
-// its problems, a hover, a quick fix, the compensation view, a report. Once alone, and once beside an
+// its problems, a hover, a quick fix, the compensation view, a report, the contour. Once alone, and once beside an
 // extension that declares the languages that ISG's extension declares.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
@@ -17,6 +17,8 @@ const root = fs.mkdtempSync(path.join(os.tmpdir(), "frictcomp-vscode-"));
 const extensions = path.join(root, "extensions");
 const data = path.join(root, "data");
 const workspace = path.join(root, "parts");
+/** The settings of the workspace that were set. */
+const chosen = {};
 
 prepare();
 const { server, address } = await startServer();
@@ -69,10 +71,15 @@ function standIn() {
 }
 
 function theme(name) {
+  settings({ "workbench.colorTheme": name });
+}
+
+function settings(further) {
   const folder = path.join(workspace, ".vscode");
   fs.mkdirSync(folder, { recursive: true });
+  Object.assign(chosen, further);
   write(path.join(folder, "settings.json"), {
-    "workbench.colorTheme": name,
+    ...chosen,
     "workbench.startupEditor": "none",
     "workbench.tips.enabled": false,
     "workbench.welcomePage.walkthroughs.openOnInstall": false,
@@ -162,6 +169,7 @@ async function session(page) {
 
   await page.locator(".view-line").filter({ hasText: "N55" }).first().click();
   await debug(page);
+  await contour(page);
 }
 
 async function trust(page) {
@@ -221,6 +229,68 @@ async function debug(page) {
   await shot(page, "debug");
   await page.keyboard.press("Shift+F5");
   await page.locator(".debug-toolbar").waitFor({ state: "hidden" });
+}
+
+/** The contour follows the cursor, and a click in it leads to the block of the place. */
+async function contour(page) {
+  await open(page, "plate.nc");
+  await command(page, "frictcomp: Show the Contour of the Program");
+  await page.locator(".tab").filter({ hasText: "Contour of plate.nc" }).waitFor();
+  const shown = await contourPage(page);
+  await shown.getByText("no motion was driven").waitFor();
+
+  settings({ "frictcomp.contour.start": { X: 0, Y: 0, Z: 10 } });
+  const here = shown.locator("#here");
+  await shown.locator("svg.fc-picture").waitFor({ timeout: 120_000 });
+  await shown.getByText("the preset `stiff`").waitFor();
+
+  await page.locator(".tab").filter({ hasText: "plate.nc" }).first().click();
+  await goTo(page, 165);
+  await here.filter({ hasText: "Line 165 drives what is marked" }).waitFor();
+  assert.equal(await shown.locator("#cursor polyline").count(), 1);
+  assert.equal(await shown.locator(".worst button[aria-current]").count(), 1);
+  await goTo(page, 1);
+  await here.filter({ hasText: "Nothing up to line 1" }).waitFor();
+  await shot(page, "contour");
+
+  await shown.locator(".worst button").filter({ hasText: "line 169:" }).click();
+  await page.locator("#status\\.editor\\.selection").filter({ hasText: /Ln 169,/ }).waitFor();
+  // The middle of what the line drives, of which the picture shows the place.
+  const marked = shown.locator("#cursor polyline");
+  await marked.waitFor();
+  const place = await marked.evaluate((line) => {
+    const at = line.getPointAtLength(line.getTotalLength() / 2).matrixTransform(line.getScreenCTM());
+    return { x: at.x, y: at.y };
+  });
+  await goTo(page, 1);
+  await here.filter({ hasText: "Nothing up to line 1" }).waitFor();
+  const box = await shown.locator("body").boundingBox();
+  await page.mouse.move(box.x + place.x, box.y + place.y);
+  await shown.locator("#pointed polyline").waitFor();
+  await page.mouse.click(box.x + place.x, box.y + place.y);
+  await here.filter({ hasText: /Line (16[5-9]|17[0-9]) drives/ }).waitFor();
+
+  for (const name of THEMES) {
+    theme(name);
+    await page.waitForTimeout(1500);
+    await shot(page, `contour-${name.split(" ")[1].toLowerCase()}`);
+  }
+  settings({ "frictcomp.contour.plant": "no-such.toml" });
+  await shown.locator(".refused").filter({ hasText: "no-such.toml" }).waitFor({ timeout: 60_000 });
+  await shot(page, "contour-refused");
+}
+
+/** The page of the contour, whichever webview it is in. */
+async function contourPage(page) {
+  for (;;) {
+    for (const frame of page.frames()) {
+      const isIt = await frame.title().then((title) => title === "Contour").catch(() => false);
+      if (isIt) {
+        return frame;
+      }
+    }
+    await page.waitForTimeout(200);
+  }
 }
 
 /** The page inside a webview, by the order in which they were opened; it is two frames deep. */

@@ -1,0 +1,76 @@
+//! The threads that answer questions: what is quick never waits for what is not (R12.7).
+
+use std::io;
+
+use crossbeam_channel::Sender;
+use lsp_server::{RequestId, Response};
+use serde_json::Value;
+
+use super::requests::{Handler, Needs};
+use super::view::View;
+use super::worker::Worker;
+
+/// A question on its way to who answers it.
+pub(super) struct Question {
+    /// The number that the client gives it.
+    pub(super) id: RequestId,
+    /// What answers it.
+    pub(super) handler: Handler,
+    /// Its parameters.
+    pub(super) params: Value,
+    /// All that is known at the moment.
+    pub(super) view: View,
+}
+
+/// A thread for each kind of answer.
+pub(super) struct Lanes {
+    answers: Worker<Question>,
+    reports: Worker<Question>,
+    simulations: Worker<Question>,
+}
+
+impl Lanes {
+    /// The threads, which send their answers to the server.
+    ///
+    /// # Errors
+    /// The system starts no threads.
+    pub(super) fn new<D: From<Response> + Send + 'static>(done: &Sender<D>) -> io::Result<Self> {
+        let lane = |name| {
+            let done = done.clone();
+            Worker::new(name, move |question: Question| {
+                if let Some(response) = question.answer() {
+                    // The receiver is gone with the server.
+                    let _ = done.send(response.into());
+                }
+            })
+        };
+        Ok(Self {
+            answers: lane("answers")?,
+            reports: lane("reports")?,
+            simulations: lane("simulations")?,
+        })
+    }
+
+    /// Sends a question to the thread of its kind.
+    pub(super) fn send(&self, needs: Needs, question: Question) {
+        let lane = match needs {
+            Needs::Texts | Needs::Check => &self.answers,
+            Needs::Time => &self.reports,
+            Needs::Simulation => &self.simulations,
+        };
+        lane.send(question);
+    }
+}
+
+impl Question {
+    /// The answer; `None` where nobody waits for it any more.
+    fn answer(self) -> Option<Response> {
+        if self.view.cancel.is_set() {
+            return None;
+        }
+        Some(match (self.handler)(&self.view, self.params) {
+            Ok(result) => Response::new_ok(self.id, result),
+            Err(refusal) => refusal.of(self.id),
+        })
+    }
+}

@@ -1,0 +1,10 @@
+/** What the extension and the page of the contour tell each other. */
+import type { Contour } from "../protocol";
+
+export type ToPage =
+  | { kind: "driving"; name: string }
+  | { kind: "contour"; name: string; contour: Contour }
+  | { kind: "cursor"; file: number; line: number }
+  | { kind: "refused"; name: string; reason: string };
+
+export type FromPage = { kind: "ready" } | { kind: "goto"; file: number; line: number };

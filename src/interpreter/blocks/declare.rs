@@ -3,20 +3,13 @@
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::state::State;
 use crate::interpreter::values::target::Place;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
 
 impl Interpreter {
-    /// Something is declared or deleted.
-    fn write_anything(&mut self) {
-        let seq = self.state.seq;
-        let (control, track) = (&mut self.state.control, &mut self.state.track);
-        track.ways.write_anything(seq);
-        track.write_anything(&mut control.memory);
-    }
-
     pub(in crate::interpreter) fn delete(
         &mut self,
         hash: &Hash,
@@ -28,11 +21,11 @@ impl Interpreter {
             };
             match self.target_place(place, at)? {
                 Place::Parameter(_, index) => {
-                    self.write_anything();
+                    self.state.write_anything();
                     self.state.control.memory.delete_parameter(index);
                 }
                 Place::Variable(name) => {
-                    self.write_anything();
+                    self.state.write_anything();
                     self.state.control.memory.delete(&name);
                 }
                 unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
@@ -50,7 +43,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Result<(), Box<Fault>> {
         self.journal.begin_anew();
-        self.write_anything();
+        self.state.write_anything();
         for declaration in declarations {
             let mut stack = std::mem::take(&mut self.scratch.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
@@ -92,6 +85,16 @@ impl Interpreter {
             }
         }
         Ok(())
+    }
+}
+
+impl State {
+    /// Something is declared or deleted.
+    fn write_anything(&mut self) {
+        let seq = self.seq;
+        let (control, track) = (&mut self.control, &mut self.track);
+        track.ways.write_anything(seq);
+        track.write_anything(&mut control.memory);
     }
 }
 

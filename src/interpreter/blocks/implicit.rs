@@ -135,7 +135,7 @@ impl Interpreter {
     /// FC325: a word that calls a program calls none here, once a word and program (R2.94).
     fn warn_not_configured(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
-        if !self.is_new_word(&word) {
+        if !self.state.is_new_word(&word) {
             return;
         }
         let message = format!(
@@ -153,7 +153,7 @@ impl Interpreter {
     /// FC210: a G function that no public list names, once a word and program (R2.94).
     fn warn_unknown_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
-        if !self.is_new_word(&word) {
+        if !self.state.is_new_word(&word) {
             return;
         }
         let message = format!(

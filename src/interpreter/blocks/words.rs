@@ -127,7 +127,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in std::mem::take(&mut self.scratch.lacking) {
             let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
-            if !moves || !self.is_new_word(&name) {
+            if !moves || !self.state.is_new_word(&name) {
                 continue;
             }
             let message = format!(

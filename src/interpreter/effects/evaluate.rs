@@ -41,9 +41,6 @@ enum OwnVariable {
     Programmed(AxisIndex),
 }
 
-/// Number of different words of a program of which something is said once.
-const MAX_ONCE: usize = 1000;
-
 impl Interpreter {
     /// The value of an operand.
     pub(in crate::interpreter) fn value(
@@ -105,12 +102,6 @@ impl Interpreter {
                 },
             },
         })
-    }
-
-    /// Whether a word is met for the first time in the program, of those of which something is said once.
-    pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
-        let words = &mut self.state.once;
-        words.len() < MAX_ONCE && words.insert(word.to_owned())
     }
 
     /// Counts something that was accepted and passed over.

@@ -15,6 +15,7 @@ use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::path::Track;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
@@ -134,7 +135,7 @@ impl Interpreter {
             self.version += 1;
             self.replace_possible();
         }
-        self.remember_last(at);
+        self.state.remember_last(at);
         self.scratch.gather_asked();
         let step = if is_over || self.scratch.too_deep {
             Some(Step::End(EndedBy::Budget))
@@ -318,19 +319,21 @@ impl Interpreter {
             self.leave_open(&left);
         }
     }
+}
 
+impl State {
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
     fn remember_last(&mut self, at: &BlockContext<'_>) {
         if at.level > 0 {
             return;
         }
-        match &mut self.state.last {
+        match &mut self.last {
             Some(last) => {
                 at.text.clone_into(&mut last.text);
                 last.line = at.line;
             }
             None => {
-                self.state.last = Some(Last {
+                self.last = Some(Last {
                     file: at.file.clone(),
                     line: at.line,
                     text: at.text.to_owned(),

@@ -46,7 +46,7 @@ impl Interpreter {
         let mut notes = self.programs.refused();
         notes.extend(self.scratch.over.drain(..));
         if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-            notes.extend(self.missing_end());
+            notes.extend(self.state.missing_end());
         }
         if self.options.stop == StopPolicy::CheckAll {
             self.check_all_unexecuted(&mut notes);

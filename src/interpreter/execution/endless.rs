@@ -75,7 +75,7 @@ impl Interpreter {
         finder: &mut dyn Finder,
     ) -> Step {
         let why = self.note_pass(target);
-        if self.is_left_meanwhile() {
+        if self.state.is_left_meanwhile() {
             return self.follow_loop(target, Repeats::Known, finder);
         }
         let left = why.and_then(|why| {
@@ -98,16 +98,6 @@ impl Interpreter {
         self.follow_loop(target, Repeats::Unknown, finder)
     }
 
-    /// Whether other ways have left the innermost loop.
-    fn is_left_meanwhile(&self) -> bool {
-        let Some(known) = self.state.track.loops.last() else {
-            return false;
-        };
-        let ended = self.state.ended.iter().map(|ended| &ended.path);
-        let mut others = self.state.pending.iter().chain(ended);
-        others.any(|path| path.parted >= known.since)
-    }
-
     /// A loop that is left on other ways is followed until a pass begins with what passes before it
     /// began with (R14.3).
     #[cold]
@@ -121,7 +111,7 @@ impl Interpreter {
             return Step::Jump(target);
         };
         if let Some(counters) = known.endless.take() {
-            self.lose_counters(&counters, known.since);
+            self.state.lose_counters(&counters, known.since);
         }
         let index = self.programs.index(known.unit);
         let place = (known.depth, known.unit, known.head);
@@ -178,17 +168,6 @@ impl Interpreter {
         }
     }
 
-    /// Makes counters unknown where other ways have left a loop that is not run to its end.
-    fn lose_counters(&mut self, counters: &[Target], since: u64) {
-        let cause: Arc<str> = "a loop that is repeated".into();
-        let ended = self.state.ended.iter_mut().map(|ended| &mut ended.path);
-        for path in self.state.pending.iter_mut().chain(ended) {
-            if path.parted >= since {
-                path.control.memory.lose(counters, &cause);
-            }
-        }
-    }
-
     /// Counts a pass of a loop; why it need not be run any further, where that is so.
     fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
         let depth = self.state.control.frames.depth();
@@ -236,7 +215,7 @@ impl Interpreter {
         if !is_due {
             return None;
         }
-        if self.repeats() {
+        if self.state.repeats() {
             return Some(Enough::Repeated);
         }
         let out = self
@@ -245,33 +224,6 @@ impl Interpreter {
             .way_out()
             .filter(|_| passes >= MOST_PASSES)?;
         Some(Enough::TooMany(out.cause))
-    }
-
-    /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
-    #[cold]
-    fn repeats(&mut self) -> bool {
-        let Some(mut last) = self.state.track.loops.pop() else {
-            return false;
-        };
-        if let Some(mark) = &last.mark {
-            last.endless = counters(mark, &self.state);
-            if last.passes >= mark.pass + LONGEST_PERIOD {
-                last.mark = None;
-            }
-        } else if self.state.control.memory.weight() <= MAX_WEIGHT {
-            last.mark = Some(Box::new(Mark {
-                pass: last.passes,
-                control: self.state.control.clone(),
-                occurred: self.state.occurred.clone(),
-            }));
-        }
-        let repeats = last.endless.is_some();
-        self.state.track.loops.push(last);
-        self.state.watching = watches(&self.state.track);
-        if !self.state.watching {
-            *self.state.reads.borrow_mut() = Reads::default();
-        }
-        repeats
     }
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
@@ -344,6 +296,56 @@ impl Interpreter {
         let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
         Some(self.programs.endless(known, counters))
+    }
+}
+
+impl State {
+    /// Makes counters unknown where other ways have left a loop that is not run to its end.
+    fn lose_counters(&mut self, counters: &[Target], since: u64) {
+        let cause: Arc<str> = "a loop that is repeated".into();
+        let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
+        for path in self.pending.iter_mut().chain(ended) {
+            if path.parted >= since {
+                path.control.memory.lose(counters, &cause);
+            }
+        }
+    }
+
+    /// Whether other ways have left the innermost loop.
+    fn is_left_meanwhile(&self) -> bool {
+        let Some(known) = self.track.loops.last() else {
+            return false;
+        };
+        let ended = self.ended.iter().map(|ended| &ended.path);
+        let mut others = self.pending.iter().chain(ended);
+        others.any(|path| path.parted >= known.since)
+    }
+
+    /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
+    #[cold]
+    fn repeats(&mut self) -> bool {
+        let Some(mut last) = self.track.loops.pop() else {
+            return false;
+        };
+        if let Some(mark) = &last.mark {
+            last.endless = counters(mark, self);
+            if last.passes >= mark.pass + LONGEST_PERIOD {
+                last.mark = None;
+            }
+        } else if self.control.memory.weight() <= MAX_WEIGHT {
+            last.mark = Some(Box::new(Mark {
+                pass: last.passes,
+                control: self.control.clone(),
+                occurred: self.occurred.clone(),
+            }));
+        }
+        let repeats = last.endless.is_some();
+        self.track.loops.push(last);
+        self.watching = watches(&self.track);
+        if !self.watching {
+            *self.reads.borrow_mut() = Reads::default();
+        }
+        repeats
     }
 }
 

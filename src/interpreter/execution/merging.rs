@@ -6,6 +6,7 @@ use crate::interpreter::run::event::{EndedBy, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::path::{EndedPath, Passed};
+use crate::interpreter::run::state::State;
 
 impl Interpreter {
     /// A way ends; whether the run does, as no other way goes on.
@@ -29,8 +30,8 @@ impl Interpreter {
         let never_ends = std::mem::take(&mut self.scratch.endless);
         if !is_covered && !never_ends {
             if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
-                let missing = self.missing_end().map(|mut missing| {
-                    self.limit_to_reach(&mut missing, None);
+                let missing = self.state.missing_end().map(|mut missing| {
+                    self.state.limit_to_reach(&mut missing, None);
                     missing
                 });
                 self.scratch.over.extend(missing);
@@ -53,7 +54,7 @@ impl Interpreter {
     }
 
     fn ended_path(&mut self, by: EndedBy) -> EndedPath {
-        let mut path = self.leave_path();
+        let mut path = self.state.leave_path();
         path.track.assumed.undo(&mut path.control.memory);
         path.control.frames.clear();
         let at = self.scratch.end.take().map(|end| {
@@ -121,10 +122,12 @@ impl Interpreter {
         }
         (by, ends)
     }
+}
 
+impl State {
     /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
     pub(in crate::interpreter) fn missing_end(&self) -> Option<Diagnostic> {
-        let place = self.state.last.as_ref()?.place();
+        let place = self.last.as_ref()?.place();
         let message = "the program ends here without M30 or M02";
         Some(Diagnostic::new(Code::Fc310, place, message).with_help("end it with `M30`"))
     }

@@ -7,6 +7,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{BranchSide, Path};
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::Step;
 
 impl Interpreter {
@@ -19,7 +20,7 @@ impl Interpreter {
     ) {
         let sides = std::mem::take(&mut self.sides);
         let here = self.state.control.frames.running().map_or(0, |it| it.next);
-        let base = self.leave_path();
+        let base = self.state.leave_path();
         let mut open: Vec<Path> = Vec::new();
         for side in sides {
             let ways = base.track.reach.and(&side.ways);
@@ -29,7 +30,7 @@ impl Interpreter {
             self.enter_path(base.clone());
             self.state.track.reach = ways;
             let (to, is_back) = (side.to, side.to < here);
-            self.apply_side(side);
+            self.state.apply_side(side);
             // What leads back joins the loop's head, where other ways do.
             let goes_on = if is_back && self.options.branches != Branches::Passed {
                 self.come_back(to, finder)
@@ -42,7 +43,7 @@ impl Interpreter {
                 if let Some(call @ Step::Call(_)) = step {
                     let _ = self.follow(call.clone());
                 }
-                open.push(self.leave_path());
+                open.push(self.state.leave_path());
             }
         }
         self.version += 1;
@@ -54,9 +55,11 @@ impl Interpreter {
             self.enter_first();
         }
     }
+}
 
+impl State {
     fn apply_side(&mut self, side: BranchSide) {
-        let control = &mut self.state.control;
+        let control = &mut self.control;
         if let Some(frame) = control.frames.running_mut() {
             frame.seeking = side.seeking;
         }
@@ -66,15 +69,15 @@ impl Interpreter {
         }
         control
             .possible
-            .narrow(&self.state.track.reach, &mut control.compensation);
+            .narrow(&self.track.reach, &mut control.compensation);
         for (target, value) in &side.values {
-            let track = &mut self.state.track;
+            let track = &mut self.track;
             track
                 .assumed
                 .assume(&mut control.memory, target, value.clone());
         }
         if side.marked.is_some() {
-            self.state.track.marked = side.marked;
+            self.track.marked = side.marked;
         }
     }
 }

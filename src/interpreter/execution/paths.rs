@@ -17,6 +17,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
 use crate::interpreter::run::possible_state::ways_of;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
@@ -24,16 +25,6 @@ use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::work_budget::ITEM;
 
 impl Interpreter {
-    /// The way that is executed, which is so no more.
-    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
-        let control = self.state.control.clone();
-        Path {
-            control,
-            track: std::mem::take(&mut self.state.track),
-            parted: self.state.seq,
-        }
-    }
-
     /// Goes on with a way.
     pub(in crate::interpreter) fn enter_path(&mut self, path: Path) {
         let Path {
@@ -78,7 +69,7 @@ impl Interpreter {
             match other.control.frames.comes_before(here) {
                 Some(true) => {
                     let other = self.state.pending.swap_remove(place);
-                    let mine = self.leave_path();
+                    let mine = self.state.leave_path();
                     self.enter_path(other);
                     self.scratch.havoc_last_motion();
                     self.state.pending.push(mine);
@@ -97,7 +88,7 @@ impl Interpreter {
 
     /// Another way comes to the block that is executed next.
     pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
-        let mut mine = self.leave_path();
+        let mut mine = self.state.leave_path();
         let parted = Self::what_parts(&mine, &other);
         let condition = parted.and_then(|number| self.state.conditions.get(number as usize));
         let cause = condition.map_or_else(|| "another way".into(), |found| found.cause.clone());
@@ -145,7 +136,7 @@ impl Interpreter {
         for (kind, axes) in &mut kinds {
             axes.retain(|axis| {
                 let key = (&place.file, place.first_line, kind, axis.get());
-                self.is_new_word(&format!("{key:?}"))
+                self.state.is_new_word(&format!("{key:?}"))
             });
         }
         kinds.retain(|_, axes| !axes.is_empty());
@@ -181,26 +172,38 @@ impl Interpreter {
         self.state.told.enter(cause, || place.clone());
         let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
         let mut said = about(&condition, &shown);
-        self.limit_to_reach(&mut said, parted);
+        self.state.limit_to_reach(&mut said, parted);
         if is_new {
             self.met.push(said);
         } else {
             self.met_withheld.push(said);
         }
     }
+}
 
+impl State {
     /// A condition that is asked on some ways only is said to be so, whatever its own answer.
     pub(in crate::interpreter) fn limit_to_reach(
         &self,
         said: &mut Diagnostic,
         condition: Option<u32>,
     ) {
-        let mut reach = self.state.track.reach.clone();
+        let mut reach = self.track.reach.clone();
         if let Some(own) = condition {
             reach.havoc(own);
         }
         if !reach.is_always() {
-            limit_to(said, &ways_of(&reach, &self.state.conditions));
+            limit_to(said, &ways_of(&reach, &self.conditions));
+        }
+    }
+
+    /// The way that is executed, which is so no more.
+    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
+        let control = self.control.clone();
+        Path {
+            control,
+            track: std::mem::take(&mut self.track),
+            parted: self.seq,
         }
     }
 }

@@ -307,7 +307,7 @@ impl Interpreter {
         let by = if let Stage::Beyond(Some(by)) = stage {
             by
         } else {
-            said.extend(self.missing_end());
+            said.extend(self.state.missing_end());
             EndedBy::EndOfFile
         };
         said.append(notes);

@@ -352,17 +352,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn undecided_level(&self, block: &Block) -> Option<u8> {
         block
             .skip
-            .filter(|_| self.skip_levels().is_none() && !self.is_on_marked_way())
-    }
-
-    /// Whether the way that is followed executes the blocks with a skip mark around this one.
-    fn is_on_marked_way(&self) -> bool {
-        let frames = &self.state.control.frames;
-        let here = frames.running().zip(self.state.track.marked);
-        here.is_some_and(|(frame, marked)| {
-            (marked.depth, marked.unit) == (frames.depth(), frame.unit)
-                && (marked.first < frame.next && frame.next <= marked.after)
-        })
+            .filter(|_| self.skip_levels().is_none() && !self.state.is_on_marked_way())
     }
 
     /// The level that decides whether the parts of a control block belong together: one of them has a
@@ -371,7 +361,7 @@ impl Interpreter {
         let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
         let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
-        let is_known = self.skip_levels().is_some() || self.is_on_marked_way();
+        let is_known = self.skip_levels().is_some() || self.state.is_on_marked_way();
         (!is_known).then_some(level)
     }
 
@@ -417,5 +407,17 @@ impl Interpreter {
         if !doubted.is_empty() {
             self.scratch.doubted.push((axis, doubted));
         }
+    }
+}
+
+impl State {
+    /// Whether the way that is followed executes the blocks with a skip mark around this one.
+    fn is_on_marked_way(&self) -> bool {
+        let frames = &self.control.frames;
+        let here = frames.running().zip(self.track.marked);
+        here.is_some_and(|(frame, marked)| {
+            (marked.depth, marked.unit) == (frames.depth(), frame.unit)
+                && (marked.first < frame.next && frame.next <= marked.after)
+        })
     }
 }

@@ -14,6 +14,9 @@ use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::readings::QuestionSet;
 
+/// Number of different words of a program of which something is said once.
+const MAX_ONCE: usize = 1000;
+
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct State {
@@ -49,4 +52,12 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) told: Told,
     /// The open questions on whose readings results rest (R15.3).
     pub(in crate::interpreter) rests_on: QuestionSet,
+}
+
+impl State {
+    /// Whether a word is met for the first time in the program, of those of which something is said once.
+    pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
+        let words = &mut self.once;
+        words.len() < MAX_ONCE && words.insert(word.to_owned())
+    }
 }

@@ -8,6 +8,7 @@ use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region};
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{AxisKinds, Branch, JumpTarget, WayEnd};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
@@ -24,7 +25,7 @@ impl Interpreter {
         let Some(place) = self.state.control.frames.program() else {
             return;
         };
-        self.note_ends(region, cause);
+        self.state.note_ends(region, cause);
         for exit in &region.exits {
             let labels = self.aims(exit, place);
             for to in labels {
@@ -43,7 +44,7 @@ impl Interpreter {
 
     /// The ways that leave a called program and do not come back to its caller.
     pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
-        self.note_ends(region, cause);
+        self.state.note_ends(region, cause);
         for exit in &region.exits {
             let to = match exit {
                 Exit::End => JumpTarget::End,
@@ -56,21 +57,6 @@ impl Interpreter {
                 cause: cause.clone(),
                 here: 0,
                 say: Some(Span::default()),
-            });
-        }
-    }
-
-    /// The program ends of a region, which may be reached with the state of this moment (R1.58).
-    fn note_ends(&mut self, region: &Region, cause: &Arc<str>) {
-        if region.ends.is_empty() {
-            return;
-        }
-        let kinds = self.state.control.all_kinds();
-        for &place in &region.ends {
-            self.state.track.ways.note_end(WayEnd {
-                place,
-                cause: cause.clone(),
-                kinds: kinds.clone(),
             });
         }
     }
@@ -116,6 +102,23 @@ impl Interpreter {
             Exit::Return => vec![JumpTarget::Return],
             Exit::Far => vec![JumpTarget::Far],
             Exit::End => vec![JumpTarget::End],
+        }
+    }
+}
+
+impl State {
+    /// The program ends of a region, which may be reached with the state of this moment (R1.58).
+    fn note_ends(&mut self, region: &Region, cause: &Arc<str>) {
+        if region.ends.is_empty() {
+            return;
+        }
+        let kinds = self.control.all_kinds();
+        for &place in &region.ends {
+            self.track.ways.note_end(WayEnd {
+                place,
+                cause: cause.clone(),
+                kinds: kinds.clone(),
+            });
         }
     }
 }

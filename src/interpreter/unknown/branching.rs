@@ -158,7 +158,7 @@ impl Interpreter {
             return false;
         }
         if question.kind == ConditionKind::Loop {
-            self.note_open_loop();
+            self.state.note_open_loop();
         }
         let condition = self.ask(question, goals.iter().map(Goal::says).collect(), at);
         let answers = answers(condition, goals.len());
@@ -212,17 +212,6 @@ impl Interpreter {
         true
     }
 
-    /// A loop whose own condition is not known is joined at its head from the second pass on.
-    fn note_open_loop(&mut self) {
-        let frames = &self.state.control.frames;
-        if let Some(program) = frames.program()
-            && let Some(entry) = frames.entry()
-        {
-            let place = (frames.depth(), program.unit, entry);
-            self.state.track.open_loops.insert(place);
-        }
-    }
-
     /// The number of the condition that a question asks for.
     fn ask(&mut self, question: Question, answers: Vec<Says>, at: &BlockContext<'_>) -> u32 {
         let key = question.key();
@@ -231,13 +220,13 @@ impl Interpreter {
             if let Some(asked) = asked.find(|asked| asked.key == *key) {
                 return asked.condition;
             }
-            if let Some(asked) = self.asked_elsewhere(key) {
+            if let Some(asked) = self.state.asked_elsewhere(key) {
                 let condition = asked.condition;
                 self.state.track.asked.push(asked);
                 return condition;
             }
         }
-        let condition = self.ask_anew(Condition {
+        let condition = self.state.ask_anew(Condition {
             kind: question.kind,
             place: at.place(question.span),
             texts: question.texts.clone(),
@@ -264,24 +253,6 @@ impl Interpreter {
         condition
     }
 
-    /// A question that reads no value, and so has one answer on all ways, as another way asked it.
-    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<Asked> {
-        let ended = self.state.ended.iter().map(|ended| &ended.path);
-        let paths = self.state.pending.iter().chain(ended);
-        let mut asked = paths.flat_map(|path| &path.track.asked);
-        let found = asked.find(|asked| asked.reads.is_empty() && asked.key == *key);
-        found.cloned()
-    }
-
-    /// The number of a condition of which no way knows the answer yet.
-    pub(in crate::interpreter) fn ask_anew(&mut self, wanted: Condition) -> u32 {
-        let condition = self.condition_at(wanted);
-        self.state.track.reach.havoc(condition);
-        self.state.control.possible.havoc(condition);
-        self.state.control.untouched.havoc(condition);
-        condition
-    }
-
     /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
     fn compare(&mut self, condition: u32, question: &Question, answers: Vec<Says>) {
         let place = condition as usize;
@@ -289,7 +260,7 @@ impl Interpreter {
             |target: &Target| matches!(target, Target::Variable(name) if self.is_own(name));
         let asking = question.reads.as_ref();
         let asking = asking.filter(|asking| !asking.reads.iter().any(is_own));
-        let is_again = self.is_asked_again(place);
+        let is_again = self.state.is_asked_again(place);
         let State {
             track,
             conditions,
@@ -311,46 +282,6 @@ impl Interpreter {
             let reading = Reading::of((condition, known.time), asking, answers);
             known.clashes = track.readings.ask(reading);
         }
-    }
-
-    /// Whether the condition was asked before at the same place, and its value not written since.
-    fn is_asked_again(&self, place: usize) -> bool {
-        let State {
-            track, conditions, ..
-        } = &self.state;
-        let Some(condition) = conditions.get(place) else {
-            return false;
-        };
-        let mut asked = track.readings.conditions();
-        asked.any(|it| {
-            let other = conditions.get(it as usize);
-            other.is_some_and(|other| other.is_like(condition))
-        })
-    }
-
-    /// The condition of a question: a new one, or one of this place that no way names any more.
-    fn condition_at(&mut self, mut wanted: Condition) -> u32 {
-        let mut last = None;
-        for (number, known) in (0..).zip(&self.state.conditions) {
-            if !known.is_like(&wanted) {
-                continue;
-            }
-            last = Some(number);
-            wanted.round = wanted.round.max(known.round.saturating_add(1));
-            let mut named = self.state.track.reach.conditions();
-            let mut possible = self.state.control.possible.conditions();
-            let mut untouched = self.state.control.untouched.conditions();
-            let is_it = |it| it == number;
-            if !(named.any(is_it) || possible.any(is_it) || untouched.any(is_it)) {
-                return number;
-            }
-        }
-        if let Some(last) = last.filter(|_| wanted.round >= MAX_ROUNDS) {
-            return last;
-        }
-        let number = u32::try_from(self.state.conditions.len()).unwrap_or(u32::MAX);
-        self.state.conditions.push(wanted);
-        number
     }
 
     /// The states of a kind on the ways that lead here: a test of it tells them apart (R14.1).
@@ -377,5 +308,76 @@ impl Interpreter {
         });
         self.sides = sides.collect();
         true
+    }
+}
+
+impl State {
+    /// Whether the condition was asked before at the same place, and its value not written since.
+    fn is_asked_again(&self, place: usize) -> bool {
+        let State {
+            track, conditions, ..
+        } = self;
+        let Some(condition) = conditions.get(place) else {
+            return false;
+        };
+        let mut asked = track.readings.conditions();
+        asked.any(|it| {
+            let other = conditions.get(it as usize);
+            other.is_some_and(|other| other.is_like(condition))
+        })
+    }
+
+    /// A question that reads no value, and so has one answer on all ways, as another way asked it.
+    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<Asked> {
+        let ended = self.ended.iter().map(|ended| &ended.path);
+        let paths = self.pending.iter().chain(ended);
+        let mut asked = paths.flat_map(|path| &path.track.asked);
+        let found = asked.find(|asked| asked.reads.is_empty() && asked.key == *key);
+        found.cloned()
+    }
+
+    /// A loop whose own condition is not known is joined at its head from the second pass on.
+    fn note_open_loop(&mut self) {
+        let frames = &self.control.frames;
+        if let Some(program) = frames.program()
+            && let Some(entry) = frames.entry()
+        {
+            let place = (frames.depth(), program.unit, entry);
+            self.track.open_loops.insert(place);
+        }
+    }
+
+    /// The number of a condition of which no way knows the answer yet.
+    pub(in crate::interpreter) fn ask_anew(&mut self, wanted: Condition) -> u32 {
+        let condition = self.condition_at(wanted);
+        self.track.reach.havoc(condition);
+        self.control.possible.havoc(condition);
+        self.control.untouched.havoc(condition);
+        condition
+    }
+
+    /// The condition of a question: a new one, or one of this place that no way names any more.
+    fn condition_at(&mut self, mut wanted: Condition) -> u32 {
+        let mut last = None;
+        for (number, known) in (0..).zip(&self.conditions) {
+            if !known.is_like(&wanted) {
+                continue;
+            }
+            last = Some(number);
+            wanted.round = wanted.round.max(known.round.saturating_add(1));
+            let mut named = self.track.reach.conditions();
+            let mut possible = self.control.possible.conditions();
+            let mut untouched = self.control.untouched.conditions();
+            let is_it = |it| it == number;
+            if !(named.any(is_it) || possible.any(is_it) || untouched.any(is_it)) {
+                return number;
+            }
+        }
+        if let Some(last) = last.filter(|_| wanted.round >= MAX_ROUNDS) {
+            return last;
+        }
+        let number = u32::try_from(self.conditions.len()).unwrap_or(u32::MAX);
+        self.conditions.push(wanted);
+        number
     }
 }

@@ -11,6 +11,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{
     AxisKinds, Branch, JumpTarget, OpenPath, PathState, RETURN, Remainder, Ways, join_names,
 };
@@ -86,7 +87,7 @@ impl Interpreter {
                 if !known.insert((depth, target)) {
                     continue;
                 }
-                let way = self.way(depth, target, cause.clone());
+                let way = self.state.way(depth, target, cause.clone());
                 // M17 ends a main program.
                 if depth == 0 || (depth == 1 && target == RETURN) {
                     self.state.track.ways.add_end(way);
@@ -96,29 +97,6 @@ impl Interpreter {
             }
         }
         here
-    }
-
-    /// A way that leaves now.
-    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
-        let count = self.state.control.compensation.len();
-        self.state.effort.charge(ITEM + count);
-        OpenPath {
-            depth,
-            target,
-            since: self.state.seq,
-            latest: self.state.seq,
-            cause,
-            standing: PathState {
-                kinds: self.state.control.all_kinds(),
-                modal: self.state.control.modal.clone(),
-                cycles: self.state.control.cycles.clone(),
-                couplings: self.state.control.couplings.version(),
-                named: self.state.control.named.clone(),
-                channel_axes: self.state.control.channel_axes.clone(),
-                macros: self.state.control.memory.macro_version(),
-            },
-            tails: Vec::new(),
-        }
     }
 
     /// The ways that go on at the block that is executed next, or before it, meet it.
@@ -310,6 +288,31 @@ impl Interpreter {
                     return;
                 }
             }
+        }
+    }
+}
+
+impl State {
+    /// A way that leaves now.
+    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
+        let count = self.control.compensation.len();
+        self.effort.charge(ITEM + count);
+        OpenPath {
+            depth,
+            target,
+            since: self.seq,
+            latest: self.seq,
+            cause,
+            standing: PathState {
+                kinds: self.control.all_kinds(),
+                modal: self.control.modal.clone(),
+                cycles: self.control.cycles.clone(),
+                couplings: self.control.couplings.version(),
+                named: self.control.named.clone(),
+                channel_axes: self.control.channel_axes.clone(),
+                macros: self.control.memory.macro_version(),
+            },
+            tails: Vec::new(),
         }
     }
 }

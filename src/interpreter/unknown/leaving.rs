@@ -36,7 +36,7 @@ impl Interpreter {
         }
         self.state.effort.charge(ITEM * 8);
         let name: Arc<str> = self.machine.axis(axis).name.as_str().into();
-        let condition = self.ask_anew(Condition {
+        let condition = self.state.ask_anew(Condition {
             kind: ConditionKind::Call(kind),
             place: left.place.clone(),
             texts: vec![left.program.clone(), name],

@@ -97,7 +97,7 @@ impl Interpreter {
             }
             return;
         }
-        let condition = self.ask_anew(Condition {
+        let condition = self.state.ask_anew(Condition {
             kind: ConditionKind::Search,
             place: at.place(Span::new(0, at.text.trim_end().len())),
             texts: vec![Arc::from("executed")],

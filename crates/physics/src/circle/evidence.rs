@@ -6,19 +6,13 @@ use serde::Serialize;
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::drift::Drift;
-use super::evidence_shape::OtherShape;
+use super::evidence_shape::{OtherShape, ShapeTerm, Term};
 use super::oscillation::Oscillation;
-use super::periodic::Periodic;
+use super::pitch;
 use super::profile::{Quality, RadialProfile};
 use super::series::{Series, beyond_noise};
 use super::shapes::Shapes;
 use super::swings::stick_slip;
-
-/// A term is noticeable from so many standard errors on …
-const SIGNIFICANT: f64 = 3.0;
-
-/// … and from this size on, in µm.
-const LEAST_TERM_UM: f64 = 0.5;
 
 /// Least residual in µm that counts as a shape …
 const LEAST_REST_UM: f64 = 0.15;
@@ -45,43 +39,6 @@ pub struct CircleEvidence {
     pub other: Option<OtherShape>,
     /// The largest swing of X and of Y in µm, where the axis sticks and slips.
     pub stick_slip_um: [Option<f64>; 2],
-}
-
-/// A fitted shape with its standard error.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Term {
-    /// The shape.
-    pub shape: ShapeTerm,
-    /// Its size.
-    pub size_um: f64,
-    /// Its standard error.
-    pub error_um: f64,
-}
-
-/// A shape that is fitted away from the reversals.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum ShapeTerm {
-    /// A step outwards where an axis reverses.
-    Backlash(PlaneAxis),
-    /// A step sideways of an axis where the other one reverses.
-    Play(PlaneAxis),
-    /// An ellipse at 45° that turns with the direction.
-    Gain,
-    /// An ellipse at 45° that does not.
-    Squareness,
-    /// An ellipse along the axes.
-    Scale,
-    /// A shift of an axis from turn to turn.
-    Drift(PlaneAxis),
-}
-
-impl Term {
-    /// Whether the recording carries it.
-    pub fn is_carried(&self) -> bool {
-        self.size_um.abs() > (SIGNIFICANT * self.error_um).max(LEAST_TERM_UM)
-    }
 }
 
 impl CircleEvidence {
@@ -111,7 +68,7 @@ impl CircleEvidence {
             let oscillation = Oscillation::search(&shapes.left, &left);
             let oscillation = oscillation.filter(|it| it.explains > least);
             let explained = oscillation.map_or(least, |it| it.explains);
-            let periodic = Periodic::search(&shapes).filter(|it| it.explains() > explained);
+            let periodic = pitch::search(&shapes).filter(|it| it.explains() > explained);
             other = Some(match (&periodic, oscillation) {
                 (Some(periodic), _) => OtherShape::Periodic {
                     axis: periodic.screw.axis,

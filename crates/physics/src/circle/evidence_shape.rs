@@ -1,8 +1,20 @@
-//! The shape of what is left of a recorded path beyond noise (R5.28).
+//! The shapes of a recorded path: those that are fitted, and what is left beyond noise (R5.28).
 
 use serde::Serialize;
 
 use super::crossing::PlaneAxis;
+
+/// A term is noticeable from so many standard errors on …
+const SIGNIFICANT: f64 = 3.0;
+
+/// … and from this size on, in µm.
+const LEAST_TERM_UM: f64 = 0.5;
+
+/// Number of shapes that are fitted at once, centres and radii included.
+pub(super) const SHAPES: usize = 13;
+
+/// One value for each fitted shape.
+pub(super) type Row = [f64; SHAPES];
 
 /// A shape that no term has.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -27,4 +39,41 @@ pub enum OtherShape {
     },
     /// Neither of them.
     Unknown,
+}
+
+/// A fitted shape with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Term {
+    /// The shape.
+    pub shape: ShapeTerm,
+    /// Its size.
+    pub size_um: f64,
+    /// Its standard error.
+    pub error_um: f64,
+}
+
+/// A shape that is fitted away from the reversals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ShapeTerm {
+    /// A step outwards where an axis reverses.
+    Backlash(PlaneAxis),
+    /// A step sideways of an axis where the other one reverses.
+    Play(PlaneAxis),
+    /// An ellipse at 45° that turns with the direction.
+    Gain,
+    /// An ellipse at 45° that does not.
+    Squareness,
+    /// An ellipse along the axes.
+    Scale,
+    /// A shift of an axis from turn to turn.
+    Drift(PlaneAxis),
+}
+
+impl Term {
+    /// Whether the recording carries it.
+    pub fn is_carried(&self) -> bool {
+        self.size_um.abs() > (SIGNIFICANT * self.error_um).max(LEAST_TERM_UM)
+    }
 }

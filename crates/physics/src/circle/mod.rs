@@ -23,6 +23,7 @@ mod linear;
 mod method;
 mod oscillation;
 mod periodic;
+mod pitch;
 mod profile;
 mod quality;
 mod quiet;
@@ -45,8 +46,8 @@ pub use diagnosis::{
     Diagnosis, DiagnosisGrounds, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison,
 };
 pub use direction::Direction;
-pub use evidence::{CircleEvidence, ShapeTerm, Term};
-pub use evidence_shape::OtherShape;
+pub use evidence::CircleEvidence;
+pub use evidence_shape::{OtherShape, ShapeTerm, Term};
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};

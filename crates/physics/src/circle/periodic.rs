@@ -3,21 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::crossing::PlaneAxis;
+use super::evidence_shape::{Row, SHAPES};
 use super::series::Series;
-use super::shapes::{Joint, Shapes};
+
 use super::turning::Turning;
-
-/// Pitches in mm.
-const PITCHES: [f64; 2] = [1.0, 40.0];
-
-/// A screw turns at least so often in a radius.
-const LEAST_TURNS: f64 = 0.5;
-
-/// A screw that turns less often in a radius looks like other shapes.
-const ALIKE_TURNS: f64 = 3.0;
-
-/// Frequencies on either side of the best one among which the pitch is sharpened.
-const FINE: i32 = 15;
 
 /// A screw of an axis with a pitch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +28,7 @@ impl Screw {
     }
 
     /// The mean square of paths that it explains by itself.
-    fn explains(&self, left: &[Series]) -> f64 {
+    pub(super) fn explains(&self, left: &[Series]) -> f64 {
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
         for one in left {
             for (angle, value) in one.steps() {
@@ -76,38 +65,41 @@ impl Periodic {
         let [cos, sin] = self.screw.columns(angle, radius_mm);
         self.joint.parts[0] * cos + self.joint.parts[1] * sin
     }
+}
 
-    /// The error of any pitch that explains most of what shapes leave, beside them.
-    pub(super) fn search(shapes: &Shapes) -> Option<Self> {
-        let radius_mm = shapes.left.first()?.radius_mm;
-        let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];
-        let step = 1.0 / (6.0 * radius_mm);
-        let of = |screw: Screw| {
-            let joint = shapes.joint(&screw)?;
-            Some(Self { screw, joint })
-        };
-        let mut best: Option<(Screw, f64)> = None;
-        for axis in PlaneAxis::ALL {
-            let mut frequency = from.max(LEAST_TURNS / radius_mm);
-            while frequency <= to {
-                let screw = Screw { axis, frequency };
-                let explains = if frequency * radius_mm < ALIKE_TURNS {
-                    of(screw).map_or(0.0, |it| it.explains())
-                } else {
-                    screw.explains(&shapes.left)
-                };
-                if best.is_none_or(|(_, most)| explains > most) {
-                    best = Some((screw, explains));
-                }
-                frequency += step;
-            }
-        }
-        let (best, _) = best?;
-        // Between the frequencies that were tried.
-        let near = (-FINE..=FINE).filter_map(|at| {
-            let frequency = best.frequency + f64::from(at) / f64::from(FINE) * step;
-            of(Screw { frequency, ..best })
-        });
-        near.max_by(|one, other| one.explains().total_cmp(&other.explains()))
+/// The error of a screw beside the shapes.
+pub(super) struct Joint {
+    /// The amplitudes of its cosine and its sine.
+    pub(super) parts: [f64; 2],
+    /// Mean square that it explains.
+    pub(super) explains: f64,
+    inverse: [f64; 3],
+    /// How much of each shape the cosine and the sine are.
+    pub(super) shares: [Row; 2],
+}
+
+impl Joint {
+    /// The fit of two columns with the squares that are their own, of all their squares.
+    pub(super) fn new(own: [f64; 3], squares: [f64; 3], products: [f64; 2]) -> Option<Self> {
+        /// Columns of which less is their own are shapes.
+        const LEAST_OWN: f64 = 1e-6;
+        let determinant = own[0] * own[2] - own[1] * own[1];
+        let is_firm = determinant > LEAST_OWN * squares[0] * squares[2];
+        let inverse = [own[2], -own[1], own[0]].map(|it| it / determinant);
+        let parts = [
+            inverse[0] * products[0] + inverse[1] * products[1],
+            inverse[1] * products[0] + inverse[2] * products[1],
+        ];
+        is_firm.then_some(Self {
+            parts,
+            explains: parts[0] * products[0] + parts[1] * products[1],
+            inverse,
+            shares: [[0.0; SHAPES]; 2],
+        })
+    }
+
+    /// The variance that an uncertain screw adds to a shape of which it has such shares.
+    pub(super) fn spread(&self, [c, s]: [f64; 2]) -> f64 {
+        c * c * self.inverse[0] + 2.0 * c * s * self.inverse[1] + s * s * self.inverse[2]
     }
 }

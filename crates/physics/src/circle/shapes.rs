@@ -2,17 +2,11 @@
 
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
-use super::evidence::{ShapeTerm, Term};
+use super::evidence_shape::{Row, SHAPES, ShapeTerm, Term};
 use super::linear::Normal;
-use super::periodic::{Periodic, Screw};
+use super::periodic::{Joint, Periodic, Screw};
 use super::series::Series;
 use super::turning::Turning;
-
-/// Number of fitted shapes, centres and radii included.
-const SHAPES: usize = 13;
-
-/// One value for each shape.
-type Row = [f64; SHAPES];
 
 /// Shapes that both directions tell, with their places in a row, and how many times its unknown each is.
 const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
@@ -116,12 +110,10 @@ impl Shapes {
             squares[1] - dot(&sums[0], &shares[1]),
             squares[2] - dot(&sums[1], &shares[1]),
         ];
-        let joint = Joint::new(own, squares, products)?;
-        Some(Joint {
-            shares,
-            explains: joint.explains / f64::max(count, 1.0),
-            ..joint
-        })
+        let mut joint = Joint::new(own, squares, products)?;
+        joint.shares = shares;
+        joint.explains /= f64::max(count, 1.0);
+        Some(joint)
     }
 
     fn judged(mut self, series: &[Series], spreads: &Row, periodic: Option<&Periodic>) -> Self {
@@ -148,43 +140,6 @@ impl Shapes {
             })
         };
         series.iter().map(less).collect()
-    }
-}
-
-/// The error of a screw beside the shapes.
-pub(super) struct Joint {
-    /// The amplitudes of its cosine and its sine.
-    pub(super) parts: [f64; 2],
-    /// Mean square that it explains.
-    pub(super) explains: f64,
-    inverse: [f64; 3],
-    /// How much of each shape the cosine and the sine are.
-    shares: [Row; 2],
-}
-
-impl Joint {
-    /// The fit of two columns with the squares that are their own, of all their squares.
-    pub(super) fn new(own: [f64; 3], squares: [f64; 3], products: [f64; 2]) -> Option<Self> {
-        /// Columns of which less is their own are shapes.
-        const LEAST_OWN: f64 = 1e-6;
-        let determinant = own[0] * own[2] - own[1] * own[1];
-        let is_firm = determinant > LEAST_OWN * squares[0] * squares[2];
-        let inverse = [own[2], -own[1], own[0]].map(|it| it / determinant);
-        let parts = [
-            inverse[0] * products[0] + inverse[1] * products[1],
-            inverse[1] * products[0] + inverse[2] * products[1],
-        ];
-        is_firm.then_some(Self {
-            parts,
-            explains: parts[0] * products[0] + parts[1] * products[1],
-            inverse,
-            shares: [[0.0; SHAPES]; 2],
-        })
-    }
-
-    /// The variance that an uncertain screw adds to a shape of which it has such shares.
-    fn spread(&self, [c, s]: [f64; 2]) -> f64 {
-        c * c * self.inverse[0] + 2.0 * c * s * self.inverse[1] + s * s * self.inverse[2]
     }
 }
 

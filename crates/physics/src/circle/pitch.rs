@@ -1,0 +1,51 @@
+//! The pitch of a periodic error (R5.28).
+
+use super::crossing::PlaneAxis;
+use super::periodic::{Periodic, Screw};
+use super::shapes::Shapes;
+
+/// Pitches in mm.
+const PITCHES: [f64; 2] = [1.0, 40.0];
+
+/// A screw turns at least so often in a radius.
+const LEAST_TURNS: f64 = 0.5;
+
+/// A screw that turns less often in a radius looks like other shapes.
+const ALIKE_TURNS: f64 = 3.0;
+
+/// Frequencies on either side of the best one among which the pitch is sharpened.
+const FINE: i32 = 15;
+
+/// The error of any pitch that explains most of what shapes leave, beside them.
+pub(super) fn search(shapes: &Shapes) -> Option<Periodic> {
+    let radius_mm = shapes.left.first()?.radius_mm;
+    let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];
+    let step = 1.0 / (6.0 * radius_mm);
+    let of = |screw: Screw| {
+        let joint = shapes.joint(&screw)?;
+        Some(Periodic { screw, joint })
+    };
+    let mut best: Option<(Screw, f64)> = None;
+    for axis in PlaneAxis::ALL {
+        let mut frequency = from.max(LEAST_TURNS / radius_mm);
+        while frequency <= to {
+            let screw = Screw { axis, frequency };
+            let explains = if frequency * radius_mm < ALIKE_TURNS {
+                of(screw).map_or(0.0, |it| it.explains())
+            } else {
+                screw.explains(&shapes.left)
+            };
+            if best.is_none_or(|(_, most)| explains > most) {
+                best = Some((screw, explains));
+            }
+            frequency += step;
+        }
+    }
+    let (best, _) = best?;
+    // Between the frequencies that were tried.
+    let near = (-FINE..=FINE).filter_map(|at| {
+        let frequency = best.frequency + f64::from(at) / f64::from(FINE) * step;
+        of(Screw { frequency, ..best })
+    });
+    near.max_by(|one, other| one.explains().total_cmp(&other.explains()))
+}

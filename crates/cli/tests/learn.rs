@@ -138,7 +138,9 @@ impl Bench {
         for &feed in self.feeds {
             for take in [0, 1] {
                 let seed = (feed as u64 * 100 + round as u64) * 2 + take;
-                let rows = self.machine.recorded(feed, lists.each_ref(), seed);
+                let rows = self
+                    .machine
+                    .recorded(feed, lists.each_ref().map(Some), seed);
                 let name = format!("learning/round-{round}/F{feed}-{take}.csv");
                 let bytes = match take {
                     0 => plain(&rows).into_bytes(),

@@ -59,6 +59,11 @@ impl Machine {
         }
     }
 
+    /// A machine with half the stiffness that its reference has.
+    pub(crate) fn half() -> Self {
+        Self::of("half", Preset::Mid, |it| *it = it.with_contact(0.5))
+    }
+
     /// The machines of the long test.
     pub(crate) fn all() -> Vec<Self> {
         let stiff = Self::of("stiff", Preset::Stiff, |it| *it = it.with_contact(0.8));
@@ -72,9 +77,8 @@ impl Machine {
             screw_um: 1.0,
             ..Self::of("noisy", Preset::Mid, |_| {})
         };
-        let half = Self::of("half", Preset::Mid, |it| *it = it.with_contact(0.5));
         let double = Self::of("double", Preset::Mid, |it| *it = it.with_contact(2.0));
-        vec![stiff, mid, soft, uneven, noisy, half, double]
+        vec![stiff, mid, soft, uneven, noisy, Self::half(), double]
     }
 
     fn test(&self, feed: f64, lists: [Option<&FrictionList>; 2], friction: f64) -> CircularTest {
@@ -115,14 +119,24 @@ impl Machine {
 
     /// A recording at a feed: more than a turn in each direction, a row a ms. The friction is a little different
     /// each time.
-    pub(crate) fn recorded(&self, feed: f64, lists: [&FrictionList; 2], seed: u64) -> Vec<Row> {
+    pub(crate) fn recorded(
+        &self,
+        feed: f64,
+        lists: [Option<&FrictionList>; 2],
+        seed: u64,
+    ) -> Vec<Row> {
         let mut random = fastrand::Rng::with_seed(seed);
         let friction = 0.99 + 0.02 * random.f64();
-        let test = self.test(feed, lists.map(Some), friction);
+        let test = self.test(feed, lists, friction);
+        let compensation = if lists[0].is_some() {
+            Switched::On
+        } else {
+            Switched::Off
+        };
         let mut rows = Vec::new();
         for direction in Direction::ALL {
             let job = Job {
-                compensation: Switched::On,
+                compensation,
                 direction,
             };
             let profile = test.run(job).expect("a lap").profile;

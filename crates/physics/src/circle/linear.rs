@@ -43,6 +43,23 @@ impl<const N: usize> Normal<N> {
         Self { matrix, right }.solve()
     }
 
+    /// Takes the equations of another fit so many times.
+    pub(super) fn add_times(&mut self, other: &Self, times: f64) {
+        for (sums, row) in self.matrix.iter_mut().zip(&other.matrix) {
+            for (sum, it) in sums.iter_mut().zip(row) {
+                *sum += times * it;
+            }
+        }
+        for (sum, it) in self.right.iter_mut().zip(other.right) {
+            *sum += times * it;
+        }
+    }
+
+    /// The square root of the diagonal at an unknown: by how much it changes all values.
+    pub(super) fn scale(&self, unknown: usize) -> f64 {
+        self.matrix[unknown][unknown].sqrt()
+    }
+
     /// The variances of the unknowns for values of the variance 1, one independent of the other.
     pub(super) fn spreads(&self) -> Option<[f64; N]> {
         let mut spreads = [0.0; N];

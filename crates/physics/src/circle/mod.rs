@@ -16,6 +16,7 @@ mod drift;
 mod evidence;
 mod evidence_shape;
 mod figures;
+mod fitted;
 mod glitch;
 mod lap;
 mod learn;
@@ -36,6 +37,7 @@ mod swings;
 mod test;
 mod tune;
 mod turning;
+mod waveform;
 mod window;
 mod zone;
 
@@ -49,11 +51,14 @@ pub use direction::Direction;
 pub use evidence::CircleEvidence;
 pub use evidence_shape::{OtherShape, ShapeTerm, Term};
 pub use figures::{Figures, PathFigures, Paths};
+pub use fitted::{
+    DriveFit, Extent, FittedDrive, ObservedCircle, predicted_height_um, recorded_height_um,
+};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};
 pub use learn::{
     LearnedCircle, LearnedRound, Learner, LearningProgress, Proposal, RecordedTwice, RoundVerdict,
-    TooMuchCurrent, Waveform,
+    TooMuchCurrent,
 };
 pub use method::Method;
 pub use profile::{ANGLES, RadialProfile, UM_PER_M};
@@ -66,3 +71,4 @@ pub use tune::{
     Aim, Candidate, Checked, FeedResult, FreeParameter, Heights, Ranges, Robust, Shaping,
     Simulations, Task, Tuned, TunedAxis, tune, tune_with,
 };
+pub use waveform::Waveform;

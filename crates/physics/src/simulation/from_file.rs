@@ -119,7 +119,7 @@ fn compensated(
 }
 
 /// The parameter that a number is; `None` where others follow from it or it has another unit.
-fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64> {
+pub(super) fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64> {
     let friction = &mut drive.friction;
     Some(match quantity {
         Quantity::Mass => &mut drive.mass_kg,

@@ -18,6 +18,7 @@ mod plant_file;
 mod plant_keys;
 mod plant_list;
 mod stiction;
+mod to_file;
 
 pub use clock::{POSITION_LOOP_S, SPEED_LOOP_S, STEP_S};
 pub use drive::{Drive, Setpoint};

@@ -9,9 +9,7 @@ mod bounds;
 mod learner;
 mod progress;
 mod round;
-mod waveform;
 
 pub use learner::{Learner, Proposal};
 pub use progress::{LearningProgress, RoundVerdict};
 pub use round::{LearnedCircle, LearnedRound, RecordedTwice, TooMuchCurrent};
-pub use waveform::Waveform;

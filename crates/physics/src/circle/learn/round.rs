@@ -2,11 +2,10 @@
 
 use thiserror::Error;
 
-use super::waveform::Waveform;
-use crate::circle::crossing::{Crossing, PlaneAxis};
-use crate::circle::glitch::straightened;
+use crate::circle::crossing::PlaneAxis;
 use crate::circle::recorded::RecordedCircle;
 use crate::circle::reference::Circle;
+use crate::circle::waveform::Waveform;
 use crate::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::FrictionList;
 
@@ -107,13 +106,8 @@ impl RecordedTwice {
 fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<Reversals> {
     let mut found: [Vec<Waveform>; 2] = [Vec::new(), Vec::new()];
     for turn in turns {
-        let angles_per_s = 360.0 / turn.turn_s? * f64::from(crate::circle::profile::PER_DEGREE);
-        let paths = straightened(&turn.profile, turn.direction)?;
-        let of_axis = Crossing::ALL.into_iter().zip(paths);
-        let of_axis = of_axis.filter(|(crossing, _)| crossing.axis() == axis);
-        for (waveforms, (_, path)) in found.iter_mut().zip(of_axis) {
-            let in_time = path.iter().map(|&(way, it)| (way / angles_per_s, it));
-            waveforms.push(Waveform::sampled(&in_time.collect::<Vec<_>>()));
+        for (waveforms, of_turn) in found.iter_mut().zip(Waveform::recorded(axis, turn)?) {
+            waveforms.push(of_turn);
         }
     }
     let mean = |waveforms: &Vec<Waveform>| Waveform::mean(&waveforms.iter().collect::<Vec<_>>());

@@ -85,7 +85,7 @@ impl CmaEs {
             path_of_spread: vec![0.0; variables],
             generation: 0,
             asked: Vec::new(),
-            random: XorShift(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03)),
+            random: XorShift::new(seed),
         }
     }
 
@@ -151,11 +151,16 @@ impl CmaEs {
 
 /// Random numbers that are the same each time.
 #[derive(Debug, Clone)]
-struct XorShift(u64);
+pub(in crate::circle) struct XorShift(u64);
 
 impl XorShift {
+    /// The numbers of a seed.
+    pub(in crate::circle) fn new(seed: u64) -> Self {
+        Self(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03))
+    }
+
     /// Evenly from 0 to 1.
-    fn even(&mut self) -> f64 {
+    pub(in crate::circle) fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -163,8 +168,19 @@ impl XorShift {
         f64::from(upper) / f64::from(u32::MAX)
     }
 
+    /// A number below a count.
+    pub(in crate::circle) fn below(&mut self, count: usize) -> usize {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative, and below the count"
+        )]
+        let number = (self.even() * real(count)) as usize;
+        number.min(count.saturating_sub(1))
+    }
+
     /// Normally with a variance of 1: as the sum of twelve.
-    fn normal(&mut self) -> f64 {
+    pub(in crate::circle) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
 }

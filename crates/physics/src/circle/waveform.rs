@@ -1,5 +1,10 @@
 //! The deviation of one axis over the time since its reversal.
 
+use super::crossing::{Crossing, PlaneAxis};
+use super::glitch::straightened;
+use super::profile::PER_DEGREE;
+use super::recorded::RecordedCircle;
+
 /// Interval of the samples in s.
 const STEP_S: f64 = 0.002;
 
@@ -21,9 +26,24 @@ pub struct Waveform {
 }
 
 impl Waveform {
+    /// The reversals of an axis on a recorded turn, where it is largest and where it is smallest; `None` where
+    /// the turn has no glitches or no times.
+    pub(in crate::circle) fn recorded(axis: PlaneAxis, turn: &RecordedCircle) -> Option<[Self; 2]> {
+        let angles_per_s = 360.0 / turn.turn_s? * f64::from(PER_DEGREE);
+        let paths = straightened(&turn.profile, turn.direction)?;
+        let of_axis = Crossing::ALL.into_iter().zip(paths);
+        let mut of_axis = of_axis.filter(|(crossing, _)| crossing.axis() == axis);
+        let mut next = || {
+            let (_, path) = of_axis.next()?;
+            let in_time = path.iter().map(|&(way, it)| (way / angles_per_s, it));
+            Some(Self::sampled(&in_time.collect::<Vec<_>>()))
+        };
+        Some([next()?, next()?])
+    }
+
     /// Samples points, ascending times since the reversal in s with deviations in m: each sample is the mean over
     /// 8 ms, or lies on the straight line where points are farther apart.
-    pub(super) fn sampled(points: &[(f64, f64)]) -> Self {
+    pub(in crate::circle) fn sampled(points: &[(f64, f64)]) -> Self {
         let [Some(begin), Some(end)] = [points.first(), points.last()] else {
             return Self::default();
         };
@@ -52,7 +72,7 @@ impl Waveform {
     }
 
     /// The mean of waveforms over the samples that all of them have.
-    pub(super) fn mean(waveforms: &[&Self]) -> Self {
+    pub(in crate::circle) fn mean(waveforms: &[&Self]) -> Self {
         let first = waveforms.iter().map(|it| it.first).max().unwrap_or(0);
         let end = waveforms.iter().map(|it| it.end()).min().unwrap_or(0);
         let mean = |number: i32| {
@@ -77,7 +97,7 @@ impl Waveform {
     }
 
     /// The same with a change that acts on those samples that it has.
-    pub(super) fn changed(&self, change: &Self) -> Self {
+    pub(in crate::circle) fn changed(&self, change: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
             first: self.first,
@@ -86,7 +106,7 @@ impl Waveform {
     }
 
     /// The difference to another one on the samples of this one.
-    pub(super) fn less(&self, other: &Self) -> Self {
+    pub(in crate::circle) fn less(&self, other: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
             first: self.first,
@@ -95,7 +115,7 @@ impl Waveform {
     }
 
     /// The samples that another one has, too.
-    pub(super) fn within(&self, other: &Self) -> Self {
+    pub(in crate::circle) fn within(&self, other: &Self) -> Self {
         Self::mean(&[
             self,
             &Self {
@@ -112,7 +132,7 @@ impl Waveform {
     }
 
     /// The same less the straight line through both ends.
-    pub(super) fn levelled(mut self) -> Self {
+    pub(in crate::circle) fn levelled(mut self) -> Self {
         let ends = ENDS.min(self.um.len() / 2).max(1);
         if self.um.len() <= ends {
             return self;
@@ -128,8 +148,14 @@ impl Waveform {
         self
     }
 
+    /// The samples: the time since the reversal in s, and the deviation in µm.
+    pub(in crate::circle) fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let times = (self.first..).map(|it| f64::from(it) * STEP_S);
+        times.zip(self.um.iter().copied())
+    }
+
     /// The mean square in µm².
-    pub(super) fn power(&self) -> f64 {
+    pub(in crate::circle) fn power(&self) -> f64 {
         let squares: f64 = self.um.iter().map(|it| it * it).sum();
         squares / real(self.um.len().max(1))
     }

@@ -1,0 +1,119 @@
+//! A drive from the reversals of its axis.
+
+use super::extent::Extent;
+use super::observed::DriveFit;
+use super::squares::Setting;
+use super::unknowns::{CONTACT, DAMPING, DELAY, FRICTION, SPEED_GAIN, Unknowns};
+use crate::circle::reference::CircleError;
+use crate::circle::tune::cma_es::XorShift;
+use crate::simulation::{DriveParameters, FrictionModel};
+
+/// Contacts that are tried first: from an eighth to eight times as stiff, each twice as stiff as the one before.
+const CONTACTS: std::ops::RangeInclusive<i32> = -3..=3;
+
+/// Selections of the reversals.
+const SELECTIONS: usize = 400;
+
+/// The part of them beyond each end of a 95 % range.
+const BEYOND: usize = SELECTIONS / 40;
+
+/// The delay is never better known, in s (R16.3).
+const DELAY_S: f64 = 0.5e-3;
+
+/// The friction is known no better than the shape of the measured curve, as a part.
+const SHAPE: f64 = 0.02;
+
+/// The drive that fits the reversals, and how well its parameters are known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedDrive {
+    /// The drive.
+    pub drive: DriveParameters,
+    /// Stiffness of the contact in N/m.
+    pub contact: Extent,
+    /// Kp in N·s/m.
+    pub speed_gain: Extent,
+    /// Coulomb friction in N.
+    pub coulomb: Extent,
+    /// Damping of the contact in N·s/m.
+    pub damping: Extent,
+    /// Time constant of the current loop, in which delays of the loop are, in s.
+    pub delay_s: Extent,
+    /// The root mean square in µm that is left of the recorded deviations.
+    pub left_um: f64,
+    /// Number of reversals.
+    pub reversals: usize,
+    /// Number of simulated reversals.
+    pub simulations: usize,
+}
+
+impl DriveFit {
+    /// Fits the drive (R16.3).
+    ///
+    /// # Errors
+    /// A circle that cannot be simulated, or a drive that is unstable on it.
+    pub fn fit(&self) -> Result<FittedDrive, CircleError> {
+        let free = Setting {
+            model: FrictionModel::Lugre,
+            held: None,
+        };
+        let (first, mut simulations) = self.first(free.model)?;
+        let best = self.solve(free, first)?;
+        let slipping = Setting {
+            model: FrictionModel::Gms,
+            held: None,
+        };
+        let damped = Setting {
+            model: FrictionModel::Lugre,
+            held: Some(DAMPING),
+        };
+        let twice = best.unknowns.0[DAMPING] + std::f64::consts::LN_2;
+        let others = [
+            self.solve(slipping, best.unknowns)?,
+            self.solve(damped, best.unknowns.with(DAMPING, twice))?,
+        ];
+        simulations += best.simulations + others.iter().map(|it| it.simulations).sum::<usize>();
+        let mut random = XorShift::new(0);
+        let again = (0..SELECTIONS).filter_map(|_| best.again(&mut random));
+        let again: Vec<Unknowns> = again.collect();
+        let extent = |unknown: usize, of: &dyn Fn(&DriveParameters) -> f64| {
+            let mut values: Vec<f64> = again.iter().map(|it| it.0[unknown]).collect();
+            values.sort_by(f64::total_cmp);
+            let inner = values.len().saturating_sub(2 * BEYOND);
+            let mut ends = values.iter().skip(BEYOND).take(inner);
+            let ends = [ends.clone().next(), ends.next_back()]
+                .into_iter()
+                .flatten();
+            let refits = others.iter().map(|it| it.unknowns.0[unknown]);
+            let at = |value: f64| of(&best.unknowns.with(unknown, value).of(&self.drive));
+            let all = ends.copied().chain(refits).map(at);
+            Extent::over(of(&best.unknowns.of(&self.drive)), all)
+        };
+        let coulomb = extent(FRICTION, &|it| it.friction.coulomb_n);
+        Ok(FittedDrive {
+            drive: best.unknowns.of(&self.drive),
+            contact: extent(CONTACT, &|it| it.friction.stiffness_n_per_m),
+            speed_gain: extent(SPEED_GAIN, &|it| it.speed_gain_n_s_per_m),
+            coulomb: coulomb.widened(SHAPE * coulomb.value),
+            damping: extent(DAMPING, &|it| it.friction.damping_n_s_per_m),
+            delay_s: extent(DELAY, &|it| it.current_time_s).widened(DELAY_S),
+            left_um: best.power.sqrt(),
+            reversals: self.circles.iter().map(|it| it.reversals.len()).sum(),
+            simulations,
+        })
+    }
+
+    /// The contact from which the search begins, and the number of simulations that it took.
+    fn first(&self, model: FrictionModel) -> Result<(Unknowns, usize), CircleError> {
+        let mut best = (f64::INFINITY, Unknowns::none());
+        let mut simulations = 0;
+        for octave in CONTACTS {
+            let at = Unknowns::none().with(CONTACT, f64::from(octave) * std::f64::consts::LN_2);
+            let power = self.power(model, at)?;
+            simulations += self.circles.len();
+            if power < best.0 {
+                best = (power, at);
+            }
+        }
+        Ok((best.1, simulations))
+    }
+}

@@ -1,0 +1,18 @@
+//! The plant from recorded circles (R16.3).
+//!
+//! A [`DriveFit`] holds what an axis did at its reversals with compensation off and on. The unknowns of its
+//! drive are found by least squares over all reversals, each with an offset and a slope of its own. How well they
+//! are known is told by other selections of the reversals, another friction model and another damping, never
+//! by the noise that is left.
+
+mod extent;
+mod fitted_drive;
+mod height;
+mod observed;
+mod squares;
+mod unknowns;
+
+pub use extent::Extent;
+pub use fitted_drive::FittedDrive;
+pub use height::{predicted_height_um, recorded_height_um};
+pub use observed::{DriveFit, ObservedCircle};

@@ -1,0 +1,50 @@
+//! The reversals of an axis on a recorded circle.
+
+use crate::circle::crossing::PlaneAxis;
+use crate::circle::recorded::RecordedCircle;
+use crate::circle::reference::Circle;
+use crate::circle::waveform::Waveform;
+use crate::current::Reading;
+use crate::simulation::DriveParameters;
+use frictcomp::lists::FrictionList;
+
+/// An axis on a recorded circle, with compensation off or on.
+#[derive(Debug, Clone)]
+pub struct ObservedCircle {
+    /// The circle as it was driven.
+    pub circle: Circle,
+    /// The list that was on.
+    pub list: Option<FrictionList>,
+    /// The recorded deviation at each reversal.
+    pub(super) reversals: Vec<Waveform>,
+}
+
+/// An axis on recorded circles, and the drive that is assumed before they are looked at.
+#[derive(Debug, Clone)]
+pub struct DriveFit {
+    /// The axis.
+    pub axis: PlaneAxis,
+    /// Mass, position loop and measured friction; the rest is where the search begins.
+    pub drive: DriveParameters,
+    /// Reading of the documents.
+    pub reading: Reading,
+    /// The circles, with compensation off and on.
+    pub circles: Vec<ObservedCircle>,
+}
+
+impl ObservedCircle {
+    /// The reversals of an axis on turns of one circle; `None` where it has no glitches.
+    pub fn of(
+        axis: PlaneAxis,
+        (circle, list): (Circle, Option<FrictionList>),
+        turns: &[RecordedCircle],
+    ) -> Option<Self> {
+        let reversals = turns.iter().map(|it| Waveform::recorded(axis, it));
+        let reversals: Vec<[Waveform; 2]> = reversals.collect::<Option<_>>()?;
+        (!reversals.is_empty()).then(|| Self {
+            circle,
+            list,
+            reversals: reversals.into_iter().flatten().collect(),
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! The unknowns of a drive, as the search counts them.
+
+use crate::simulation::DriveParameters;
+
+/// The number of unknowns.
+pub(super) const UNKNOWNS: usize = 5;
+
+/// Unknowns against those of the first drive: the logarithms of the factors on the stiffness of the contact, on
+/// Kp, on the friction and on the damping of the contact, and the additional delay in ms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unknowns(pub(super) [f64; UNKNOWNS]);
+
+pub(super) const CONTACT: usize = 0;
+pub(super) const SPEED_GAIN: usize = 1;
+pub(super) const FRICTION: usize = 2;
+pub(super) const DELAY: usize = 3;
+pub(super) const DAMPING: usize = 4;
+
+/// Standard deviation of each unknown before a circle is looked at; that of the friction is what
+/// `identify` leaves (R16.3).
+pub(super) const BEFORE: [f64; UNKNOWNS] = [2.0, 0.5, 0.05, 0.7, 0.7];
+
+/// Steps by which the effect of an unknown is measured.
+pub(super) const STEPS: [f64; UNKNOWNS] = [0.05, 0.03, 0.02, 0.1, 0.1];
+
+/// Greatest change of an unknown in one step.
+const MOST: [f64; UNKNOWNS] = [0.7, 0.3, 0.1, 0.7, 0.7];
+
+/// Greatest distance from the first drive.
+const BOUNDS: [f64; UNKNOWNS] = [3.0, 1.2, 0.2, 5.0, 1.4];
+
+/// The shortest delay in s.
+const LEAST_DELAY_S: f64 = 1e-4;
+
+impl Unknowns {
+    /// Those of the first drive.
+    pub(super) fn none() -> Self {
+        Self([0.0; UNKNOWNS])
+    }
+
+    /// The same with another value of an unknown.
+    pub(super) fn with(mut self, at: usize, value: f64) -> Self {
+        self.0[at] = value;
+        self
+    }
+
+    /// The same after a step, within the bounds.
+    pub(super) fn moved(self, step: [f64; UNKNOWNS]) -> Self {
+        Self(std::array::from_fn(|at| {
+            let step = step[at].clamp(-MOST[at], MOST[at]);
+            (self.0[at] + step).clamp(-BOUNDS[at], BOUNDS[at])
+        }))
+    }
+
+    /// The drive.
+    pub(super) fn of(self, first: &DriveParameters) -> DriveParameters {
+        let factor = |at: usize| self.0[at].exp();
+        let mut drive = first.with_contact(factor(CONTACT));
+        drive.speed_gain_n_s_per_m *= factor(SPEED_GAIN);
+        drive.friction = drive.friction.scaled(factor(FRICTION));
+        drive.friction.damping_n_s_per_m *= factor(DAMPING);
+        drive.current_time_s = (first.current_time_s + self.0[DELAY] * 1e-3).max(LEAST_DELAY_S);
+        drive
+    }
+}

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use super::advice::no_toml;
-use super::axis::AxisTable;
+use super::axis::{AXIS, AxisTable, VALUE};
 use super::error::ConfigError;
-use super::machine::MachineTable;
+use super::machine::{MACHINE, MachineTable};
 use super::one_more_axis::one_more_axis;
 use super::readings;
 use super::section::{Section, Shape};
@@ -83,7 +83,9 @@ impl ConfigFile {
     pub(crate) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
         let table = DeTable::parse(source.text());
         let table = table.map_err(|error| no_toml(source, &error))?;
-        let root = Section::new(table.get_ref(), source, &ROOT)?;
+        let table = table.get_ref();
+        let root = Section::new(table, source, &ROOT);
+        let root = root.map_err(|error| at_home(error, table))?;
         Ok(Self {
             machine: MachineTable::read(&root)?,
             variables: variables(&root)?,
@@ -94,6 +96,22 @@ impl ConfigFile {
             axes: AxisTable::read_all(&root)?,
             one_more_axis: one_more_axis(&root),
         })
+    }
+}
+
+/// Says of a key above all tables in which of them it belongs.
+fn at_home(error: ConfigError, table: &DeTable<'_>) -> ConfigError {
+    let unknown = ROOT.first_unknown(table);
+    let unknown = unknown.map(|key| key.get_ref().as_ref());
+    let has = |shape: &&&Shape| {
+        shape
+            .keys
+            .is_some_and(|keys| unknown.is_some_and(|it| keys.contains(&it)))
+    };
+    let mut homes = [&MACHINE, &AXIS, &VALUE, &CHECK].iter().filter(has);
+    match homes.next() {
+        Some(home) => error.with_help(format!("write it below the header `{}`", home.name)),
+        None => error,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::advice::example;
 use super::error::ConfigError;
@@ -17,6 +17,20 @@ pub struct Shape {
     pub name: &'static str,
     /// The keys; `None` when the user chooses them.
     pub keys: Option<&'static [&'static str]>,
+}
+
+impl Shape {
+    /// The first key of a table that it does not have.
+    pub(super) fn first_unknown<'a>(
+        &self,
+        table: &'a DeTable<'_>,
+    ) -> Option<&'a Spanned<DeString<'a>>> {
+        let known = self.keys?;
+        let unknown = table
+            .keys()
+            .filter(|key| !known.contains(&key.get_ref().as_ref()));
+        unknown.min_by_key(|key| key.span().start)
+    }
 }
 
 /// One table whose keys are all known.
@@ -37,10 +51,7 @@ impl<'a> Section<'a> {
         shape: &Shape,
     ) -> Result<Self, ConfigError> {
         if let Some(known) = shape.keys
-            && let Some(key) = table
-                .keys()
-                .filter(|key| !known.contains(&key.get_ref().as_ref()))
-                .min_by_key(|key| key.span().start)
+            && let Some(key) = shape.first_unknown(table)
         {
             let name = key.get_ref().as_ref();
             let message = format!("`{}` has no key `{name}`", shape.name);

@@ -135,8 +135,14 @@ impl Question for SwitchedAxes {
 pub struct NamedAxes {
     sought: Vec<PendingLabel>,
     found: BTreeSet<String>,
+    /// Axes whose state of compensation the program reads.
+    read: BTreeSet<String>,
+    next_read: Option<usize>,
     calls: Calls,
 }
+
+/// Part of a variable that reads a state, `V.A.FRICT_COMP_ACTIVE.X`.
+const STATE: &str = "_COMP_";
 
 /// A name that was not found yet.
 #[derive(Debug)]
@@ -170,6 +176,11 @@ impl NamedAxes {
         self.found
     }
 
+    /// The axes whose state of compensation the program reads.
+    pub fn read(&self) -> &BTreeSet<String> {
+        &self.read
+    }
+
     /// Whether the program calls a file.
     pub fn calls_files(&self) -> bool {
         self.calls.is_found
@@ -189,8 +200,12 @@ impl Question for NamedAxes {
             let is_wanted = !self.calls.is_found;
             self.calls.next = is_wanted.then(|| call_place(text, from)).flatten();
         }
+        if !is_known(&self.next_read) {
+            let found = memchr::memmem::find(&text[from..], STATE.as_bytes());
+            self.next_read = found.map(|at| from + at);
+        }
         let places = self.sought.iter().filter_map(|sought| sought.next);
-        places.chain(self.calls.next).min()
+        places.chain(self.calls.next).chain(self.next_read).min()
     }
 
     fn look(&mut self, block: &Block, text: &str) {
@@ -202,8 +217,26 @@ impl Question for NamedAxes {
                 }
             }
             self.calls.is_found |= block.items.iter().any(calls_file);
+            self.read.extend(axes_read(text));
         });
     }
+}
+
+/// The axes whose state of compensation a block reads.
+fn axes_read(text: &str) -> Vec<String> {
+    if !text.contains(STATE) {
+        return Vec::new();
+    }
+    let mut code = String::new();
+    mask(text, &mut code);
+    let after = code.split(STATE).skip(1).filter_map(|rest| {
+        let name = rest
+            .strip_prefix("ACTIVE.")
+            .or(rest.strip_prefix("INIT."))?;
+        let end = name.find(|it: char| !it.is_ascii_alphanumeric() && it != '_');
+        Some(name[..end.unwrap_or(name.len())].to_owned())
+    });
+    after.collect()
 }
 
 /// Returns the next place where a name may begin a word.
@@ -261,6 +294,17 @@ mod tests {
         let calls = scan.question.calls_files();
         let names: Vec<String> = scan.question.into_names().into_iter().collect();
         (names.join(" "), calls)
+    }
+
+    #[test]
+    fn axes_that_are_read_are_found() {
+        // R9.74
+        let mut scan = Scan::new(NamedAxes::new(["X"]));
+        scan.feed(
+            b"P1 = V.A.FRICT_COMP_ACTIVE.Y + V.A.LEAD_COMP_INIT.AX2\n(V.A.FRICT_COMP_ACTIVE.Z)\nX1 ;_COMP_ACTIVE.B\n",
+        );
+        let read: Vec<&String> = scan.question.read().iter().collect();
+        assert_eq!(read, ["AX2", "Y"]);
     }
 
     #[test]

@@ -15,6 +15,8 @@ const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct AxesAhead {
     found: BTreeSet<String>,
+    /// Those whose state programs read.
+    read: BTreeSet<String>,
     /// Names that programs of other runs may have.
     elsewhere: Vec<String>,
     /// Whether there may be more: in what is called, or comes through a pipe.
@@ -45,6 +47,7 @@ impl AxesAhead {
             found = scan.question;
         }
         ahead.is_open |= found.calls_files();
+        ahead.read.clone_from(found.read());
         ahead.found = found.into_names();
         ahead
     }
@@ -66,7 +69,7 @@ impl AxesAhead {
     pub(crate) fn may_hold(&self, name: &str) -> bool {
         let unseen = self.is_open && may_be_axis(name);
         let elsewhere = self.elsewhere.iter().any(|known| known == name);
-        unseen || elsewhere || self.found.contains(name)
+        unseen || elsewhere || self.found.contains(name) || self.read.contains(name)
     }
 }
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// What each room may import of the other rooms of its package. Rooms stand in the order of the data; an
 /// import never goes down. What one package may use of another is in its `Cargo.toml`.
-const ROOMS: [(&str, &[&str]); 26] = [
+const ROOMS: [(&str, &[&str]); 27] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -109,6 +109,7 @@ const ROOMS: [(&str, &[&str]); 26] = [
     ("trace", &[]),
     ("identify", &["trace"]),
     ("commission", &["trace", "identify"]),
+    ("evidence", &[]),
 ];
 
 /// A package: its folder, and the one room that it is where it has no rooms.

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::channels::MotionChannels;
 use super::console::Console;
+use super::cycle::CycleArgs;
 use super::exit;
-use super::failure::{Failure, shown};
+use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::result::Format;
@@ -19,13 +21,14 @@ use frictcomp::machine::Machine;
 use frictcomp::readings::{Basis, Question};
 use frictcomp::text::shown_path;
 use frictcomp_host::ask::{
-    Answer, AnswerVerdict, AnsweredReading, AskedAxis, ask, date_of, read_answers, readme,
-    with_findings,
+    Answer, AnswerVerdict, AnsweredReading, AskedAxis, RecordedQuestions, ask, date_of,
+    read_answers, read_recorded_answers, readme, with_findings,
 };
 use frictcomp_host::{
     CONFIG_NAME, FileRegistry, HostError, LoadedMachine, MendedFile, read_text, write_mended,
     write_new,
 };
+use frictcomp_recordings::trace::ChannelSelection;
 
 /// Ask the control what its documents leave open: write NC programs that ask, read their answers,
 /// and remember them in `frictcomp.toml`
@@ -49,12 +52,20 @@ pub(super) struct AskArgs {
     /// Show the questions, what is assumed, and what is answered
     #[arg(long, conflicts_with_all = ["output", "read"])]
     list: bool,
-    /// Read answers: `message.txt` of the control, and notes
+    /// Read answers: `message.txt` of the control, notes, and recordings in any layout that
+    /// `frictcomp trace` reads
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "output")]
     read: Vec<PathBuf>,
     /// The format of the list
     #[arg(long, default_value = "text")]
     format: Format,
+    /// The channel of the additive current in a recording; by default `frict_comp.output` of the axis
+    #[arg(long, value_name = "CHANNEL", requires = "read")]
+    torque: Option<String>,
+    #[command(flatten)]
+    channels: MotionChannels,
+    #[command(flatten)]
+    cycle: CycleArgs,
     #[command(flatten)]
     machine: MachineArgs,
 }
@@ -154,6 +165,26 @@ impl AskArgs {
         Ok(exit::CLEAN)
     }
 
+    /// The answers in a file: lines of a text, or what a recording shows.
+    fn answers_in(&self, path: &Path, machine: &Machine) -> Result<Vec<Answer>, Failure> {
+        const LINES: &str = "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
+        let answers = read_answers(&read_text(path)?, |name| self.asked(name, machine));
+        if !answers.is_empty() {
+            return Ok(answers);
+        }
+        let of_machine = machine.cycle_time_ms.map(|ms| ms / 1000.0);
+        let asked = RecordedQuestions {
+            axis: &self.axis(machine)?,
+            machine,
+            selection: &ChannelSelection {
+                torque: self.torque.clone(),
+                ..self.channels.selection()
+            },
+            cycle_s: self.cycle.seconds()?.or(of_machine),
+        };
+        read_recorded_answers(path, asked).map_err(|error| Failure::from(error).with_help(LINES))
+    }
+
     fn read_answers(
         &self,
         loaded: &LoadedMachine,
@@ -164,10 +195,9 @@ impl AskArgs {
         let mut findings = Vec::new();
         for path in &self.read {
             registry.reads("answers", path);
-            let text = read_text(path)?;
             let changed = fs::metadata(path).and_then(|it| it.modified());
             let date = date_of(changed.map_err(|error| HostError::read(path, error))?);
-            for answer in read_answers(&text, |name| self.asked(name, &loaded.machine)) {
+            for answer in self.answers_in(path, &loaded.machine)? {
                 if let AnswerVerdict::Reading(reading) = answer.verdict {
                     findings.push(AnsweredReading {
                         question: answer.question,
@@ -179,14 +209,6 @@ impl AskArgs {
                 answers.push(answer);
             }
         }
-        if answers.is_empty() {
-            let names: Vec<String> = self.read.iter().map(|path| shown(path)).collect();
-            return Err(
-                Failure::new(format!("there is no answer in {}", names.join(", "))).with_help(
-                    "answers are lines that begin with `frictcomp-ask`, as in `message.txt`",
-                ),
-            );
-        }
         let contradictions = contradictions(&answers);
         if let Some(question) = contradictions.first() {
             let rule = question.facts().rule;
@@ -196,6 +218,7 @@ impl AskArgs {
                 ),
             );
         }
+        drop_what_is_answered(&mut answers);
         console.print(&console.fitted(&told(&answers)))?;
         let path = configuration(loaded);
         remember(&path, &findings)?;
@@ -209,6 +232,19 @@ impl AskArgs {
         }
         Ok(exit::CLEAN)
     }
+}
+
+/// Drops what one file does not decide and another one does.
+fn drop_what_is_answered(answers: &mut Vec<Answer>) {
+    let decided: Vec<Question> = answers
+        .iter()
+        .filter(|answer| answer.verdict != AnswerVerdict::Undecidable)
+        .map(|answer| answer.question)
+        .collect();
+    answers.retain(|answer| {
+        answer.verdict != AnswerVerdict::Undecidable || !decided.contains(&answer.question)
+    });
+    answers.sort_by_key(|answer| answer.question);
 }
 
 /// The configuration that the answers go into.

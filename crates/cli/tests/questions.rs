@@ -5,6 +5,13 @@ mod basis;
 #[path = "questions/control.rs"]
 mod control;
 mod folder;
+#[path = "../../recordings/tests/traces/layouts.rs"]
+#[allow(dead_code, reason = "the layouts of all tests")]
+mod layouts;
+#[path = "questions/machine.rs"]
+mod machine;
+#[path = "questions/recorded.rs"]
+mod recorded;
 mod workspace;
 
 use std::fmt::Write as _;
@@ -425,6 +432,44 @@ fn answers_of_a_control_are_compared() {
     let (status, document) = compare("frictcomp 1/on-not-configured refused 12345\n");
     assert_eq!(status, Some(1));
     assert_eq!(document["failed"][0]["found"], "12345");
+    let asked = bench.read("cases/4/cycles-decay-two/case.txt");
+    let line = "frictcomp 4/cycles-decay-two currents X CURRENT CURRENT";
+    assert!(asked.contains(line), "{asked}");
+    assert!(!asked.contains("message.txt"), "{asked}");
+    assert!(asked.contains("no dead band"), "{asked}");
+    let computed = bench.stdout(&[
+        "current",
+        "--trace",
+        "cases/4/cycles-decay-two/cycles-X.csv",
+        "--value-list",
+        "cases/4/cycles-decay-two/values-X.lis",
+        "--dead-band",
+        "0",
+        "--reading",
+        "decay=step",
+    ]);
+    let currents = computed
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split(',').nth(5));
+    let currents: Vec<&str> = currents.collect();
+    let (status, document) = compare(&format!(
+        "frictcomp 4/cycles-decay-two currents X {}\nfrictcomp 4/at-a-point current X 1000 50.0\n",
+        currents.join(" ")
+    ));
+    assert_eq!(status, Some(0), "{document}");
+    let reading = serde_json::json!([{ "rule": "R4.2", "reading": "step" }]);
+    assert_eq!(
+        (&document["readings"], &document["held"]),
+        (&reading, &2.into())
+    );
+    let (status, document) = compare("frictcomp 4/at-a-point current X 1000 50.1\n");
+    assert_eq!(status, Some(1));
+    assert_eq!(document["failed"][0]["found"], "50.1 drive units");
+    let (status, document) =
+        compare("frictcomp 4/cycles-direction currents X 100 -100 100 100 -100\n");
+    assert_eq!(status, Some(1));
+    assert_eq!(document["failed"][0]["found"], "100 drive units in cycle 3");
 }
 
 /// Compares a generated page with its file, or writes it with `UPDATE_DOCS=1`.

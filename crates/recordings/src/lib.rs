@@ -2,7 +2,8 @@
 //!
 //! In go the bytes of a recording from Scope, SINUMERIK or a plain table; a [`trace::TraceReader`] gives
 //! its channels with their times. [`identify`] finds friction curves and value lists in them, and
-//! judges a value list by them. [`commission`] plans the programs that are recorded.
+//! judges a value list by them. [`commission`] plans the programs that are recorded. [`evidence`] judges the
+//! questions that the documents leave open.
 //!
 //! ```
 //! use frictcomp_recordings::trace::{Choice, TraceReader};
@@ -15,5 +16,6 @@
 //! ```
 
 pub mod commission;
+pub mod evidence;
 pub mod identify;
 pub mod trace;

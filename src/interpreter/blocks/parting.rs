@@ -24,7 +24,7 @@ use crate::interpreter::values::value::Value;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
-use crate::text::Span;
+use crate::text::{Place, Span};
 
 impl Interpreter {
     /// The run parts at a condition: where it holds and where it does not. Whether it can.
@@ -314,9 +314,13 @@ impl Interpreter {
         let at_start = self.machine.readings.takes_second(Open::SkipLevel);
         let cause = skip_level(level);
         self.note_unknown(&cause, &at);
+        let span = Span::new(0, parsed.text.trim_end().len());
+        if !is_bare && self.is_level_read_again(level, &at.place(span)) {
+            self.state.rests_on.insert(Open::SkipLevel);
+        }
         let question = Question {
             kind: ConditionKind::Skip(level),
-            span: Span::new(0, parsed.text.trim_end().len()),
+            span,
             texts: vec![cause.clone()],
             cause: cause.clone(),
             // The switch of blocks without a number is read when the main program begins, and the others
@@ -340,6 +344,14 @@ impl Interpreter {
             executed.marked = Some(marked);
         }
         true
+    }
+
+    /// Whether blocks at another place ask for a level, too, and a selected reading says whether it can
+    /// have been turned in between.
+    fn is_level_read_again(&self, level: u8, here: &Place) -> bool {
+        let mut conditions = self.state.conditions.iter();
+        self.machine.readings.of(Open::SkipLevel).is_some()
+            && conditions.any(|it| it.kind == ConditionKind::Skip(level) && it.place != *here)
     }
 
     /// Returns the target of a jump that is not taken.

@@ -76,6 +76,29 @@ fn a_selected_reading_of_a_search_is_named() {
     assert_eq!(rests_on(&bench, &searched), all);
 }
 
+/// R15.3, R2.90: a selected reading of a level that two blocks ask for decides what follows.
+#[test]
+fn a_selected_reading_of_a_turned_level_is_named() {
+    let bench = bench();
+    let two = "/2 X[COMP OFF FRICT]\nG04 1\n/2 X[COMP ON FRICT]\nM30\n";
+    bench.write("two.nc", two);
+    bench.write("one.nc", "/2 X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n");
+    let turned = |arguments: &[&str]| {
+        let mut found = rests_on(&bench, arguments);
+        found.retain(|(rule, ..)| rule == "R2.90");
+        found
+    };
+    assert_eq!(turned(&["two.nc"]), []);
+    for reading in ["at-start", "at-once"] {
+        let selected = format!("{MACHINE}[reading]\n\"R2.90\" = \"{reading}\"\n");
+        bench.write("frictcomp.toml", &selected);
+        let own = ("R2.90".into(), reading.into(), "selected".into());
+        assert_eq!(turned(&["two.nc"]), [own]);
+        assert_eq!(turned(&["one.nc"]), []);
+        assert_eq!(turned(&["--skip", "2", "two.nc"]), []);
+    }
+}
+
 /// R15.3: text, JSON and SARIF of `check` say whether a reading is assumed, selected or confirmed, and
 /// on which build.
 #[test]

@@ -9,9 +9,11 @@ mod answers;
 mod axis;
 mod motion;
 mod programs;
+mod recording;
 mod written;
 
 pub use answers::{Answer, AnswerVerdict, read_answers};
 pub use axis::AskedAxis;
 pub use programs::{AskedFile, ask, readme};
+pub use recording::{RecordedQuestions, read_recorded_answers};
 pub use written::{AnsweredReading, date_of, with_findings};

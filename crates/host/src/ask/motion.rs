@@ -1,36 +1,117 @@
 //! The motions for questions that a recording answers.
 
+use std::fmt::Write as _;
+
 use super::axis::AskedAxis;
 use frictcomp::readings::Question;
+use frictcomp_recordings::evidence::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS};
+
+/// The usual feed in mm/min.
+const FEED: f64 = 1000.0;
+
+/// A stroke takes at least so long, in minutes.
+const STROKE_MIN: f64 = 0.01;
+
+/// In how many strokes the axis reverses, since each has few cycles of decay.
+const STROKES: usize = 5;
 
 /// The blocks of a question, and what they move. Each begins and ends where the axis stands, and goes
 /// in the positive direction only, no farther than the travel.
 pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
     let travel = axis.travel;
-    let half = travel / 2.0;
-    let begin = "N10 G91 G01 F1000\n";
-    let blocks = match question {
-        Question::WithMotion => format!(
-            "{begin}N20 @[COMP OFF FRICT]\nN30 @{half}\nN40 @[COMP ON FRICT] @{half}\nN50 @-{travel}\n"
-        ),
-        Question::LookAhead => format!(
-            "{begin}N20 @{half}\nN30 @[COMP OFF FRICT]\nN40 @{half}\nN50 @[COMP ON FRICT]\nN60 @-{travel}\n"
-        ),
-        Question::Start => {
-            format!("{begin}N20 @{half}\nN30 G04 1\nN40 @{half}\nN50 G04 1\nN60 @-{travel}\n")
+    let (half, feed) = (travel / 2.0, FEED.min(travel / STROKE_MIN));
+    // Short enough to take a few seconds at the slowest feeds.
+    let [slow, slowest] = [0.1, 0.02].map(|most: f64| most.min(half));
+    let mut blocks = Blocks::default();
+    blocks.add(&format!("G91 G01 F{}", shown(feed)));
+    match question {
+        Question::WithMotion => {
+            let [first, rest @ ..] = WITH_MOTION_PARTS;
+            blocks.add("@[COMP OFF FRICT]");
+            blocks.moves(travel * first);
+            for (part, switched) in rest.into_iter().zip(["ON", "OFF", "ON"]) {
+                blocks.add(&format!(
+                    "@[COMP {switched} FRICT] @{}",
+                    shown(travel * part)
+                ));
+            }
+            blocks.moves(-travel);
         }
-        Question::Delay => format!("{begin}N20 @{half}\nN30 F200 @{half}\nN40 F1000 @-{travel}\n"),
-        Question::Below => format!(
-            "N10 G91 G01 F1\nN20 @{}\nN30 @-{}\n",
-            travel / 100.0,
-            travel / 100.0
-        ),
-        // Decay, standstill
-        _ => format!("{begin}N20 @{travel}\nN30 @-{travel}\nN40 G04 1\n"),
-    };
+        Question::LookAhead => {
+            let commands = [Some("OFF"), Some("ON"), None, Some("OFF"), Some("ON")];
+            for (part, switched) in LOOK_AHEAD_PARTS.into_iter().zip(commands) {
+                blocks.moves(travel * part);
+                if let Some(switched) = switched {
+                    blocks.add(&format!("@[COMP {switched} FRICT]"));
+                }
+            }
+            blocks.moves(-travel);
+        }
+        Question::Start => {
+            blocks.add("F6");
+            for _ in 0..2 {
+                blocks.moves(slow);
+                blocks.waits();
+            }
+            blocks.moves(-2.0 * slow);
+        }
+        Question::Delay => {
+            for part in [half, -half] {
+                blocks.add(&format!("F{}", shown(feed)));
+                blocks.moves(part);
+                blocks.add(&format!("F{}", shown(feed / 5.0)));
+                blocks.moves(part);
+            }
+        }
+        Question::Decay => {
+            for _ in 0..STROKES {
+                blocks.moves(travel);
+                blocks.moves(-travel);
+            }
+        }
+        // Standstill, below
+        _ => {
+            blocks.moves(travel);
+            blocks.waits();
+            blocks.add("F1");
+            blocks.moves(-slowest);
+            blocks.waits();
+            blocks.add(&format!("F{}", shown(feed)));
+            blocks.moves(slowest - travel);
+            blocks.waits();
+        }
+    }
+    blocks.add("G90");
     let name = &axis.name;
     let moves = format!(
         "{name} by {travel} mm or degrees at most, in the positive direction from where it stands, and back"
     );
-    (blocks + "N90 G90\n", moves)
+    (blocks.text, moves)
+}
+
+/// Numbered blocks.
+#[derive(Default)]
+struct Blocks {
+    text: String,
+    count: u32,
+}
+
+impl Blocks {
+    fn add(&mut self, block: &str) {
+        self.count += 10;
+        let _ = writeln!(self.text, "N{} {block}", self.count);
+    }
+
+    fn moves(&mut self, by: f64) {
+        self.add(&format!("@{}", shown(by)));
+    }
+
+    fn waits(&mut self) {
+        self.add("G04 1");
+    }
+}
+
+/// A number without what its product was rounded by.
+fn shown(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }

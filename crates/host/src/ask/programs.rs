@@ -177,11 +177,13 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
         return Some(Script {
             moves,
             ..by_itself(
-                "the axis has P-AXIS-00522 = 1, a value list that the control took, and room to move; the \
-                 objects of frict_comp, the commanded position and velocity are recorded in every cycle",
-                format!(">begin\n{part}N99 M30\n"),
-                "look at the recording, and add a copy of the begin line with reading and the word of the \
-                 reading in place of begin to message.txt; give it to frictcomp ask --read",
+                &format!(
+                    "the axis has P-AXIS-00522 = 1, a value list that the control took, and room to move; \
+                     recorded in every CNC cycle are its commanded position or velocity and the objects {}",
+                    objects(axis)
+                ),
+                format!(">begin\n{part}M30\n"),
+                "export the recording as CSV, and give it to frictcomp ask --read, with message.txt",
             )
         });
     }
@@ -264,6 +266,16 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
         ),
         _ => return None,
     })
+}
+
+/// The objects of an axis that are recorded: its state, and its additive current.
+fn objects(axis: &AskedAxis) -> String {
+    let number = axis
+        .number
+        .map_or_else(|| "<axis>".to_owned(), |number| format!("{number:X}"));
+    format!(
+        "0x120300:0x{number}0221 (frict_comp.f_is_active) and 0x120300:0x{number}010B (frict_comp.output)"
+    )
 }
 
 /// Returns the text beside the programs: the whole procedure, and the notes that need no program.

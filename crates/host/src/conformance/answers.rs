@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::case::{Case, Expectation};
+use super::cycles::is_near;
 use super::export::TAG;
 use super::outcome::Mismatch;
 use frictcomp::comp::State;
@@ -15,7 +16,12 @@ pub struct Answers {
     states: BTreeMap<String, bool>,
     /// The error numbers of a case.
     refusals: BTreeMap<String, Vec<String>>,
+    /// Currents in drive units, by case and what was asked.
+    currents: BTreeMap<String, Vec<f64>>,
 }
+
+/// By which part an answered current may differ.
+const TOLERANCE: f64 = 1e-6;
 
 /// A case beside the answers of a control.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,6 +51,12 @@ impl Answers {
                     let numbers = self.refusals.entry((*case).to_owned()).or_default();
                     numbers.push(number.trim_start_matches("P-ERR-").to_owned());
                 }
+                [case, "current", axis, velocity, current] => {
+                    self.add_currents([case, axis, velocity].map(|it| *it), &[current]);
+                }
+                [case, "currents", axis, currents @ ..] => {
+                    self.add_currents([case, axis, "cycles"], currents);
+                }
                 [case, program, after, axis, kind, value @ ("0" | "1")] => {
                     let key = [*case, program, after, axis, kind].join(" ");
                     self.states.insert(key, *value == "1");
@@ -54,9 +66,17 @@ impl Answers {
         }
     }
 
+    /// Adds currents; words that are no numbers are no answer.
+    fn add_currents(&mut self, asked: [&str; 3], words: &[&str]) {
+        let numbers = words.iter().map(|it| it.parse());
+        if let Ok(numbers) = numbers.collect::<Result<Vec<f64>, _>>() {
+            self.currents.insert(asked.join(" "), numbers);
+        }
+    }
+
     /// Returns the number of answers.
     pub fn len(&self) -> usize {
-        self.states.len() + self.refusals.len()
+        self.states.len() + self.refusals.len() + self.currents.len()
     }
 
     /// Whether there is none.
@@ -128,7 +148,26 @@ impl Answers {
                         None => None,
                     }
                 }
-                Expectation::Current { .. } => None,
+                Expectation::Current {
+                    axis,
+                    velocity,
+                    current,
+                } => {
+                    let key = format!("{} {axis} {velocity}", case.name);
+                    let Some([found]) = self.currents.get(&key).map(Vec::as_slice) else {
+                        continue;
+                    };
+                    is_answered = true;
+                    (!is_near(*found, *current, TOLERANCE)).then(|| format!("{found} drive units"))
+                }
+                Expectation::Currents(cycles) => {
+                    let key = format!("{} {} cycles", case.name, cycles.axis);
+                    let Some(found) = self.currents.get(&key) else {
+                        continue;
+                    };
+                    is_answered = true;
+                    cycles.differs_in(found, TOLERANCE)
+                }
             };
             failed.extend(found.map(|found| Mismatch {
                 file: case.file.clone(),

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use thiserror::Error;
 use toml::{Table, Value};
 
+use super::cycles::{ExpectedCycles, WrittenCycles};
 use frictcomp::comp::{Kind, State};
 use frictcomp::readings::{Alternative, Question};
 use frictcomp::text::shown_path;
@@ -83,6 +84,8 @@ pub enum Expectation {
         /// In drive units.
         current: f64,
     },
+    /// The additive currents of a commanded motion, cycle by cycle (chapter 4).
+    Currents(ExpectedCycles),
 }
 
 /// One case.
@@ -152,6 +155,11 @@ struct WrittenExpectation {
     at: Option<u32>,
     velocity: Option<f64>,
     current: Option<f64>,
+    positions: Option<Vec<f64>>,
+    velocities: Option<Vec<f64>>,
+    comp: Option<Vec<bool>>,
+    currents: Option<Vec<f64>>,
+    outputs: Option<Vec<i16>>,
 }
 
 #[derive(Deserialize)]
@@ -294,6 +302,25 @@ impl WrittenExpectation {
             }),
             Self {
                 axis: Some(axis),
+                positions: Some(positions),
+                velocities: Some(velocities),
+                currents: Some(currents),
+                comp,
+                outputs,
+                ..
+            } => ExpectedCycles::new(
+                axis,
+                WrittenCycles {
+                    positions,
+                    velocities,
+                    comp,
+                    currents,
+                    outputs,
+                },
+            )
+            .map(Expectation::Currents),
+            Self {
+                axis: Some(axis),
                 after: Some(after),
                 state: Some(state),
                 program,
@@ -310,7 +337,7 @@ impl WrittenExpectation {
             }),
             _ => Err(
                 "an expectation has `after`, `axis` and `state`, or `refused`, or `axis`, `velocity` and \
-                 `current`"
+                 `current`, or `axis`, `positions`, `velocities` and `currents`"
                     .to_owned(),
             ),
         }
@@ -361,6 +388,7 @@ impl fmt::Display for Expectation {
                 velocity,
                 current,
             } => write!(f, "{axis} {current} drive units at velocity {velocity}"),
+            Self::Currents(cycles) => cycles.fmt(f),
         }
     }
 }

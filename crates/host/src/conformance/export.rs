@@ -1,10 +1,13 @@
 //! Cases as programs for a control, which leaves its answers in a file (R15.11).
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use super::case::{Case, Expectation, Moment, is_between};
+use super::run::{configuration, current_of};
 use frictcomp::comp::Kind;
+use frictcomp::lists::{ListHead, Points, write_value_list};
 
 /// A file of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,11 +38,70 @@ pub fn export(case: &Case) -> Vec<Exported> {
             text: answers(case, program, &Moment::End) + "M30\n",
         });
     }
+    files.extend(
+        inputs_of_currents(case)
+            .into_iter()
+            .map(|(name, text)| Exported {
+                path: folder.join(name),
+                text,
+            }),
+    );
     files.push(Exported {
         path: folder.join("case.txt"),
         text: instructions(case),
     });
     files
+}
+
+/// Every expectation, under any reading.
+fn expectations(case: &Case) -> impl Iterator<Item = &Expectation> {
+    let under = case.readings.iter().flat_map(|(_, expected)| expected);
+    case.expected.iter().chain(under)
+}
+
+/// The value list of each axis whose currents are expected, and its commanded cycles, by file name.
+fn inputs_of_currents(case: &Case) -> BTreeMap<String, String> {
+    let machine = configuration(case).map(|it| it.machine);
+    let mut files = BTreeMap::new();
+    for it in expectations(case) {
+        let axis = match it {
+            Expectation::Current { axis, .. } => axis,
+            Expectation::Currents(cycles) => {
+                files.insert(format!("cycles-{}.csv", cycles.axis), cycles.table());
+                &cycles.axis
+            }
+            _ => continue,
+        };
+        let current = machine.as_ref().ok().and_then(|it| current_of(it, axis));
+        if let Some((_, list)) = current {
+            let head = ListHead {
+                name: Some(axis),
+                ..ListHead::default()
+            };
+            let text = write_value_list(list, Points::Real, &head);
+            files.insert(format!("values-{axis}.lis"), text);
+        }
+    }
+    files
+}
+
+/// The lines that answer expected currents.
+fn asked_currents(case: &Case) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for it in expectations(case) {
+        let asked = match it {
+            Expectation::Current { axis, velocity, .. } => {
+                format!("current {axis} {velocity} CURRENT")
+            }
+            Expectation::Currents(cycles) => format!("currents {} CURRENT CURRENT …", cycles.axis),
+            _ => continue,
+        };
+        let line = format!("{TAG} {} {asked}", case.name);
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines
 }
 
 fn programs(case: &Case) -> impl Iterator<Item = &String> {
@@ -54,9 +116,7 @@ fn programs(case: &Case) -> impl Iterator<Item = &String> {
 
 /// All states that a case asks for, under any reading.
 fn asked(case: &Case) -> impl Iterator<Item = (&String, &Moment, &String, Kind)> {
-    let under = case.readings.iter().flat_map(|(_, expected)| expected);
-    let all = case.expected.iter().chain(under);
-    all.filter_map(|it| match it {
+    expectations(case).filter_map(|it| match it {
         Expectation::State {
             program,
             after,
@@ -127,7 +187,36 @@ fn instructions(case: &Case) -> String {
         "\nThe machine, as a frictcomp.toml:\n\n{}",
         case.machine
     );
-    text.push_str("Restart the control. Then run, with message.txt empty before:\n");
+    if !case.run.is_empty() {
+        text.push_str(&steps(case));
+    }
+    let currents = asked_currents(case);
+    if !currents.is_empty() {
+        text.push_str(
+            "\nCompute the additive current before it is rounded for the drive: for `current` long after the \
+             last reversal at that velocity, for `currents` in each cycle of the table beside this file. \
+             There every velocity but 0 is motion, however small: no dead band, or one of 0. Write to a text \
+             file in this folder:\n",
+        );
+        text.push_str(&(currents.join("\n") + "\n"));
+    }
+    text.push_str("\nExpected:\n");
+    for expected in &case.expected {
+        let _ = writeln!(text, "- {expected}");
+    }
+    let question = case.question();
+    for (reading, expected) in &case.readings {
+        let name = question.map_or("", |question| question.name_of(*reading));
+        for expected in expected {
+            let _ = writeln!(text, "- if {name}: {expected}");
+        }
+    }
+    text
+}
+
+/// What is done with the programs of a case.
+fn steps(case: &Case) -> String {
+    let mut text = "Restart the control. Then run, with message.txt empty before:\n".to_owned();
     for step in &case.run {
         let _ = match step.as_str() {
             "reset" => writeln!(text, "- press reset"),
@@ -143,16 +232,5 @@ fn instructions(case: &Case) -> String {
         "\nIf the control shows an error, add this line to message.txt:\n{TAG} {} refused NUMBER",
         case.name
     );
-    text.push_str("\nExpected:\n");
-    for expected in &case.expected {
-        let _ = writeln!(text, "- {expected}");
-    }
-    let question = case.question();
-    for (reading, expected) in &case.readings {
-        let name = question.map_or("", |question| question.name_of(*reading));
-        for expected in expected {
-            let _ = writeln!(text, "- if {name}: {expected}");
-        }
-    }
     text
 }

@@ -3,12 +3,14 @@
 
 mod answers;
 mod case;
+mod cycles;
 mod export;
 mod outcome;
 mod run;
 
 pub use answers::{Answers, Compared};
 pub use case::{Case, CaseError, CaseFile, Expectation, Moment, find_cases};
+pub use cycles::ExpectedCycles;
 pub use export::{Exported, export};
 pub use outcome::{CaseOutcome, Mismatch, Totals};
 pub use run::run_case;

@@ -3,9 +3,11 @@
 use std::ops::ControlFlow;
 
 use super::case::{Case, Expectation, Moment, is_between};
+use super::cycles::is_near;
 use super::outcome::{CaseOutcome, Mismatch};
 use frictcomp::comp::{Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::lists::FrictionList;
 use frictcomp::machine::{Configuration, ListFiles, Machine, NoList, Parameterisation};
 use frictcomp::readings::Alternative;
 use frictcomp::session::{Program, Session, SessionOptions};
@@ -66,10 +68,9 @@ fn judge(case: &Case, reading: Option<Alternative>, expected: &[Expectation]) ->
         expected: format!("{under}{expected}"),
         found,
     };
-    let file = SourceFile::new(case.name.as_str(), case.machine.clone());
-    let configuration = match Configuration::from_toml(file, &mut Lists(case)) {
+    let configuration = match configuration(case) {
         Ok(configuration) => configuration,
-        Err(error) => return vec![mismatch("a machine".to_owned(), error.to_string())],
+        Err(error) => return vec![mismatch("a machine".to_owned(), error)],
     };
     let mut machine = configuration.machine.clone();
     if let Some((question, reading)) = name {
@@ -92,6 +93,12 @@ fn judge(case: &Case, reading: Option<Alternative>, expected: &[Expectation]) ->
         missed.push(mismatch("no refusal".to_owned(), said(refused)));
     }
     missed
+}
+
+/// The machine of a case.
+pub(super) fn configuration(case: &Case) -> Result<Configuration, String> {
+    let file = SourceFile::new(case.name.as_str(), case.machine.clone());
+    Configuration::from_toml(file, &mut Lists(case)).map_err(|error| error.to_string())
 }
 
 /// Runs the programs of a case.
@@ -194,20 +201,32 @@ fn found(expected: &Expectation, run: &Run, machine: &Machine) -> Option<String>
             velocity,
             current,
         } => {
-            let found = current_at(machine, axis, *velocity)?;
-            let is_near = (found - current).abs() <= 1e-9 * current.abs().max(1.0);
-            (!is_near).then(|| format!("{found} drive units"))
+            let found = current_at(machine, axis, *velocity).unwrap_or(f64::NAN);
+            (!is_near(found, *current, 1e-9)).then(|| format!("{found} drive units"))
         }
+        Expectation::Currents(cycles) => match current_of(machine, &cycles.axis) {
+            Some((mut current, _)) => cycles.differs(&cycles.run(&mut current)),
+            None => Some("no accepted value list".to_owned()),
+        },
     }
+}
+
+/// The current of an axis with its value list; `None` without an accepted one.
+pub(super) fn current_of<'a>(
+    machine: &'a Machine,
+    axis: &str,
+) -> Option<(AdditiveCurrent, &'a FrictionList)> {
+    let axis = machine.axis(machine.find(axis)?);
+    let Parameterisation::Accepted(list) = &axis.friction else {
+        return None;
+    };
+    let current = AdditiveCurrent::new(list, Reading::from(&machine.readings));
+    Some((current.scaled(axis.torque_scale.factor()), list))
 }
 
 /// The current of an axis at a constant velocity, long after the last reversal.
 fn current_at(machine: &Machine, axis: &str, velocity: f64) -> Option<f64> {
-    let axis = machine.axis(machine.find(axis)?);
-    let Parameterisation::Accepted(list) = &axis.friction else {
-        return Some(f64::NAN);
-    };
-    let mut current = AdditiveCurrent::new(list, Reading::from(&machine.readings));
+    let (mut current, list) = current_of(machine, axis)?;
     let far = f64::from(list.position_delay.max(0)) + 1.0;
     let cycles = usize::try_from(list.delay_cycles).unwrap_or_default() + 2;
     let steps = (0..cycles).map(|cycle| if cycle == 0 { 0.0 } else { far });

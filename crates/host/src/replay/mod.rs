@@ -9,5 +9,6 @@ mod replayed;
 
 pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis, ReplayedBy};
 pub use conditions::TriedCondition;
+pub(crate) use recorded::axis_of;
 pub use recorded::{RecordedAxis, RecordedChange, ReplayChannels, StateRecording, read_states};
 pub use replayed::{Replay, Replayed};

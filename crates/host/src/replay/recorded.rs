@@ -222,7 +222,7 @@ impl ReplayChannels {
 }
 
 /// The axis whose state a channel is, by its name, its symbol or its object.
-fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
+pub(crate) fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
     const VARIABLE: &str = "FRICT_COMP_ACTIVE";
     const STATE: CncObject = CncObject {
         group: 0x2_0300,

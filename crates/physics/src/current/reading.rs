@@ -6,7 +6,7 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use frictcomp::diagnostic::did_you_mean;
-use frictcomp::readings::{Question, Readings};
+use frictcomp::readings::{Alternative, Question, Readings};
 
 /// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is what is assumed
 /// unless the user says otherwise.
@@ -116,6 +116,25 @@ const QUESTIONS: [(Question, &str); 5] = [
     (Question::Decay, "decay"),
 ];
 
+impl Reading {
+    /// The same with a reading of a question; the same where the question is none of the current.
+    pub fn with(mut self, question: Question, reading: Alternative) -> Self {
+        self.choose(question, question.name_of(reading));
+        self
+    }
+
+    fn choose(&mut self, question: Question, name: &str) {
+        let key = QUESTIONS.iter().find(|(it, _)| *it == question);
+        let word = key.map(|(_, key)| format!("{key}={name}"));
+        let chosen = OPTIONS
+            .iter()
+            .find(|(option, _)| word.as_deref() == Some(*option));
+        if let Some((_, choose)) = chosen {
+            choose(self);
+        }
+    }
+}
+
 /// A word that is no option of a reading.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{word}` is not a reading{help}")]
@@ -185,12 +204,8 @@ impl From<&Readings> for Reading {
     /// Returns the selection in `[reading]` of a machine's configuration.
     fn from(readings: &Readings) -> Self {
         let mut reading = Self::default();
-        for (question, key) in QUESTIONS {
-            let word = format!("{key}={}", readings.name(question));
-            let option = OPTIONS.iter().find(|(option, _)| *option == word);
-            if let Some((_, choose)) = option {
-                choose(&mut reading);
-            }
+        for (question, _) in QUESTIONS {
+            reading.choose(question, readings.name(question));
         }
         reading
     }

@@ -1,0 +1,274 @@
+//! Answers in recordings (R15.2).
+
+use std::path::Path;
+
+use super::answers::{Answer, AnswerVerdict};
+use super::axis::AskedAxis;
+use crate::error::HostError;
+use crate::replay::axis_of;
+use crate::trace_error::TraceError;
+use crate::traces::{lacks, read_trace};
+use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::readings::{Question, Way};
+use frictcomp::text::shown_path;
+use frictcomp_recordings::evidence::{
+    Conclusion, EvidenceRecording, Samples, judge_currents, judge_look_ahead, judge_with_motion,
+};
+use frictcomp_recordings::trace::{
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Pick, SelectError,
+    TimeSource, TraceRecording,
+};
+
+/// The axis that was recorded, and its channels.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordedQuestions<'a> {
+    /// The axis.
+    pub axis: &'a AskedAxis,
+    /// Its machine.
+    pub machine: &'a Machine,
+    /// The channels that the user names.
+    pub selection: &'a ChannelSelection,
+    /// The CNC cycle, where it is known.
+    pub cycle_s: Option<f64>,
+}
+
+/// The channels of an axis.
+#[derive(Default)]
+struct Found {
+    motion: [Option<Pick>; 2],
+    current: Option<Pick>,
+    /// Whether it was recorded after its scaling for the drive.
+    is_scaled: bool,
+    state: Option<ChannelIndex>,
+    /// Why they cannot be those of the axis.
+    doubt: Option<String>,
+}
+
+/// Objects below an axis that are its additive current, and whether it is scaled for the drive.
+const CURRENTS: [(u32, &str, bool); 3] = [
+    (0x10B, "frict_comp.output", false),
+    (0x205, "add_torque", true),
+    (0x9F, "add_cmd_torque", true),
+];
+
+/// The group of the objects of axes, without the part of the platform.
+const AXES: u32 = 0x2_0300;
+
+const NO_CURRENT: &str = "the recording has no channel with the additive current: record \
+    `0x120300:0x<axis>010B`, `frict_comp.output`, or name the channel with `torque`";
+
+/// The answers of a recording to every question that one answers.
+///
+/// # Errors
+/// The file cannot be read, is no recording, or lacks times or motion.
+pub fn read_recorded_answers(
+    path: &Path,
+    asked: RecordedQuestions<'_>,
+) -> Result<Vec<Answer>, HostError> {
+    let mut found = Found::default();
+    let recording = read_trace(path, |described| {
+        found = asked.find(described)?;
+        let time = asked.selection.find(ChannelQuantity::Time, described)?;
+        let values = found.motion.into_iter().chain([found.current]).flatten();
+        let choice = Choice {
+            values: values.map(|pick| pick.channel).chain(found.state).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        };
+        if found.state.is_some() {
+            return Ok(choice);
+        }
+        let (choice, switch) = choice.with_switch("comp", described);
+        found.state = switch;
+        Ok(choice)
+    })?;
+    let evidence = match &found.doubt {
+        Some(reason) => recorded_questions()
+            .map(|question| Conclusion::none(question, reason.as_str()))
+            .collect(),
+        None => asked.judge(&asked.recorded(path, &recording, &found)?),
+    };
+    let answers = evidence.into_iter().map(|it| Answer {
+        question: it.question,
+        axis: asked.axis.name.clone(),
+        build: asked.axis.build,
+        verdict: it
+            .reading
+            .map_or(AnswerVerdict::Undecidable, AnswerVerdict::Reading),
+        evidence: format!("{}: {}", shown_path(path), it.words),
+    });
+    Ok(answers.collect())
+}
+
+/// The questions that a recording answers.
+fn recorded_questions() -> impl Iterator<Item = Question> {
+    let all = Question::ALL.into_iter();
+    all.filter(|question| question.facts().way == Way::Recording)
+}
+
+impl RecordedQuestions<'_> {
+    fn find(&self, channels: &[Channel]) -> Result<Found, SelectError> {
+        if let Some(doubt) = self.other_axis(channels) {
+            return Ok(Found {
+                doubt: Some(doubt),
+                ..Found::default()
+            });
+        }
+        let find = |quantity| self.selection.find(quantity, channels);
+        let motion = [
+            find(ChannelQuantity::Position)?,
+            find(ChannelQuantity::Velocity)?,
+        ];
+        if motion == [None, None] {
+            return Err(lacks(
+                channels,
+                "neither a column `x` nor a column `v`",
+                "name the channels of the commanded position or velocity of the axis",
+            ));
+        }
+        let state = channels.iter().find(|channel| {
+            axis_of(channel, self.machine).is_some_and(|name| name == self.axis.name)
+        });
+        let state = state.map(|it| self.pick(it, ChannelQuantity::Time, channels));
+        let (current, is_scaled) = self.current_of(channels)?;
+        Ok(Found {
+            motion,
+            current,
+            is_scaled,
+            state: state.transpose()?.map(|pick| pick.channel),
+            doubt: None,
+        })
+    }
+
+    /// Why no channel is one of the axis: all objects are those of other axes.
+    fn other_axis(&self, channels: &[Channel]) -> Option<String> {
+        let own = self.axis.number?;
+        let objects = channels.iter().filter_map(|it| it.object);
+        let mut numbers: Vec<u32> = objects
+            .filter(|it| it.group & 0xF_FFFF == AXES)
+            .map(|it| it.axis())
+            .collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        if numbers.is_empty() || numbers.contains(&own) {
+            return None;
+        }
+        let others: Vec<String> = numbers.iter().map(u32::to_string).collect();
+        Some(format!(
+            "its channels are those of axis {}, and {} is axis {own}",
+            others.join(", "),
+            self.axis.name
+        ))
+    }
+
+    fn current_of(&self, channels: &[Channel]) -> Result<(Option<Pick>, bool), SelectError> {
+        let torque = ChannelQuantity::Torque;
+        if let Some(name) = &self.selection.torque {
+            return Ok((
+                Some(self.selection.pick_named(name, torque, channels)?),
+                false,
+            ));
+        }
+        for (element, symbol, is_scaled) in CURRENTS {
+            let is_object = |channel: &&Channel| {
+                channel.object.is_some_and(|it| {
+                    let is_own = self.axis.number.is_none_or(|own| own == it.axis());
+                    it.group & 0xF_FFFF == AXES && it.element() == element && is_own
+                })
+            };
+            let is_named = |channel: &&Channel| {
+                [&channel.name, &channel.symbol]
+                    .into_iter()
+                    .any(|text| text.to_lowercase().ends_with(symbol))
+            };
+            let mut all = channels.iter();
+            let channel = all
+                .find(is_object)
+                .or_else(|| channels.iter().find(is_named));
+            if let Some(channel) = channel {
+                return Ok((Some(self.pick(channel, torque, channels)?), is_scaled));
+            }
+        }
+        let own = format!("output_{}", self.axis.name);
+        let short = ["output", own.as_str()];
+        let mut all = channels.iter();
+        let channel = all.find(|it| short.iter().any(|name| it.name.eq_ignore_ascii_case(name)));
+        let pick = channel.map(|it| self.pick(it, torque, channels));
+        Ok((pick.transpose()?, false))
+    }
+
+    /// A channel with its unit; by its object where several have its name.
+    fn pick(
+        &self,
+        channel: &Channel,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
+        let named = |name: &str| self.selection.pick_named(name, quantity, channels);
+        match (named(&channel.name), channel.object) {
+            (Err(_), Some(object)) => named(&object.to_string()),
+            (pick, _) => pick,
+        }
+    }
+
+    fn recorded(
+        &self,
+        path: &Path,
+        recording: &TraceRecording,
+        found: &Found,
+    ) -> Result<EvidenceRecording, HostError> {
+        let picks: Vec<Pick> = found.motion.into_iter().flatten().collect();
+        let aligned = recording.align(&picks, self.cycle_s);
+        let aligned = aligned.map_err(|reason| TraceError::Apart {
+            path: path.to_owned(),
+            reason,
+        })?;
+        let samples = |channel: ChannelIndex, factor: f64| {
+            let times_s = recording.times_s(channel);
+            let times_s = times_s.ok_or_else(|| TraceError::NoTimes(path.to_owned()))?;
+            let values = recording.values(channel).iter().map(|it| it * factor);
+            Ok::<_, TraceError>(Samples {
+                times_s: times_s.to_vec(),
+                values: values.take(times_s.len()).collect(),
+            })
+        };
+        let current = found
+            .current
+            .map(|pick| samples(pick.channel, pick.unit.factor));
+        let state = found.state.map(|channel| samples(channel, 1.0));
+        let mut columns = aligned.columns.into_iter();
+        let [positions, velocities] = found.motion.map(|pick| pick.and_then(|_| columns.next()));
+        let axis = self.machine.find(&self.axis.name);
+        let scale = axis.map(|axis| self.machine.axis(axis).torque_scale.factor());
+        Ok(EvidenceRecording {
+            times_s: aligned.times_s,
+            positions,
+            velocities,
+            current: current.transpose()?,
+            state: state.transpose()?,
+            cycle_s: self.cycle_s,
+            torque_scale: scale.filter(|_| found.is_scaled).unwrap_or(1.0),
+        })
+    }
+
+    fn judge(&self, recorded: &EvidenceRecording) -> Vec<Conclusion> {
+        let mut evidence = vec![judge_with_motion(recorded), judge_look_ahead(recorded)];
+        let axis = self.machine.find(&self.axis.name);
+        let friction = axis.map(|axis| &self.machine.axis(axis).friction);
+        let currents = recorded_questions()
+            .filter(|it| !matches!(it, Question::WithMotion | Question::LookAhead));
+        match friction {
+            _ if recorded.current.is_none() => {
+                evidence.extend(currents.map(|it| Conclusion::none(it, NO_CURRENT)));
+            }
+            Some(Parameterisation::Accepted(list)) => {
+                evidence.extend(judge_currents(recorded, list));
+            }
+            _ => {
+                let reason = format!("no value list of {} is known", self.axis.name);
+                evidence.extend(currents.map(|it| Conclusion::none(it, reason.as_str())));
+            }
+        }
+        evidence
+    }
+}

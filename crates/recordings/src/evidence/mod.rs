@@ -1,0 +1,18 @@
+//! Evidence in the recording of an axis for the questions that the documents leave open (R15.2).
+//!
+//! The current of every combination of readings is computed for the recorded motion. A question is decided
+//! where the recorded current follows one combination, and leaves every combination with its other reading
+//! by more than noise.
+
+mod currents;
+mod doubts;
+mod fit;
+mod recorded;
+mod stroke;
+mod switching;
+mod verdict;
+
+pub use currents::judge_currents;
+pub use recorded::{EvidenceRecording, Samples};
+pub use switching::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS, judge_look_ahead, judge_with_motion};
+pub use verdict::Conclusion;

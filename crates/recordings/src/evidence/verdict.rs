@@ -1,0 +1,36 @@
+//! Conclusion from a recording.
+
+use frictcomp::readings::{Alternative, Question};
+
+/// Conclusion on one question from a recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Conclusion {
+    /// The question.
+    pub question: Question,
+    /// The reading that the recording shows; `None` where it decides nothing.
+    pub reading: Option<Alternative>,
+    /// What shows it, or the reason for none.
+    pub words: String,
+}
+
+impl Conclusion {
+    /// Nothing can be concluded, for a reason.
+    pub fn none(question: Question, reason: impl Into<String>) -> Self {
+        Self {
+            question,
+            reading: None,
+            words: reason.into(),
+        }
+    }
+
+    pub(super) fn of(question: Question, shown: Result<(Alternative, String), String>) -> Self {
+        match shown {
+            Ok((reading, words)) => Self {
+                question,
+                reading: Some(reading),
+                words,
+            },
+            Err(reason) => Self::none(question, reason),
+        }
+    }
+}

@@ -163,6 +163,40 @@ fn axes_are_enabled_for_those_programs_that_have_them() {
 }
 
 #[test]
+fn an_axis_that_a_program_only_reads_can_be_enabled() {
+    // R17.7
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("p.nc");
+    let text = "P1 = V.A.FRICT_COMP_ACTIVE.Y\nG0 X1\nM30\n";
+    fs::write(&program, text).expect("written");
+    let bench = Bench::new(&[]);
+    let program = program.display().to_string();
+    let status = |axes| bench.status(&["check", "--isolated", "--enable", axes, &program]);
+    assert_eq!(status("X,Y"), Some(0));
+    assert_eq!(status("X,Z"), Some(2));
+}
+
+/// R9.28: a key outside its table is told where it belongs.
+#[test]
+fn a_key_outside_its_table_is_told_its_header() {
+    let bench = Bench::new(&[("p.nc", "M30\n")]);
+    for (key, header) in [
+        ("program_dirs = [\"sub\"]\n", "[machine]"),
+        ("value_list = \"x.lis\"\n", "[[axis]]"),
+        ("delay_cycles = 2\n", "[axis.value]"),
+    ] {
+        bench.write("frictcomp.toml", key);
+        let output = bench.call(&["check", "p.nc"]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned()
+            + &String::from_utf8_lossy(&output.stdout);
+        assert!(
+            said.contains(&format!("below the header `{header}`")),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn axes_are_enabled_where_only_some_programs_are_described() {
     // R17.7
     let bench = Bench::new(&[("p.nc", "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n")]);

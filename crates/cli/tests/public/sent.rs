@@ -10,7 +10,7 @@ use frictcomp::{
 };
 use frictcomp_editor::lsp;
 use frictcomp_physics::{circle, compare, contour, current, motion, simulation, stiction};
-use frictcomp_recordings::{commission, identify, trace};
+use frictcomp_recordings::{commission, evidence, identify, trace};
 use {frictcomp_drives as drives, frictcomp_host as host, frictcomp_report as report};
 
 use frictcomp_physics::current::CurrentCycle;
@@ -269,6 +269,9 @@ sent! {
     drive_interface::SlaveOfAxis,
     drive_interface::TorqueScale,
     drives::XmlError,
+    evidence::Conclusion,
+    evidence::EvidenceRecording,
+    evidence::Samples,
     host::AllowedRoots,
     host::ArchiveAuditor,
     host::AuditOptions,
@@ -333,6 +336,7 @@ sent! {
     host::ask::AnsweredReading,
     host::ask::AskedAxis,
     host::ask::AskedFile,
+    host::ask::RecordedQuestions<'_>,
     host::conformance::Answers,
     host::conformance::Case,
     host::conformance::CaseError,
@@ -340,6 +344,7 @@ sent! {
     host::conformance::CaseOutcome,
     host::conformance::Compared,
     host::conformance::Expectation,
+    host::conformance::ExpectedCycles,
     host::conformance::Exported,
     host::conformance::Mismatch,
     host::conformance::Moment,

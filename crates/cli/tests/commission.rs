@@ -306,6 +306,37 @@ fn an_axis_alone_has_strokes() {
     );
 }
 
+/// R16.8: on a machine whose coordinates are in inch there is no plan, since nothing says what G71 does there;
+/// and a travel is never taken in another unit than mm.
+#[test]
+fn inch_machines_are_refused() {
+    let folder = folder();
+    let path = folder.path().join("frictcomp.toml");
+    let small = [&SMALL[..], &["-o", "one"]].concat();
+    let in_inch = small.iter().map(|it| it.replace("X0..60", "X0..60in"));
+    let in_inch: Vec<String> = in_inch.collect();
+    let in_inch: Vec<&str> = in_inch.iter().map(String::as_str).collect();
+    let (status, said) = commission(folder.path(), &in_inch);
+    assert!(
+        status == Some(2) && said.contains("`X0..60in` is no travel"),
+        "{said}"
+    );
+    std::fs::write(folder.path().join("sda.lis"), "mass_einh 1\n").expect("written");
+    let startup = "kanal_anzahl 1\nsda_mds[0] sda.lis\n";
+    std::fs::write(folder.path().join("hochlauf.lis"), startup).expect("written");
+    std::fs::write(
+        &path,
+        format!("[machine]\nstartup = \"hochlauf.lis\"\n{MACHINE}"),
+    )
+    .expect("written");
+    let (status, said) = commission(folder.path(), &small);
+    assert!(
+        status == Some(2) && said.contains("what G71 does there is not documented"),
+        "{said}"
+    );
+    assert!(!folder.path().join("one").exists());
+}
+
 /// R16.8: without a travel there is no plan, nor where an acceleration does not fit, an axis is not as fast,
 /// degrees and mm meet, or the machine does not say what an axis can do; and then no file is written.
 #[test]

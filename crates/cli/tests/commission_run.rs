@@ -12,6 +12,8 @@
 mod plant;
 #[path = "commission_run/refused.rs"]
 mod refused;
+#[path = "commission_run/strokes.rs"]
+mod strokes;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -268,10 +270,10 @@ fn from_recordings_to_accepted_lists() {
     assert_eq!(status, Some(1), "two recordings are missing: {text}");
     let output = call(folder, &["commission", "run", "m", "--format", "json"]);
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a record");
-    let compared = record["rounds"][0]["circles"].as_array().expect("circles");
+    let compared = record["rounds"][0]["recorded"].as_array().expect("feeds");
     assert_eq!(compared.len(), 4);
     for circle in compared {
-        let [off, on] = ["off_um", "on_um"].map(|key| circle[key].as_f64().expect("a number"));
+        let [off, on] = ["off", "on"].map(|key| circle[key].as_f64().expect("a number"));
         assert!(off > 15.0 && on < 0.6 * off, "{circle}");
     }
     let report = [

@@ -68,6 +68,7 @@ mod signatures;
 mod simulations;
 mod state_file;
 mod switched_axes;
+mod switches;
 mod trace_error;
 mod traces;
 mod unread;
@@ -112,8 +113,11 @@ pub use signatures::{SignedAt, signatures_of};
 pub use simulations::{compare, learn, tune};
 pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
+pub use switches::switches_of;
 pub use trace_error::TraceError;
-pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace, read_turns};
+pub use traces::{
+    CircleChannels, read_axis, read_circles, read_commanded, read_motion, read_trace, read_turns,
+};
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};
 pub use watch::{Done, Progress, Watch, Watcher};

@@ -267,9 +267,33 @@ pub fn read_axis(
     selection: &ChannelSelection,
     cycle_s: Option<f64>,
 ) -> Result<AxisRecording, HostError> {
+    read_channels(path, cycle_s, |described| {
+        AxisChannels::find(selection, described)
+    })
+}
+
+/// Reads motion and following error of one axis, whose torque may be missing.
+///
+/// # Errors
+/// As [`read_axis`].
+pub fn read_motion(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<AxisRecording, HostError> {
+    read_channels(path, cycle_s, |described| {
+        AxisChannels::of_motion(selection, described)
+    })
+}
+
+fn read_channels(
+    path: &Path,
+    cycle_s: Option<f64>,
+    find: impl Fn(&[Channel]) -> Result<AxisChannels, SelectError> + Send + Sync,
+) -> Result<AxisRecording, HostError> {
     let mut channels = None;
     let recording = read_trace(path, |described| {
-        let found = AxisChannels::find(selection, described)?;
+        let found = find(described)?;
         let choice = found.choice();
         channels = Some(found);
         Ok(choice)

@@ -89,6 +89,13 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         .machine
         .machines(&registry)
         .for_folder(Path::new("."))?;
+    if loaded.machine.channel.inch {
+        let message = "the coordinates of the machine are in inch (P-CHAN-00054 is 1), and what G71 does there is not \
+                       documented";
+        let help = "the programs are metric; a machine whose programs say G70 themselves is planned as any other, \
+                    its travel in mm";
+        return Err(Failure::new(message).with_help(help));
+    }
     let axes = args
         .axis
         .iter()

@@ -8,13 +8,16 @@ use crate::channels::{TorqueArgs, parse_unit};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
 use crate::identify::refusal;
-use frictcomp_host::{CircleChannels, SignedAt, read_axis, read_circles, signatures_of};
+use frictcomp_host::{
+    CircleChannels, SignedAt, read_axis, read_circles, read_motion, signatures_of, switches_of,
+};
 use frictcomp_physics::circle::{CommandedCircle, PathCentre};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, Found, FrictionFound, Measurement, Plan, Program, Stage,
+    CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, Plan, Program, RecordedStrokes,
+    Stage, StrokesFound, actual_elsewhere,
 };
-use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify};
+use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Wanted, identify};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
 /// Channels of the recordings; `%` stands for the name of the axis.
@@ -32,9 +35,13 @@ pub(super) struct ReadingArgs {
     /// The channel of the torque: `%.ActTorque`
     #[arg(long, value_name = "CHANNEL")]
     torque: Option<String>,
-    /// The channel of the actual positions, of which circles are made: `%.ActPos`; by default `x` and `y`
+    /// The channel of the actual positions, of which circles are made: `%.ActPos`; by default `x` and `y`, in
+    /// strokes `x_act`
     #[arg(long, value_name = "CHANNEL")]
     actual_position: Option<String>,
+    /// The channel of the following error in strokes, in place of the actual positions: `%.PosDiff`; by default `e`
+    #[arg(long, value_name = "CHANNEL")]
+    following_error: Option<String>,
     /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
@@ -69,18 +76,66 @@ impl ReadingArgs {
             Ok(recorded) => recorded,
             Err(failure) => return (None, Found::Refused(sentence(&failure))),
         };
+        let axis = |at: usize| {
+            let axis = recorded.plan.axes.get(at);
+            axis.ok_or_else(|| Failure::new("its axis is not in the plan"))
+        };
         let found = match &recorded.program.role {
-            Measurement::Friction { axis, speeds } => self.friction(path, recorded, *axis, speeds),
+            Measurement::Friction { axis: at, speeds } => {
+                axis(*at).and_then(|axis| self.friction(path, recorded, axis, speeds))
+            }
             Measurement::Circles { feed, radius } => {
                 self.circles(path, recorded.plan, *feed, *radius)
             }
-            Measurement::Strokes { .. } => Err(Failure::new(
-                "strokes show the following error of the motor side, and no contour: `frictcomp verify` \
-                 compares it with a list",
-            )),
+            Measurement::Strokes { axis: at, feeds } => {
+                axis(*at).and_then(|axis| self.strokes(path, recorded, axis, feeds))
+            }
         };
-        let found = found.unwrap_or_else(|failure| Found::Refused(sentence(&failure)));
+        let mut found = found.unwrap_or_else(|failure| Found::Refused(sentence(&failure)));
+        match self.switched_otherwise(path, recorded, &found) {
+            Ok(None) => {}
+            Ok(Some(reason)) => found.refuse(reason),
+            Err(failure) => found.refuse(sentence(&failure)),
+        }
         (Some(recorded.program.number), found)
+    }
+
+    /// Says where the recorded state of the compensation is not the one of the program, from the end of its
+    /// signature to shortly before its own end: what was before and after is switched back there.
+    fn switched_otherwise(
+        &self,
+        path: &Path,
+        recorded: Recorded<'_>,
+        found: &Found,
+    ) -> Result<Option<String>, Failure> {
+        const MEASURED: f64 = 0.9;
+        let wanted = recorded.wanted();
+        let driven = found.driven_part().unwrap_or(1.0).max(1.0);
+        let to_s = recorded.from_s + MEASURED * recorded.program.time_after_signature_s() / driven;
+        let axes = match &recorded.program.role {
+            Measurement::Friction { axis, .. } | Measurement::Strokes { axis, .. } => {
+                recorded.plan.axes.get(*axis..=*axis).unwrap_or_default()
+            }
+            Measurement::Circles { .. } => &recorded.plan.axes[..],
+        };
+        let cycle = self.cycle.seconds()?;
+        for axis in axes {
+            let switches = switches_of(path, &self.selection(&axis.name), cycle)?;
+            let within = switches
+                .iter()
+                .filter(|it| it.0 > recorded.from_s && it.0 < to_s);
+            let begin = switches.iter().rfind(|it| it.0 <= recorded.from_s);
+            let Some(other) = begin.into_iter().chain(within).find(|it| it.1 != wanted) else {
+                continue;
+            };
+            let state = if wanted == Switched::On { "on" } else { "off" };
+            return Ok(Some(format!(
+                "its program has compensation of {} {state}, and the recording says otherwise at {:.3} s",
+                axis.name,
+                other.0.max(recorded.from_s)
+            )));
+        }
+        Ok(None)
     }
 
     /// The program of a recording, by its signature or by what the user says.
@@ -169,39 +224,28 @@ impl ReadingArgs {
         &self,
         path: &Path,
         recorded: Recorded<'_>,
-        axis: usize,
+        axis: &MeasuredAxis,
         speeds: &[f64],
     ) -> Result<Found, Failure> {
-        let Some(axis) = recorded.plan.axes.get(axis) else {
-            return Err(Failure::new("its axis is not in the plan"));
-        };
-        let recording = read_axis(path, &self.selection(&axis.name), self.cycle.seconds()?)?;
+        let cycle = self.cycle.seconds()?;
+        // An actual position beside the commanded one is a check, and may be missing here.
+        let recording = read_axis(path, &self.followed(&axis.name), cycle)
+            .or_else(|_| read_axis(path, &self.selection(&axis.name), cycle))?;
         let mut measured = self.torque_args.measured(recording.measured);
-        let switched = match recorded.plan.stage {
-            Stage::Off => Switched::Off,
-            Stage::On => Switched::On,
-        };
-        if measured.compensation.is_some_and(|it| it != switched) {
-            let state = if switched == Switched::On {
-                "on"
-            } else {
-                "off"
-            };
-            let message =
-                format!("its program has compensation {state}, and the recording says otherwise");
-            return Err(Failure::new(message));
-        }
         // The program itself switches it.
-        measured.compensation = Some(switched);
+        measured.compensation = Some(recorded.wanted());
         let options = IdentifyOptions {
             measured,
             wanted: Wanted::Points(12),
             ..IdentifyOptions::default()
         };
+        let elsewhere = actual_elsewhere(&recording.track, &recording.following_errors);
         let track = recording.track.since(recorded.from_s);
         let found =
             identify(&track, &options).map_err(|error| refusal(error, &recording.findings))?;
         let mut friction = FrictionFound::of(&axis.name, &found, speeds);
+        friction.check_length(&track, recorded.program.time_after_signature_s());
+        friction.against.extend(elsewhere.map(|it| it.to_string()));
         friction.notes.extend(
             recording
                 .findings
@@ -214,6 +258,39 @@ impl ReadingArgs {
             ));
         }
         Ok(Found::Friction(friction))
+    }
+
+    /// The following error of an axis alone in a recorded program of strokes.
+    fn strokes(
+        &self,
+        path: &Path,
+        recorded: Recorded<'_>,
+        axis: &MeasuredAxis,
+        feeds: &[f64],
+    ) -> Result<Found, Failure> {
+        let cycle = self.cycle.seconds()?;
+        let AxisRecording {
+            track,
+            following_errors,
+            ..
+        } = read_motion(path, &self.followed(&axis.name), cycle)?;
+        let before = track
+            .times_s
+            .partition_point(|it| *it < recorded.from_s)
+            .min(following_errors.len());
+        let strokes = RecordedStrokes {
+            track: &track.since(recorded.from_s),
+            following_errors: &following_errors[before..],
+        };
+        let found = StrokesFound::of((&axis.name, axis.unit()), strokes, feeds);
+        let mut found = found.map_err(|error| Failure::new(error.to_string()))?;
+        if recorded.plan.stage == Stage::Off && found.against.is_empty() && !found.is_seen() {
+            found.against.push(
+                "no reversal shows in the following error: it is that of another axis, or compensation is on"
+                    .to_owned(),
+            );
+        }
+        Ok(Found::Strokes(found))
     }
 
     /// The circles of a recorded program.
@@ -243,6 +320,16 @@ impl ReadingArgs {
         Ok(Found::Circles(CirclesFound::of(&recording, feed, radius)))
     }
 
+    /// The channels of an axis with its actual position or its following error.
+    fn followed(&self, axis: &str) -> ChannelSelection {
+        let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
+        ChannelSelection {
+            actual_position: named(&self.actual_position),
+            following_error: named(&self.following_error),
+            ..self.selection(axis)
+        }
+    }
+
     /// The channels of an axis.
     fn selection(&self, axis: &str) -> ChannelSelection {
         let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
@@ -254,6 +341,16 @@ impl ReadingArgs {
             torque: named(&self.torque),
             units: self.unit.clone(),
             ..ChannelSelection::default()
+        }
+    }
+}
+
+impl Recorded<'_> {
+    /// The state to which the program switches compensation.
+    fn wanted(self) -> Switched {
+        match self.plan.stage {
+            Stage::Off => Switched::Off,
+            Stage::On => Switched::On,
         }
     }
 }

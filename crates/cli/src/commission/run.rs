@@ -18,10 +18,11 @@ use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp_host::{FileRegistry, read_text, sha256_of, sha256_of_text};
 use frictcomp_recordings::commission::{
     BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult,
-    Stage, before_after,
+    Stage, before_after, refuse_strangers,
 };
 use frictcomp_report::commission::{
-    AxisVerdict, PlanFile, Results, ResultsReport, Round, render_results, render_results_json,
+    AxisVerdict, PlanFile, Results, ResultsReport, Round, Shows, glitch_unit, render_results,
+    render_results_json,
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
 use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
@@ -99,6 +100,11 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
+    let content = Results {
+        schema: Results::SCHEMA,
+        recordings: results.clone(),
+    };
+    refuse_strangers(&mut results);
     let axes = lists(args, &plans, &results, &mut outputs)?;
     let rounds = rounds(&plans, &results, &registry)?;
     let report = ResultsReport {
@@ -114,10 +120,6 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
     }
     let mut file = outputs.file("results.json", &args.folder.join(RESULTS))?;
-    let content = Results {
-        schema: Results::SCHEMA,
-        recordings: report.results.clone(),
-    };
     let text =
         serde_json::to_string_pretty(&content).map_err(|error| Failure::new(error.to_string()))?;
     write_text(&mut file, &text)?;
@@ -387,17 +389,19 @@ fn rounds(
     for (number, plan) in (2..).zip(second) {
         let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
         let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
-        let circles = before_after(results, is_off, is_on);
+        let recorded = before_after(results, is_off, is_on);
         let mut against = None;
-        if !circles.is_empty() {
-            let mut reasons = feeds_against(plan, &circles, &rounds);
+        if !recorded.is_empty() {
+            let mut reasons = feeds_against(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
             against = Some(reasons);
         }
         rounds.push(Round {
             number,
             lists: plan.lists.clone(),
-            circles,
+            shows: Shows::of(&plan.plan),
+            unit: glitch_unit(&plan.plan),
+            recorded,
             against,
         });
     }
@@ -405,31 +409,40 @@ fn rounds(
 }
 
 /// Feeds at which the lists of a round leave more than there was without them, or than those that were
-/// accepted last, and feeds that are not recorded.
-fn feeds_against(plan: &PlanFile, circles: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
+/// accepted last, feeds that are not recorded, and lists that show no effect.
+fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
+    let unit = glitch_unit(&plan.plan);
     let accepted = earlier.iter().rev().find(|it| it.is_accepted());
-    let at = |circles: &[BeforeAfter], feed: f64| {
-        let mut circles = circles.iter();
-        circles.find(|it| it.feed.total_cmp(&feed).is_eq()).cloned()
+    let at = |recorded: &[BeforeAfter], feed: f64| {
+        let mut recorded = recorded.iter();
+        recorded
+            .find(|it| it.feed.total_cmp(&feed).is_eq())
+            .cloned()
     };
     let mut against = Vec::new();
-    for feed in plan.plan.programs.iter().filter_map(Program::feed) {
-        let Some(now) = at(circles, feed) else {
+    let programs = plan.plan.programs.iter();
+    for &feed in programs.flat_map(Program::reversal_feeds) {
+        let Some(now) = at(recorded, feed) else {
             against.push(format!("F{feed} is not recorded both off and on"));
             continue;
         };
-        let old = accepted.and_then(|round| Some((round.number, at(&round.circles, feed)?.on_um)));
+        let old = accepted.and_then(|round| Some((round.number, at(&round.recorded, feed)?.on)));
         if now.is_worse() {
             against.push(format!(
-                "at F{feed} {:.1} µm are left, more than the {:.1} µm without it",
-                now.on_um, now.off_um
+                "at F{feed} {:.1} {unit} are left, more than the {:.1} {unit} without it",
+                now.on, now.off
             ));
-        } else if let Some((round, before)) = old.filter(|it| now.on_um > it.1) {
+        } else if let Some((round, before)) = old.filter(|it| now.on > it.1) {
             against.push(format!(
-                "at F{feed} {:.1} µm are left, more than the {before:.1} µm of round {round}",
-                now.on_um
+                "at F{feed} {:.1} {unit} are left, more than the {before:.1} {unit} of round {round}",
+                now.on
             ));
         }
+    }
+    if !recorded.iter().any(BeforeAfter::shows_an_effect) {
+        against.push(
+            "off and on hardly differ at any feed: the lists were not on, or on in both".to_owned(),
+        );
     }
     against
 }

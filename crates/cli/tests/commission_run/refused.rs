@@ -65,7 +65,7 @@ fn what_speaks_against_a_list_is_named() {
         ),
         (
             vec![("a.csv", &switched)],
-            "not used: its program has compensation off, and the recording says otherwise",
+            "not used: its program has compensation of X off, and the recording says otherwise at",
         ),
         (vec![("a.csv", &still)], "not used:"),
         (

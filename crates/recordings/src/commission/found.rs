@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::identify::{Identified, along};
+use super::following::COARSEST_S;
+use crate::identify::{Identified, Track, along, count};
 use frictcomp::lists::FrictionList;
-use frictcomp_physics::circle::{RecordedCircle, Recording};
+use frictcomp_physics::circle::{Direction, RecordedCircle, Recording};
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
 /// Friction of the same program in two recordings may differ by this part, and so may the start and
@@ -16,7 +17,7 @@ const STEADY: f64 = 0.1;
 const EVEN: f64 = 0.2;
 
 /// A measured speed is the planned one within this part.
-const ON_FEED: f64 = 0.02;
+pub(super) const ON_FEED: f64 = 0.02;
 
 /// The ratios of the recorded to the planned speeds scatter by less than this part, where only an override
 /// differs.
@@ -111,6 +112,30 @@ impl FrictionFound {
         }
     }
 
+    /// Checks that a recording, from its strokes on, is as long as its program in s, and that it has every ms.
+    pub fn check_length(&mut self, track: &Track, planned_s: f64) {
+        const WHOLE: f64 = 0.97;
+        const FINE_S: f64 = 0.0015;
+        if track.step_s > FINE_S {
+            self.notes.push(format!(
+                "a sample every {:.1} ms; every ms was asked for",
+                track.step_s * 1000.0
+            ));
+        }
+        let ends = track.times_s.first().zip(track.times_s.last());
+        let recorded_s = ends.map_or(0.0, |(first, last)| last - first);
+        let Some(part) = self.override_part else {
+            return;
+        };
+        let planned_s = planned_s / part;
+        if recorded_s < WHOLE * planned_s {
+            self.against.push(format!(
+                "it ends {:.0} s before its program, which takes {planned_s:.0} s after its strokes",
+                planned_s - recorded_s
+            ));
+        }
+    }
+
     /// By how much the friction of two recordings of one program differs at most, as a part of the first;
     /// `None` where they have no common speed.
     pub fn apart_from(&self, other: &Self) -> Option<f64> {
@@ -169,6 +194,8 @@ pub struct CirclesFound {
     pub measured_feed: Option<f64>,
     /// v²/R in mm/s² as it was recorded, else as it was planned.
     pub acceleration: f64,
+    /// The mean centre of both directions.
+    pub centre_mm: [f64; 2],
     /// The glitches in µm at X+, Y+, X-, Y- of the axes of the plan, for each recorded direction.
     pub glitches_um: Vec<[f64; 4]>,
     /// The largest of them.
@@ -208,6 +235,9 @@ impl CirclesFound {
         if recording.circles.len() < 2 {
             against.push("one direction is missing".to_owned());
         }
+        against.extend(begins_otherwise(&recording.circles));
+        against.extend(recording.circles.iter().find_map(coarse));
+        notes.extend(recording.circles.iter().filter_map(cut_short));
         if glitches_um.len() < recording.circles.len() {
             against
                 .push("it is too fast and small for a glitch to be told from the next".to_owned());
@@ -216,10 +246,58 @@ impl CirclesFound {
             feed,
             measured_feed,
             acceleration: speed * speed / radius,
+            centre_mm: centre_of(&recording.circles),
             worst_um: glitches_um.iter().flatten().copied().fold(0.0, f64::max),
             glitches_um,
             notes,
             against,
         }
     }
+}
+
+/// A recording whose circles go the other way round than those of the programs.
+fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
+    let begin = |direction: Direction| {
+        let mut circles = circles.iter();
+        let circle = circles.find(|it| it.direction == direction);
+        circle.map(|it| it.left_out.before)
+    };
+    let is_otherwise = begin(Direction::Cw)? < begin(Direction::Ccw)?;
+    is_otherwise.then(|| {
+        "it begins clockwise and its program counter-clockwise: the columns of two axes are exchanged, or an axis \
+         counts the other way"
+            .to_owned()
+    })
+}
+
+/// Points that are too far apart in time for what a reversal does.
+fn coarse(circle: &RecordedCircle) -> Option<String> {
+    let step_s = circle.turn_s? / count(circle.points);
+    (step_s > COARSEST_S).then(|| {
+        format!(
+            "a sample every {:.1} ms does not show what a reversal does; record every ms",
+            step_s * 1000.0
+        )
+    })
+}
+
+/// A direction of which less is recorded than its program drives: three turns with the halves before and after.
+fn cut_short(circle: &RecordedCircle) -> Option<String> {
+    const DRIVEN: f64 = 3.0;
+    const NEARLY: f64 = 0.9;
+    let turns = circle.left_out.along_deg / 360.0;
+    (turns < NEARLY * DRIVEN).then(|| {
+        format!(
+            "{turns:.1} of {DRIVEN:.0} turns {} are in it: it begins late or ends early",
+            circle.direction
+        )
+    })
+}
+
+fn centre_of(circles: &[RecordedCircle]) -> [f64; 2] {
+    let mean = |at: usize| {
+        let places = circles.iter().map(|it| it.centre_mm[at]);
+        places.sum::<f64>() / count(circles.len().max(1))
+    };
+    [mean(0), mean(1)]
 }

@@ -5,6 +5,7 @@
 //! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
 
 mod error;
+mod following;
 mod found;
 mod learned;
 mod plan;
@@ -14,12 +15,17 @@ mod results;
 mod room;
 mod runs;
 mod signature;
+mod strokes;
 
 pub use error::PlanError;
+pub use following::{NotFollowed, actual_elsewhere};
 pub use found::{CirclesFound, FrictionFound};
 pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
 pub use program::{Measurement, PlanStep, Program, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
-pub use results::{BeforeAfter, Found, MOST_CURRENT, RecordingResult, before_after};
+pub use results::{
+    BeforeAfter, Found, MOST_CURRENT, RecordingResult, before_after, refuse_strangers,
+};
 pub use signature::{Signature, signature_in};
+pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};

@@ -2,13 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::found::{CirclesFound, FrictionFound};
+use super::found::{CirclesFound, FrictionFound, ON_FEED};
+use super::strokes::StrokesFound;
 
 /// The greatest additive current as a part of the measured friction.
 pub const MOST_CURRENT: f64 = 1.3;
 
-/// Two circles are compared where v²/R differs by less than this part.
-const SAME_ACCELERATION: f64 = 0.05;
+/// Two recordings are compared where the feeds that were driven differ by less than this part: v²/R by 5 %.
+const SAME_FEED: f64 = 0.025;
+
+/// A recording stands for its planned feed where it was driven at no less than this part of it …
+const SLOWEST: f64 = 0.8;
+
+/// … and at no more than this.
+const FASTEST: f64 = 1.25;
 
 /// A recording in the folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -33,58 +40,207 @@ pub enum Found {
     Friction(FrictionFound),
     /// Circles.
     Circles(CirclesFound),
+    /// Strokes of an axis alone.
+    Strokes(StrokesFound),
     /// Nothing that is used, with the reason.
     Refused(String),
 }
 
-/// A circle with compensation off and on, as they were recorded.
+impl Found {
+    /// Reasons for which nothing is concluded from it.
+    pub fn against(&self) -> &[String] {
+        match self {
+            Self::Friction(found) => &found.against,
+            Self::Circles(found) => &found.against,
+            Self::Strokes(found) => &found.against,
+            Self::Refused(reason) => std::slice::from_ref(reason),
+        }
+    }
+
+    /// Remarks.
+    pub fn notes(&self) -> &[String] {
+        match self {
+            Self::Friction(found) => &found.notes,
+            Self::Circles(found) => &found.notes,
+            Self::Strokes(found) => &found.notes,
+            Self::Refused(_) => &[],
+        }
+    }
+
+    /// Whether it stands for its program: nothing speaks against it, and it was driven at the planned feeds or
+    /// near them. A first pass at 10 % override is none.
+    pub fn is_used(&self) -> bool {
+        self.against().is_empty() && self.reversals().all(|it| it.is_near())
+    }
+
+    /// The recorded feeds as a part of the planned ones, where they are known.
+    pub fn driven_part(&self) -> Option<f64> {
+        match self {
+            Self::Friction(found) => found.override_part,
+            _ => self.reversals().map(|it| it.driven / it.feed).next(),
+        }
+    }
+
+    /// Says that nothing is concluded from it.
+    pub fn refuse(&mut self, reason: String) {
+        match self {
+            Self::Friction(found) => found.against.push(reason),
+            Self::Circles(found) => found.against.push(reason),
+            Self::Strokes(found) => found.against.push(reason),
+            Self::Refused(_) => {}
+        }
+    }
+
+    /// What reversals show at each feed.
+    fn reversals(&self) -> impl Iterator<Item = AtFeed> {
+        let circles = match self {
+            Self::Circles(found) => found.measured_feed.map(|driven| AtFeed {
+                feed: found.feed,
+                driven,
+                glitch: found.worst_um,
+            }),
+            _ => None,
+        };
+        let strokes = match self {
+            Self::Strokes(found) => &found.reversals[..],
+            _ => &[],
+        };
+        let strokes = strokes.iter().map(|it| AtFeed {
+            feed: it.feed,
+            driven: it.measured_feed,
+            glitch: it.glitch,
+        });
+        circles.into_iter().chain(strokes)
+    }
+}
+
+/// The glitch of a recording at a feed.
+#[derive(Debug, Clone, Copy)]
+struct AtFeed {
+    feed: f64,
+    driven: f64,
+    glitch: f64,
+}
+
+impl AtFeed {
+    fn is_near(&self) -> bool {
+        (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
+    }
+
+    /// By which part it was driven beside the planned feed; none within 2 %.
+    fn beside(&self) -> f64 {
+        let part = (self.driven / self.feed - 1.0).abs();
+        if part <= ON_FEED { 0.0 } else { part }
+    }
+}
+
+/// Glitches at a feed with compensation off and on, as they were recorded: in µm, or 0.001° of an axis that turns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BeforeAfter {
-    /// The planned feed in mm/min.
+    /// The planned feed in mm/min or °/min.
     pub feed: f64,
-    /// The largest glitch with compensation off in µm.
-    pub off_um: f64,
-    /// The largest glitch with compensation on in µm.
-    pub on_um: f64,
+    /// The feed that was driven.
+    pub driven: f64,
+    /// The largest glitch with compensation off.
+    pub off: f64,
+    /// The largest glitch with compensation on.
+    pub on: f64,
 }
 
 impl BeforeAfter {
     /// Whether compensation leaves more than there was without it.
     pub fn is_worse(&self) -> bool {
-        self.on_um > self.off_um
+        self.on > self.off
+    }
+
+    /// Whether compensation leaves clearly less than there was without it.
+    pub fn shows_an_effect(&self) -> bool {
+        const LEAST: f64 = 0.05;
+        self.on < self.off * (1.0 - LEAST)
     }
 }
 
 /// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest
-/// first. Programs are told by their numbers; of several recordings of a program the last one counts.
+/// first. Programs are told by their numbers. Of several recordings those count that were driven at the feed of
+/// the program, else those next to it; of those the smallest glitch without and the largest with compensation.
 pub fn before_after(
     results: &[RecordingResult],
     is_off: impl Fn(u16) -> bool,
     is_on: impl Fn(u16) -> bool,
 ) -> Vec<BeforeAfter> {
-    let circles = |is_so: &dyn Fn(u16) -> bool| {
-        let found = results.iter().filter_map(|it| match &it.found {
-            Found::Circles(found) if found.against.is_empty() && is_so(it.program?) => Some(found),
-            _ => None,
-        });
-        found.collect::<Vec<&CirclesFound>>()
+    let recorded = |is_so: &dyn Fn(u16) -> bool| {
+        let used = results.iter().filter(|it| it.found.against().is_empty());
+        let used = used.filter(|it| it.program.is_some_and(is_so));
+        let shown = used.flat_map(|it| it.found.reversals());
+        shown.filter(AtFeed::is_near).collect::<Vec<AtFeed>>()
     };
-    let on = circles(&is_on);
-    let mut pairs: Vec<BeforeAfter> = Vec::new();
-    for off in circles(&is_off) {
-        let same = |on: &&&CirclesFound| {
-            on.feed.total_cmp(&off.feed).is_eq()
-                && (on.acceleration / off.acceleration - 1.0).abs() < SAME_ACCELERATION
+    let on = recorded(&is_on);
+    let mut pairs: Vec<(f64, BeforeAfter)> = Vec::new();
+    for off in recorded(&is_off) {
+        let same = |on: &&AtFeed| {
+            on.feed.total_cmp(&off.feed).is_eq() && (on.driven / off.driven - 1.0).abs() < SAME_FEED
         };
-        if let Some(on) = on.iter().rev().find(same) {
-            pairs.retain(|it| it.feed.total_cmp(&off.feed).is_ne());
-            pairs.push(BeforeAfter {
+        for on in on.iter().filter(same) {
+            let pair = BeforeAfter {
                 feed: off.feed,
-                off_um: off.worst_um,
-                on_um: on.worst_um,
-            });
+                driven: off.driven,
+                off: off.glitch,
+                on: on.glitch,
+            };
+            let beside = off.beside();
+            let known = pairs
+                .iter_mut()
+                .find(|(_, it)| it.feed.total_cmp(&off.feed).is_eq());
+            match known {
+                None => pairs.push((beside, pair)),
+                Some(known) if beside < known.0 => *known = (beside, pair),
+                Some((is_beside, known)) if beside.total_cmp(is_beside).is_eq() => {
+                    known.off = known.off.min(pair.off);
+                    known.on = known.on.max(pair.on);
+                }
+                Some(_) => {}
+            }
         }
     }
+    let mut pairs: Vec<BeforeAfter> = pairs.into_iter().map(|it| it.1).collect();
     pairs.sort_by(|one, other| one.feed.total_cmp(&other.feed));
     pairs
+}
+
+/// Refuses recordings that cannot belong to the others: the same bytes twice, and circles about another centre
+/// than those before them (R16.9).
+pub fn refuse_strangers(results: &mut [RecordingResult]) {
+    /// Centres of one machine are at most so far apart, in mm.
+    const SAME_CENTRE_MM: f64 = 1.0;
+    let mut first: Option<([f64; 2], String)> = None;
+    for at in 0..results.len() {
+        let (earlier, rest) = results.split_at_mut(at);
+        let Some(result) = rest.first_mut() else {
+            return;
+        };
+        if let Some(same) = earlier.iter().find(|it| it.sha256 == result.sha256) {
+            result
+                .found
+                .refuse(format!("it is `{}` once more", same.file));
+            continue;
+        }
+        let Found::Circles(found) = &mut result.found else {
+            continue;
+        };
+        if !found.against.is_empty() {
+            continue;
+        }
+        let [x, y] = found.centre_mm;
+        match &first {
+            None => first = Some((found.centre_mm, result.file.clone())),
+            Some(([first_x, first_y], file)) => {
+                if (x - first_x).hypot(y - first_y) > SAME_CENTRE_MM {
+                    found.against.push(format!(
+                        "its centre is at {x:.1}, {y:.1} and that of `{file}` at {first_x:.1}, {first_y:.1}: it is of \
+                         another place or machine"
+                    ));
+                }
+            }
+        }
+    }
 }

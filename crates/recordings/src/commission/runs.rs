@@ -169,6 +169,23 @@ impl Program {
         }
     }
 
+    /// Its time in s at 100 % override after the strokes of its signature.
+    pub fn time_after_signature_s(&self) -> f64 {
+        let strokes = Signature::new(self.number).map(Signature::strokes);
+        let ways = strokes.into_iter().flatten();
+        let strokes_s: f64 = ways.map(|way| 2.0 * stroke_s(way)).sum();
+        self.time_s - Signature::DWELL_S - strokes_s
+    }
+
+    /// The feeds at which it shows reversals, in mm/min or °/min.
+    pub fn reversal_feeds(&self) -> &[f64] {
+        match &self.role {
+            Measurement::Circles { feed, .. } => std::slice::from_ref(feed),
+            Measurement::Strokes { feeds, .. } => feeds,
+            Measurement::Friction { .. } => &[],
+        }
+    }
+
     /// Puts the signature of a number in front and into the name of the file.
     pub(super) fn begin_with(&mut self, number: u16) {
         let Some(signature) = Signature::new(number) else {
@@ -194,7 +211,7 @@ impl Program {
                     feed: Signature::FEED,
                 });
                 steps.push(PlanStep::Dwell(PAUSE_S));
-                self.time_s += way / (Signature::FEED / 60.0) + PAUSE_S;
+                self.time_s += stroke_s(way);
             }
         }
         steps.push(PlanStep::Dwell(Signature::DWELL_S));
@@ -204,6 +221,11 @@ impl Program {
         self.number = number;
         self.file = format!("{number:02}-{}", self.file);
     }
+}
+
+/// The time of a stroke of a signature, with the pause after it.
+fn stroke_s(way: f64) -> f64 {
+    way / (Signature::FEED / 60.0) + PAUSE_S
 }
 
 /// The radius of the circles, at which each axis can follow each feed.

@@ -229,7 +229,7 @@ impl Points {
 
 /// Solves a system of linear equations, the right side in the last column of each row; `None` where
 /// it has no single solution.
-pub(super) fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+pub(crate) fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let solved = solve_systems(rows)?;
     Some(solved.into_iter().map(|row| row[0]).collect())
 }

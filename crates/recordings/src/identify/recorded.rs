@@ -58,13 +58,34 @@ impl AxisChannels {
     /// # Errors
     /// A channel that is named or needed is not there.
     pub fn find(selection: &ChannelSelection, channels: &[Channel]) -> Result<Self, SelectError> {
+        let torque = selection.require(ChannelQuantity::Torque, channels)?;
+        Self::with(Some(torque), selection, channels)
+    }
+
+    /// The same channels; the torque may be missing.
+    ///
+    /// # Errors
+    /// A channel that is named is not there, or neither a velocity nor a position is.
+    pub fn of_motion(
+        selection: &ChannelSelection,
+        channels: &[Channel],
+    ) -> Result<Self, SelectError> {
+        let torque = selection.find(ChannelQuantity::Torque, channels);
+        Self::with(torque.unwrap_or_default(), selection, channels)
+    }
+
+    fn with(
+        torque: Option<Pick>,
+        selection: &ChannelSelection,
+        channels: &[Channel],
+    ) -> Result<Self, SelectError> {
         let find = |quantity| selection.find(quantity, channels);
         let found = Self {
             time: find(ChannelQuantity::Time)?,
             velocity: find(ChannelQuantity::Velocity)?,
             position: find(ChannelQuantity::Position)?,
-            torque: Some(selection.require(ChannelQuantity::Torque, channels)?),
-            state: state_of(selection, channels),
+            torque,
+            state: state_channel(selection, channels),
             followed: followed_of(selection, channels)?,
         };
         if found.velocity.is_none() && found.position.is_none() {
@@ -240,7 +261,7 @@ fn is_short(name: &str) -> bool {
 
 /// The channel `comp`, or the object of the control that says whether friction compensation is
 /// active (`frict_comp.f_is_active`), of the axis where several are recorded.
-fn state_of(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
+pub fn state_channel(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
     let is_state = |channel: &Channel| {
         let texts = [&channel.name, &channel.symbol];
         let plain = texts.map(|text| text.to_lowercase());

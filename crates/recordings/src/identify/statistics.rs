@@ -23,7 +23,7 @@ pub(super) fn median(values: &[f64]) -> Option<f64> {
 
 /// The standard deviation of the noise on a signal, from its second differences: a signal that rises
 /// evenly has none.
-pub(super) fn noise_of(values: &[f64]) -> f64 {
+pub(crate) fn noise_of(values: &[f64]) -> f64 {
     let second = values
         .windows(3)
         .map(|it| (it[0] - 2.0 * it[1] + it[2]).abs());
@@ -66,19 +66,19 @@ pub(super) fn resolution(values: &[f64]) -> f64 {
 }
 
 /// Returns the number of samples in a time, at least one.
-pub(super) fn samples_in(seconds: f64, step_s: f64) -> usize {
+pub(crate) fn samples_in(seconds: f64, step_s: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1 to some thousands
     let samples = (seconds / step_s).round().max(1.0) as usize;
     samples
 }
 
 #[allow(clippy::cast_precision_loss)] // samples of a recording
-pub(super) fn count(samples: usize) -> f64 {
+pub(crate) fn count(samples: usize) -> f64 {
     samples as f64
 }
 
 /// The mean of the samples around each one.
-pub(super) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
+pub(crate) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
     // Sums up to each sample, those that a mean still needs.
     let mut sums = VecDeque::from([0.0]);
     let (mut sum, mut first) = (0.0, 0);

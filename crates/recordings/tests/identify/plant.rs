@@ -55,11 +55,13 @@ impl Default for Bench {
 }
 
 /// Columns in the units of lists and traces.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Recorded {
     pub(crate) t: Vec<f64>,
     pub(crate) v: Vec<f64>,
     pub(crate) x: Vec<f64>,
+    /// Commanded positions.
+    pub(crate) commanded: Vec<f64>,
     pub(crate) torque: Vec<f64>,
 }
 
@@ -134,6 +136,11 @@ impl Bench {
 
     /// A recording of an axis that follows velocities in mm/s.
     pub(crate) fn record_along(&self, commanded: &[f64]) -> Recorded {
+        self.record_with(commanded, &[])
+    }
+
+    /// The same with a current in drive units that the control adds at each velocity.
+    pub(crate) fn record_with(&self, commanded: &[f64], added: &[f64]) -> Recorded {
         const STEP: f64 = 62.5e-6;
         const MASS: f64 = 1300.0;
         const KV: f64 = 33.3;
@@ -152,6 +159,7 @@ impl Bench {
         for (at, &speed) in commanded.iter().enumerate() {
             let progress = at as f64 / commanded.len() as f64 - 0.5;
             let factor = 1.0 + self.drift * progress;
+            let added_n = UNIT * added.get(at).copied().unwrap_or(0.0);
             let before: f64 = reference;
             let way = speed * 1e-6;
             reference += way;
@@ -166,7 +174,8 @@ impl Bench {
                     asked = (kp * error + integral).clamp(-20_000.0, 20_000.0);
                     integral += kp / TI * 125e-6 * error;
                 }
-                force = command + (force - command) * decay;
+                let wanted = command + added_n;
+                force = wanted + (force - wanted) * decay;
                 let level = Self::level(v.abs() * 1e3) * factor;
                 if v != 0.0 {
                     let steady = level / STIFFNESS * v.signum();
@@ -194,6 +203,7 @@ impl Bench {
                 None => speed * 1e3,
             });
             recorded.x.push(x * 1e7);
+            recorded.commanded.push(reference * 1e7);
         }
         recorded
     }

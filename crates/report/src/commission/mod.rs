@@ -9,6 +9,7 @@ mod words;
 pub use program::render_program;
 pub use readme::render_readme;
 pub use results::{
-    AxisVerdict, Results, ResultsReport, Round, render_results, render_results_json,
+    AxisVerdict, Results, ResultsReport, Round, Shows, glitch_unit, render_results,
+    render_results_json,
 };
 pub use summary::{PlanFile, PlanReport, ValueListUsed, render_json, render_text};

@@ -8,7 +8,10 @@ use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{BeforeAfter, Found, FrictionFound, RecordingResult, Stage};
+use frictcomp::machine::AxisType;
+use frictcomp_recordings::commission::{
+    BeforeAfter, Found, FrictionFound, Plan, RecordingResult, Stage,
+};
 
 /// The content of `results.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -59,10 +62,58 @@ pub struct Round {
     pub number: usize,
     /// The lists.
     pub lists: Vec<ValueListUsed>,
-    /// The circles with compensation off and with these lists on.
-    pub circles: Vec<BeforeAfter>,
-    /// Reasons for which the lists are not accepted; `None` before a circle is recorded off and on.
+    /// Where friction shows.
+    pub shows: Shows,
+    /// The unit of the glitches.
+    pub unit: &'static str,
+    /// The feeds with compensation off and with these lists on.
+    pub recorded: Vec<BeforeAfter>,
+    /// Reasons for which the lists are not accepted; `None` before a feed is recorded off and on.
     pub against: Option<Vec<String>>,
+}
+
+/// Where friction shows in the recordings of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shows {
+    /// On circles of two axes.
+    Contour,
+    /// In the following error after reversals of one axis: motor side, not contour.
+    FollowingError,
+}
+
+impl Shows {
+    /// What the programs of a plan show.
+    pub fn of(plan: &Plan) -> Self {
+        match plan.axes.len() {
+            1 => Self::FollowingError,
+            _ => Self::Contour,
+        }
+    }
+
+    /// What an acceptance does not say.
+    pub(crate) fn limit(self) -> &'static str {
+        match self {
+            Self::Contour => "",
+            Self::FollowingError => ", and no contour",
+        }
+    }
+
+    /// The figure that is compared.
+    pub(crate) fn figure(self) -> &'static str {
+        match self {
+            Self::Contour => "glitch, the largest of both directions",
+            Self::FollowingError => "following error after reversals; motor side, not contour",
+        }
+    }
+}
+
+/// The unit of the glitches of a plan.
+pub fn glitch_unit(plan: &Plan) -> &'static str {
+    match plan.axes.first() {
+        Some(axis) if axis.axis_type != AxisType::Linear => "0.001°",
+        _ => "µm",
+    }
 }
 
 impl Round {
@@ -83,7 +134,7 @@ impl ResultsReport {
             !self
                 .results
                 .iter()
-                .any(|it| it.program == Some(number) && is_used(&it.found))
+                .any(|it| it.program == Some(number) && it.found.is_used())
         };
         let missing = programs.filter(|it| lacks(it.number));
         missing.map(|it| it.file.clone()).collect()
@@ -103,14 +154,6 @@ impl ResultsReport {
             Found::Friction(found) if it.file == *from => Some(found),
             _ => None,
         })
-    }
-}
-
-fn is_used(found: &Found) -> bool {
-    match found {
-        Found::Friction(found) => found.against.is_empty(),
-        Found::Circles(found) => found.against.is_empty(),
-        Found::Refused(_) => false,
     }
 }
 
@@ -158,7 +201,7 @@ pub fn render_results(report: &ResultsReport) -> String {
     }
     if report.rounds.iter().all(|it| it.against.is_none()) {
         out.push_str(
-            "\nno list is accepted: stage 2, the same circles with it on, is not recorded\n",
+            "\nno list is accepted: stage 2, the same motion with it on, is not recorded\n",
         );
     }
     out
@@ -178,22 +221,28 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
         visible_line(&result.file),
         visible_line(&what)
     );
-    let (notes, against) = match &result.found {
-        Found::Friction(found) => (&found.notes[..], &found.against[..]),
+    match &result.found {
         Found::Circles(found) => {
             let _ = writeln!(
                 out,
                 "  recorded: v²/R {:.2} mm/s², glitch at most {:.1} µm",
                 found.acceleration, found.worst_um
             );
-            (&found.notes[..], &found.against[..])
         }
-        Found::Refused(reason) => (&[][..], std::slice::from_ref(reason)),
-    };
-    for reason in against {
+        Found::Strokes(found) => {
+            let _ = writeln!(
+                out,
+                "  recorded: following error of at most {:.1} {} after a reversal",
+                found.worst(),
+                found.unit
+            );
+        }
+        Found::Friction(_) | Found::Refused(_) => {}
+    }
+    for reason in result.found.against() {
         let _ = writeln!(out, "  not used: {}", visible_line(reason));
     }
-    for note in notes {
+    for note in result.found.notes() {
         let _ = writeln!(out, "  {}", visible_line(note));
     }
 }
@@ -205,15 +254,23 @@ fn push_round(out: &mut String, round: &Round) {
     };
     let _ = writeln!(
         out,
-        "\nround {}: recorded glitch in µm, the largest of both directions\n{:>12} {:>8} {:>8}",
-        round.number, "feed mm/min", "off", "on"
+        "\nround {}: recorded {}, in {}\n{:>10} {:>10} {:>8} {:>8}",
+        round.number,
+        round.shows.figure(),
+        round.unit,
+        "feed /min",
+        "driven",
+        "off",
+        "on"
     );
-    for circle in &round.circles {
-        let feed = number(circle.feed);
+    for pair in &round.recorded {
         let _ = writeln!(
             out,
-            "{feed:>12} {:>8.1} {:>8.1}",
-            circle.off_um, circle.on_um
+            "{:>10} {:>10.0} {:>8.1} {:>8.1}",
+            number(pair.feed),
+            pair.driven,
+            pair.off,
+            pair.on
         );
     }
     if against.is_empty() {
@@ -225,9 +282,10 @@ fn push_round(out: &mut String, round: &Round) {
         let _ = writeln!(
             out,
             "\naccepted: {}; at each of the {} recorded feeds no more is left than without it, nor than with the \
-             lists that were accepted before. Other feeds were not recorded",
+             lists that were accepted before. Other feeds were not recorded{}",
             visible_line(&lists.join(", ")),
-            round.circles.len()
+            round.recorded.len(),
+            round.shows.limit()
         );
     } else {
         out.push_str("\nnot accepted, the lists of before stay:\n");

@@ -10,10 +10,10 @@ use crate::commission::{AxisVerdict, ResultsReport, Round};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
-use frictcomp_recordings::commission::{Found, FrictionFound, MeasuredAxis};
+use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis};
 
 const VERDICT: Part = Part::new("verdict", "Verdict");
-const CIRCLES: Part = Part::new("circles", "Circles before and after");
+const CIRCLES: Part = Part::new("circles", "Before and after");
 const GROUNDS: Part = Part::new("grounds", "What it rests on");
 const FILES: Part = Part::new("files", "Recordings");
 const AXES: [Part; 2] = [
@@ -77,10 +77,10 @@ fn verdict(report: &ResultsReport) -> Markup {
     let missing = report.missing();
     html! {
         @match report.rounds.last().map(|it| (it, it.against.as_deref())) {
-            None | Some((_, None)) => p { "No list is accepted: circles with compensation on are not recorded." },
+            None | Some((_, None)) => p { "No list is accepted: the motion with compensation on is not recorded." },
             Some((round, Some([]))) => p {
-                "Accepted: at each of the " (round.circles.len()) " recorded feeds the lists of round " (round.number)
-                " leave no more than there was without them. Other feeds were not recorded."
+                "Accepted: at each of the " (round.recorded.len()) " recorded feeds the lists of round " (round.number)
+                " leave no more than there was without them. Other feeds were not recorded" (round.shows.limit()) "."
             },
             Some((round, Some(against))) => {
                 p { "The lists of round " (round.number) " are not accepted; those of before stay." }
@@ -94,38 +94,38 @@ fn verdict(report: &ResultsReport) -> Markup {
 }
 
 fn circles(report: &ResultsReport) -> Markup {
-    let rounds = report.rounds.iter().filter(|it| !it.circles.is_empty());
+    let rounds = report.rounds.iter().filter(|it| !it.recorded.is_empty());
     let rounds: Vec<&Round> = rounds.collect();
     html! {
         @if rounds.is_empty() {
-            p { "No circle is recorded both with compensation off and on." }
+            p { "No feed is recorded both with compensation off and on." }
         }
         @for round in rounds { (round_circles(round)) }
     }
 }
 
 fn round_circles(round: &Round) -> Markup {
-    let caption = format!(
-        "Round {}: largest glitch of both directions, recorded",
-        round.number
-    );
+    let caption = format!("Round {}: recorded {}", round.number, round.shows.figure());
+    let [off, on] = ["off", "on"].map(|it| format!("{it} in {}", round.unit));
     let table = Table {
         caption: Caption::Shown(&caption),
         columns: &[
-            Column::Text("feed in mm/min"),
-            Column::Number("off in µm"),
-            Column::Number("on in µm"),
+            Column::Text("feed /min"),
+            Column::Number("driven"),
+            Column::Number(&off),
+            Column::Number(&on),
             Column::Number("left in %"),
         ],
     };
-    let rows = round.circles.iter().map(|it| {
-        let cells = [it.off_um, it.on_um, 100.0 * it.on_um / it.off_um];
-        let cells = cells.map(|number| html! { (Rounded(number, 1).to_string()) });
-        Row::new(&Rounded(it.feed, 0).to_string(), cells.to_vec())
+    let rows = round.recorded.iter().map(|it| {
+        let cells = [it.off, it.on, 100.0 * it.on / it.off].map(|number| Rounded(number, 1));
+        let cells = [Rounded(it.driven, 0)].into_iter().chain(cells);
+        let cells = cells.map(|number| html! { (number.to_string()) });
+        Row::new(&Rounded(it.feed, 0).to_string(), cells.collect::<Vec<_>>())
     });
     let id = format!("round-{}", round.number);
     html! {
-        (figure(glitches_by_feed(&round.circles).render(Frame::Inside(&id))))
+        (figure(glitches_by_feed(round).render(Frame::Inside(&id))))
         (table.render(rows))
     }
 }
@@ -216,11 +216,7 @@ fn files(report: &ResultsReport) -> Markup {
         ],
     };
     let rows = report.results.iter().map(|result| {
-        let against = match &result.found {
-            Found::Friction(found) => found.against.join("; "),
-            Found::Circles(found) => found.against.join("; "),
-            Found::Refused(reason) => reason.clone(),
-        };
+        let against = result.found.against().join("; ");
         let program = result
             .program
             .map_or("not known".to_owned(), |it| it.to_string());

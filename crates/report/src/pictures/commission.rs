@@ -1,5 +1,6 @@
 //! The friction of a commissioned axis, and its circles before and after.
 
+use crate::commission::{Round, Shows};
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use frictcomp_recordings::commission::{BeforeAfter, FrictionFound};
 
@@ -51,23 +52,35 @@ pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
     }
 }
 
-/// The largest glitch over the feed, off and on.
-pub fn glitches_by_feed(circles: &[BeforeAfter]) -> LineChart {
+/// The glitches of a round over the feed, off and on.
+pub fn glitches_by_feed(round: &Round) -> LineChart {
     let series = |name: &str, value: fn(&BeforeAfter) -> f64| Series {
         name: name.to_owned(),
-        points: circles.iter().map(|it| [it.feed, value(it)]).collect(),
+        points: round
+            .recorded
+            .iter()
+            .map(|it| [it.driven, value(it)])
+            .collect(),
         drawn: Drawn::Marked,
     };
-    LineChart {
-        title: "Largest glitch of recorded circles".to_owned(),
-        description: format!(
-            "The largest glitch at {} recorded feeds with compensation off and on.",
-            circles.len()
+    let (title, x, y) = match round.shows {
+        Shows::Contour => ("Largest glitch of recorded circles", "mm", "glitch"),
+        Shows::FollowingError => (
+            "Following error after recorded reversals: motor side, not contour",
+            if round.unit == "µm" { "mm" } else { "degrees" },
+            "following error",
         ),
-        x: ChartAxis::linear("feed in mm/min"),
+    };
+    LineChart {
+        title: title.to_owned(),
+        description: format!(
+            "{title}, at {} feeds with compensation off and on.",
+            round.recorded.len()
+        ),
+        x: ChartAxis::linear(format!("feed in {x}/min")),
         panels: vec![Panel {
-            y: ChartAxis::linear("glitch in µm").from_zero(),
-            series: vec![series("off", |it| it.off_um), series("on", |it| it.on_um)],
+            y: ChartAxis::linear(format!("{y} in {}", round.unit)).from_zero(),
+            series: vec![series("off", |it| it.off), series("on", |it| it.on)],
             ..Panel::default()
         }],
         ..LineChart::default()

@@ -1,0 +1,320 @@
+//! The following error of an axis: what its loops leave of the commanded motion, and what is left after reversals
+//! (R16.1, R16.9).
+//!
+//! A loop without friction answers a commanded motion with a following error that is linear in the velocity and in
+//! the accelerations of the last tenths of a second. This answer is fitted to the samples before reversals; what
+//! differs from it after one is the work of friction, or of a list.
+
+use thiserror::Error;
+
+use crate::identify::{Track, count, moving_average, noise_of, samples_in, solve_linear};
+
+/// Samples that are further apart do not show a glitch: twice the time that is asked for.
+pub(super) const COARSEST_S: f64 = 0.002_05;
+
+/// Signals are averaged over so many s.
+const AVERAGED_S: f64 = 0.008;
+
+/// Friction shows for so many s after a start or a reversal.
+const AFTER_S: f64 = 0.15;
+
+/// Slower than that in mm/s or °/s is standstill.
+const STANDSTILL: f64 = 0.05;
+
+/// A reversal with a longer standstill in s is a stop and a start.
+const AT_ONCE_S: f64 = 0.1;
+
+/// The times in s after which an acceleration shows in the following error; the answer is linear between them.
+const KNOTS_S: [f64; 11] = [
+    0.0, 0.004, 0.008, 0.014, 0.02, 0.03, 0.045, 0.065, 0.09, 0.13, 0.18,
+];
+
+/// The part of the way that a following error may be beyond what its loops explain.
+const UNEXPLAINED: f64 = 0.01;
+
+/// Why a following error tells nothing.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NotFollowed {
+    /// Neither the following error nor both positions.
+    #[error(
+        "neither the following error nor the actual position beside the commanded one is in it; name them with \
+         `--following-error` or with `--actual-position` and `--position`"
+    )]
+    Absent,
+    /// Samples that are too far apart.
+    #[error("a sample every {step_ms} ms does not show what a reversal does; record every ms")]
+    Coarse {
+        /// The time between two samples, as a text of few digits.
+        step_ms: String,
+    },
+    /// Samples that are missing.
+    #[error("after {after_s:.3} s samples are missing")]
+    Gap {
+        /// The last time before.
+        after_s: f64,
+    },
+    /// An axis that does not move.
+    #[error("the axis does not move")]
+    Still,
+    /// An actual position that goes elsewhere.
+    #[error(
+        "the actual position does not follow the commanded one: up to {most:.3} remain of {way:.3} that were \
+         commanded; two axes are mixed, or a unit is wrong"
+    )]
+    Elsewhere {
+        /// The largest difference in mm or degrees beyond the answer of the loops.
+        most: f64,
+        /// The commanded way in mm or degrees.
+        way: f64,
+    },
+}
+
+/// A recorded axis and what its following error has beyond the answer of its loops.
+#[derive(Debug, Clone)]
+pub(super) struct Following {
+    /// The time between two samples in s.
+    step_s: f64,
+    /// Commanded velocities in mm/s or °/s.
+    velocities: Vec<f64>,
+    /// What is left of the following errors in mm or degrees.
+    left: Vec<f64>,
+}
+
+/// A reversal without a stop.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    /// The direction after it.
+    pub(super) sign: f64,
+    /// The fastest velocity of the stroke before it in mm/s or °/s.
+    pub(super) speed: f64,
+    /// What is left of the following error after it in mm or degrees, positive where the axis stays behind.
+    pub(super) left: Vec<f64>,
+}
+
+impl Following {
+    /// The rest of following errors, commanded less actual position in 0.1 µm or 0.0001°.
+    ///
+    /// # Errors
+    /// They are not there, too coarse, or those of another motion.
+    pub(super) fn of(track: &Track, errors: &[f64]) -> Result<Self, NotFollowed> {
+        if errors.is_empty() || errors.len() != track.times_s.len() {
+            return Err(NotFollowed::Absent);
+        }
+        let step_s = track.step_s;
+        if !(step_s > 0.0 && step_s <= COARSEST_S) {
+            let step_ms = format!("{:.1}", step_s * 1000.0);
+            return Err(NotFollowed::Coarse { step_ms });
+        }
+        let gap = track
+            .times_s
+            .windows(2)
+            .find(|pair| pair[1] - pair[0] > 5.0 * step_s);
+        if let Some(&[after_s, _]) = gap {
+            return Err(NotFollowed::Gap { after_s });
+        }
+        let width = samples_in(AVERAGED_S, step_s);
+        let velocities = moving_average(&commanded(track), width);
+        let scaled: Vec<f64> = errors.iter().map(|it| it * 1e-4).collect();
+        let errors = moving_average(&scaled, width);
+        if velocities.iter().all(|it| it.abs() < STANDSTILL) {
+            return Err(NotFollowed::Still);
+        }
+        let motion = Motion::of(&velocities, step_s);
+        let answer = motion.answer(&errors);
+        let left: Vec<f64> = (0..errors.len())
+            .map(|at| errors[at] - answer.as_ref().map_or(0.0, |it| motion.expected(it, at)))
+            .collect();
+        let most = left.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let way = motion.way();
+        if answer.is_none() || most > UNEXPLAINED * way {
+            return Err(NotFollowed::Elsewhere { most, way });
+        }
+        Ok(Self {
+            step_s,
+            velocities,
+            left,
+        })
+    }
+
+    /// The reversals without a stop, in their order.
+    pub(super) fn turns(&self) -> Vec<Turn> {
+        let after = samples_in(AFTER_S, self.step_s);
+        let at_once = samples_in(AT_ONCE_S, self.step_s);
+        let mut turns = Vec::new();
+        let mut last: Option<(usize, f64)> = None;
+        let mut speed = 0.0_f64;
+        for (at, &velocity) in self.velocities.iter().enumerate() {
+            if velocity.abs() < STANDSTILL {
+                continue;
+            }
+            let sign = velocity.signum();
+            if let Some((before, _)) = last.filter(|it| it.1 * sign < 0.0) {
+                if at - before <= at_once && at + after <= self.left.len() {
+                    let left = self.left[at..at + after].iter().map(|it| it * sign);
+                    turns.push(Turn {
+                        sign,
+                        speed,
+                        left: left.collect(),
+                    });
+                }
+                speed = 0.0;
+            }
+            speed = speed.max(velocity.abs());
+            last = Some((at, sign));
+        }
+        turns
+    }
+}
+
+/// The commanded velocities in mm/s or °/s: as they were recorded, or of the positions where those are less noisy.
+fn commanded(track: &Track) -> Vec<f64> {
+    let recorded = track.velocities.as_ref();
+    let recorded: Option<Vec<f64>> = recorded.map(|it| it.iter().map(|it| it * 1e-3).collect());
+    let derived = track.positions.as_ref().map(|positions| {
+        let last = positions.len().saturating_sub(1);
+        let slope = |at: usize| {
+            let (from, to) = (at.saturating_sub(1), (at + 1).min(last));
+            let seconds = track.times_s[to] - track.times_s[from];
+            (positions[to] - positions[from]) * 1e-4 / seconds.max(1e-6)
+        };
+        (0..positions.len()).map(slope).collect::<Vec<f64>>()
+    });
+    match (recorded, derived) {
+        (Some(recorded), Some(derived)) if noise_of(&derived) < noise_of(&recorded) => derived,
+        (Some(recorded), _) => recorded,
+        (None, derived) => derived.unwrap_or_default(),
+    }
+}
+
+/// The commanded motion, with the accelerations that still show at each sample.
+struct Motion<'a> {
+    velocities: &'a [f64],
+    accelerations: Vec<f64>,
+    /// The weights of earlier accelerations for each knot, and the sample before which they begin.
+    shares: Vec<Vec<(usize, f64)>>,
+    /// Whether a sample is long enough after a start or a reversal.
+    is_settled: Vec<bool>,
+    step_s: f64,
+}
+
+impl<'a> Motion<'a> {
+    fn of(velocities: &'a [f64], step_s: f64) -> Self {
+        let last = velocities.len() - 1;
+        let slope = |at: usize| {
+            let (from, to) = (at.saturating_sub(1), (at + 1).min(last));
+            (velocities[to] - velocities[from]) / (count(to - from).max(1.0) * step_s)
+        };
+        let after = samples_in(AFTER_S, step_s);
+        let mut direction = 0.0_f64;
+        let mut since = after;
+        let is_settled = velocities.iter().map(|velocity| {
+            let now = if velocity.abs() < STANDSTILL {
+                0.0
+            } else {
+                velocity.signum()
+            };
+            since = if now == direction || now == 0.0 {
+                since + 1
+            } else {
+                0
+            };
+            direction = now;
+            since >= after
+        });
+        Self {
+            is_settled: is_settled.collect(),
+            accelerations: (0..=last).map(slope).collect(),
+            shares: (0..KNOTS_S.len())
+                .map(|knot| shares(knot, step_s))
+                .collect(),
+            velocities,
+            step_s,
+        }
+    }
+
+    /// The way from one end to the other in mm or degrees.
+    fn way(&self) -> f64 {
+        let mut place = 0.0_f64;
+        let [mut low, mut high] = [0.0_f64; 2];
+        for velocity in self.velocities {
+            place += velocity * self.step_s;
+            low = low.min(place);
+            high = high.max(place);
+        }
+        high - low
+    }
+
+    /// What the loops may answer to: a constant, the direction, the velocity, accelerations of the past.
+    fn causes(&self, at: usize) -> Vec<f64> {
+        let velocity = self.velocities[at];
+        let direction = if velocity.abs() < STANDSTILL {
+            0.0
+        } else {
+            velocity.signum()
+        };
+        let past = self.shares.iter().map(|shares| {
+            let weighed = shares.iter().filter_map(|&(ago, share)| {
+                Some(share * self.accelerations.get(at.checked_sub(ago)?)?)
+            });
+            weighed.sum::<f64>()
+        });
+        [1.0, direction, velocity].into_iter().chain(past).collect()
+    }
+
+    fn expected(&self, answer: &[f64], at: usize) -> f64 {
+        let causes = self.causes(at);
+        causes
+            .iter()
+            .zip(answer)
+            .map(|(one, other)| one * other)
+            .sum()
+    }
+
+    /// The answer that fits the settled samples best; `None` where nothing decides it.
+    fn answer(&self, errors: &[f64]) -> Option<Vec<f64>> {
+        /// Keeps what no motion tells at 0.
+        const NEARLY: f64 = 1e-9;
+        let size = 3 + KNOTS_S.len();
+        let mut rows = vec![vec![0.0; size + 1]; size];
+        for at in (0..errors.len()).filter(|at| self.is_settled[*at]) {
+            let causes = self.causes(at);
+            for (row, cause) in rows.iter_mut().zip(&causes).filter(|it| *it.1 != 0.0) {
+                let products = causes.iter().chain([&errors[at]]);
+                for (sum, other) in row.iter_mut().zip(products) {
+                    *sum += cause * other;
+                }
+            }
+        }
+        for (at, row) in rows.iter_mut().enumerate() {
+            row[at] = row[at] * (1.0 + NEARLY) + f64::MIN_POSITIVE.sqrt();
+        }
+        solve_linear(rows)
+    }
+}
+
+/// The samples ago and the weights of a knot, which is linear between its neighbours.
+fn shares(knot: usize, step_s: f64) -> Vec<(usize, f64)> {
+    let at = KNOTS_S[knot];
+    let before = knot.checked_sub(1).map_or(at, |it| KNOTS_S[it]);
+    let after = KNOTS_S.get(knot + 1).copied().unwrap_or(at);
+    let last = samples_in(after, step_s);
+    let share = |ago: usize| {
+        let time = count(ago) * step_s;
+        if time <= at && at > before {
+            (time - before) / (at - before)
+        } else if time > at && after > at {
+            (after - time) / (after - at)
+        } else {
+            f64::from(u8::from((time - at).abs() < 0.5 * step_s))
+        }
+    };
+    let weighed = (0..=last).map(|ago| (ago, share(ago)));
+    weighed.filter(|(_, share)| *share > 0.0).collect()
+}
+
+/// Says where an actual position does not follow the commanded one; nothing where it was not recorded, or too
+/// coarsely to tell.
+pub fn actual_elsewhere(track: &Track, following_errors: &[f64]) -> Option<NotFollowed> {
+    let error = Following::of(track, following_errors).err();
+    error.filter(|it| matches!(it, NotFollowed::Elsewhere { .. }))
+}

@@ -34,6 +34,7 @@ const UNEXPLAINED: f64 = 0.01;
 
 /// Why a following error tells nothing.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NotFollowed {
     /// Neither the following error nor both positions.
     #[error(
@@ -206,23 +207,28 @@ impl<'a> Motion<'a> {
         };
         let after = samples_in(AFTER_S, step_s);
         let mut direction = 0.0_f64;
-        let mut since = after;
-        let is_settled = velocities.iter().map(|velocity| {
+        let mut since = 0;
+        let mut is_settled = vec![false; velocities.len()];
+        for (at, &velocity) in velocities.iter().enumerate() {
             let now = if velocity.abs() < STANDSTILL {
                 0.0
             } else {
                 velocity.signum()
             };
-            since = if now == direction || now == 0.0 {
-                since + 1
+            if now == direction {
+                since += 1;
             } else {
-                0
-            };
+                // The averages shortly before hold what comes after.
+                let before = at.saturating_sub(2 * samples_in(AVERAGED_S, step_s));
+                is_settled[before..at].fill(false);
+                since = 0;
+            }
             direction = now;
-            since >= after
-        });
+            // At standstill friction holds whatever the loops ask for.
+            is_settled[at] = now != 0.0 && since >= after;
+        }
         Self {
-            is_settled: is_settled.collect(),
+            is_settled,
             accelerations: (0..=last).map(slope).collect(),
             shares: (0..KNOTS_S.len())
                 .map(|knot| shares(knot, step_s))

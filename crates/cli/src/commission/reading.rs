@@ -14,8 +14,8 @@ use frictcomp_host::{
 use frictcomp_physics::circle::{CommandedCircle, PathCentre};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, Plan, Program, RecordedStrokes,
-    Stage, StrokesFound, actual_elsewhere,
+    CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, NotFollowed, Plan, Program,
+    RecordedStrokes, Stage, StrokesFound, actual_elsewhere,
 };
 use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Wanted, identify};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
@@ -283,7 +283,16 @@ impl ReadingArgs {
             following_errors: &following_errors[before..],
         };
         let found = StrokesFound::of((&axis.name, axis.unit()), strokes, feeds);
-        let mut found = found.map_err(|error| Failure::new(error.to_string()))?;
+        let mut found = found.map_err(|error| {
+            let failure = Failure::new(error.to_string());
+            if error == NotFollowed::Absent {
+                failure.with_help(
+                    "name them with `--following-error`, or `--actual-position` and `--position`",
+                )
+            } else {
+                failure
+            }
+        })?;
         if recorded.plan.stage == Stage::Off && found.against.is_empty() && !found.is_seen() {
             found.against.push(
                 "no reversal shows in the following error: it is that of another axis, or compensation is on"

@@ -571,6 +571,7 @@ sent! {
     report::commission::Results,
     report::commission::ResultsReport,
     report::commission::Round,
+    report::commission::Shows,
     report::commission::ValueListUsed,
     report::compare::ContoursReport,
     report::compare::VersionsReport,

@@ -38,8 +38,7 @@ const UNEXPLAINED: f64 = 0.01;
 pub enum NotFollowed {
     /// Neither the following error nor both positions.
     #[error(
-        "neither the following error nor the actual position beside the commanded one is in it; name them with \
-         `--following-error` or with `--actual-position` and `--position`"
+        "neither the following error nor the actual position beside the commanded one is in it"
     )]
     Absent,
     /// Samples that are too far apart.

@@ -244,7 +244,11 @@ impl ReadingArgs {
         let found =
             identify(&track, &options).map_err(|error| refusal(error, &recording.findings))?;
         let mut friction = FrictionFound::of(&axis.name, &found, speeds);
-        friction.check_length(&track, recorded.program.time_after_signature_s());
+        let has_signature = recorded.from_s > 0.0;
+        friction.check_length(
+            &track,
+            has_signature.then(|| recorded.program.time_after_signature_s()),
+        );
         friction.against.extend(elsewhere.map(|it| it.to_string()));
         friction.notes.extend(
             recording

@@ -56,6 +56,9 @@ pub enum NotFollowed {
     /// An axis that does not move.
     #[error("the axis does not move")]
     Still,
+    /// A motion in which too little accelerates.
+    #[error("its motion does not show how the loops answer to accelerations")]
+    Undetermined,
     /// An actual position that goes elsewhere.
     #[error(
         "the actual position does not follow the commanded one: up to {most:.3} remain of {way:.3} that were \
@@ -124,10 +127,17 @@ impl Following {
         let left: Vec<f64> = (0..errors.len())
             .map(|at| errors[at] - answer.as_ref().map_or(0.0, |it| motion.expected(it, at)))
             .collect();
-        let most = left.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let most_of = |chosen: &dyn Fn(usize) -> bool| {
+            let chosen = (0..left.len()).filter(|at| chosen(*at));
+            chosen.fold(0.0_f64, |most, at| most.max(left[at].abs()))
+        };
         let way = motion.way();
+        let most = most_of(&|at| motion.is_settled[at]);
         if answer.is_none() || most > UNEXPLAINED * way {
             return Err(NotFollowed::Elsewhere { most, way });
+        }
+        if most_of(&|_| true) > UNEXPLAINED * way {
+            return Err(NotFollowed::Undetermined);
         }
         Ok(Self {
             step_s,

@@ -112,8 +112,9 @@ impl FrictionFound {
         }
     }
 
-    /// Checks that a recording, from its strokes on, is as long as its program in s, and that it has every ms.
-    pub fn check_length(&mut self, track: &Track, planned_s: f64) {
+    /// Checks that a recording, from its strokes on, is as long as its program in s, `None` where its strokes are
+    /// not in it, and that it has every ms.
+    pub fn check_length(&mut self, track: &Track, planned_s: Option<f64>) {
         const WHOLE: f64 = 0.97;
         const FINE_S: f64 = 0.0015;
         if track.step_s > FINE_S {
@@ -124,7 +125,7 @@ impl FrictionFound {
         }
         let ends = track.times_s.first().zip(track.times_s.last());
         let recorded_s = ends.map_or(0.0, |(first, last)| last - first);
-        let Some(part) = self.override_part else {
+        let Some((part, planned_s)) = self.override_part.zip(planned_s) else {
             return;
         };
         let planned_s = planned_s / part;

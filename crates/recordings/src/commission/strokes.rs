@@ -15,6 +15,9 @@ const ONE_RATIO: f64 = 0.05;
 /// Standard errors above which a glitch is seen.
 const SEEN: f64 = 5.0;
 
+/// No glitch of less is seen, in µm or 0.001°: the least that is named on circles, too (R5.28).
+const LEAST_SEEN: f64 = 0.5;
+
 /// The strokes of a recorded program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StrokesFound {
@@ -119,7 +122,8 @@ impl StrokesFound {
 
     /// Whether friction is seen at any reversal.
     pub fn is_seen(&self) -> bool {
-        self.reversals.iter().any(|it| it.glitch > SEEN * it.error)
+        let mut reversals = self.reversals.iter();
+        reversals.any(|it| it.glitch > (SEEN * it.error).max(LEAST_SEEN))
     }
 }
 

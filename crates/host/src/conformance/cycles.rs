@@ -52,9 +52,12 @@ impl ExpectedCycles {
                  `positions` has {count}"
             ));
         }
-        let switched = comp.into_iter().map(|is_on| match is_on {
-            true => Switched::On,
-            false => Switched::Off,
+        let switched = comp.into_iter().map(|is_on| {
+            if is_on {
+                Switched::On
+            } else {
+                Switched::Off
+            }
         });
         Ok(Self {
             axis,

@@ -1,5 +1,13 @@
 //! Questions to the control, and the agreed behaviour as data.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    reason = "rows and times of recordings that the tests make themselves"
+)]
+
 #[path = "questions/basis.rs"]
 mod basis;
 #[path = "questions/control.rs"]

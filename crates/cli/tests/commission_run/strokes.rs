@@ -192,9 +192,9 @@ fn strokes_that_show_nothing_are_refused() {
         text(&other)
     };
     let still = changed(&|it| {
-        it.x.iter_mut()
-            .enumerate()
-            .for_each(|(at, x)| *x = (at % 5) as f64)
+        for (at, x) in it.x.iter_mut().enumerate() {
+            *x = (at % 5) as f64;
+        }
     });
     let inverted = changed(&|it| it.x.iter_mut().for_each(|x| *x = -*x));
     let in_um = changed(&|it| it.x.iter_mut().for_each(|x| *x /= 10.0));

@@ -160,10 +160,10 @@ fn a_contour_that_cannot_be_driven_says_why() {
     };
     let plant = refused(json!({ "plant": "hard" }));
     assert!(plant.contains("hard"), "{plant}");
-    let plane = refused(json!({ "plane": ["X", "Q"] }));
+    let view = refused(json!({ "plane": ["X", "Q"] }));
     assert!(
-        plane.contains("no axis `Q`") && plane.contains("frictcomp.contour.plane"),
-        "{plane}"
+        view.contains("no axis `Q`") && view.contains("frictcomp.contour.plane"),
+        "{view}"
     );
     let start = refused(json!({ "start": { "U": 1 } }));
     assert!(

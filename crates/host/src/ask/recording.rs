@@ -15,7 +15,7 @@ use frictcomp_recordings::evidence::{
     Conclusion, EvidenceRecording, Samples, judge_currents, judge_look_ahead, judge_with_motion,
 };
 use frictcomp_recordings::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Pick, SelectError,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, Pick, SelectError,
     TimeSource, TraceRecording,
 };
 
@@ -146,7 +146,7 @@ impl RecordedQuestions<'_> {
         let objects = channels.iter().filter_map(|it| it.object);
         let mut numbers: Vec<u32> = objects
             .filter(|it| it.group & 0xF_FFFF == AXES)
-            .map(|it| it.axis())
+            .map(CncObject::axis)
             .collect();
         numbers.sort_unstable();
         numbers.dedup();

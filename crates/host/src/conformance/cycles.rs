@@ -52,13 +52,9 @@ impl ExpectedCycles {
                  `positions` has {count}"
             ));
         }
-        let switched = comp.into_iter().map(|is_on| {
-            if is_on {
-                Switched::On
-            } else {
-                Switched::Off
-            }
-        });
+        let switched = comp
+            .into_iter()
+            .map(|is_on| if is_on { Switched::On } else { Switched::Off });
         Ok(Self {
             axis,
             positions: written.positions,

@@ -5,6 +5,8 @@
 //! the accelerations of the last tenths of a second. This answer is fitted to the samples before reversals; what
 //! differs from it after one is the work of friction, or of a list.
 
+use std::cmp::Ordering;
+
 use thiserror::Error;
 
 use crate::identify::{Track, count, moving_average, noise_of, samples_in, solve_linear};
@@ -105,8 +107,9 @@ impl Following {
         }
         let step_s = track.step_s;
         if !(step_s > 0.0 && step_s <= COARSEST_S) {
-            let step_ms = format!("{:.1}", step_s * 1000.0);
-            return Err(NotFollowed::Coarse { step_ms });
+            return Err(NotFollowed::Coarse {
+                step_ms: format!("{:.1}", step_s * 1000.0),
+            });
         }
         let gap = track
             .times_s
@@ -215,14 +218,14 @@ impl<'a> Motion<'a> {
             (velocities[to] - velocities[from]) / (count(to - from).max(1.0) * step_s)
         };
         let after = samples_in(AFTER_S, step_s);
-        let mut direction = 0.0_f64;
+        let mut direction = Ordering::Equal;
         let mut since = 0;
         let mut is_settled = vec![false; velocities.len()];
         for (at, &velocity) in velocities.iter().enumerate() {
             let now = if velocity.abs() < STANDSTILL {
-                0.0
+                Ordering::Equal
             } else {
-                velocity.signum()
+                velocity.total_cmp(&0.0)
             };
             if now == direction {
                 since += 1;
@@ -234,7 +237,7 @@ impl<'a> Motion<'a> {
             }
             direction = now;
             // At standstill friction holds whatever the loops ask for.
-            is_settled[at] = now != 0.0 && since >= after;
+            is_settled[at] = now.is_ne() && since >= after;
         }
         Self {
             is_settled,

@@ -232,7 +232,7 @@ fn two_turns_without_a_shift_show_none() {
 
 #[test]
 fn noise_that_swings_everywhere_is_no_stick_slip() {
-    // R5.28: noise whose neighbouring samples are alike, as behind a slow loop, by sines of no common period.
+    // R5.28: noise whose neighbouring samples are alike, as after a slow loop, by sines of no common period.
     let swinging: Deviation = |direction, angle| {
         let time = time(direction, angle);
         let sines = (0..40).map(|at| {

@@ -23,7 +23,7 @@ pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<S
             "the first point of the value list is at 0: nothing is below it"
         }
         Question::Below if starts_silent => {
-            "the current of the first point is 0: below it there is none under either reading"
+            "the current of the first point is 0: below it no reading gives a current"
         }
         Question::Delay if list.delay_cycles <= 0 => "`delay_cycles` is 0: nothing is delayed",
         Question::Start if list.position_delay <= 0 => {

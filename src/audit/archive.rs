@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::cure::{Cure, Mending};
 use super::program::{AxisAudit, ProgramAudit};
 use crate::comp::Kind;
+use crate::readings::{Question, QuestionSet};
 
 /// The programs of one machine.
 #[derive(Debug, Clone, Default)]
@@ -97,6 +98,18 @@ impl Archive {
     /// The programs, in the order in which they came.
     pub fn programs(&self) -> &[ProgramAudit] {
         &self.programs
+    }
+
+    /// The open questions whose readings decide what the programs do to each other (R15.3): what a
+    /// program leaves reaches the next one unless a reset between them takes it back (R1.28).
+    pub fn rests_on(&self) -> QuestionSet {
+        let questions = self.programs.iter().map(|program| program.rests_on);
+        let mut questions = questions.fold(QuestionSet::default(), QuestionSet::union);
+        let mut axes = self.programs.iter().flat_map(|program| &program.axes);
+        if axes.any(AxisAudit::leaves_away) {
+            questions.insert(Question::Reset);
+        }
+        questions
     }
 
     /// Returns the effect of all programs together, for each axis and kind in the machine's order.

@@ -12,6 +12,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
     Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates,
 };
+use crate::readings::QuestionSet;
 use crate::text::Place;
 
 /// Origin of the present state of a selection.
@@ -70,6 +71,8 @@ pub(super) struct Observation {
     pub(super) within: Within,
     /// The called files whose blocks it executed.
     pub(super) called: BTreeSet<Arc<str>>,
+    /// The open questions whose readings decided something in it (R15.3).
+    pub(super) rests_on: QuestionSet,
     /// The main file.
     main: Option<Arc<str>>,
     /// The called file of the last block.
@@ -91,6 +94,7 @@ impl Observation {
             asked: BTreeMap::new(),
             within: Within::default(),
             called: BTreeSet::new(),
+            rests_on: QuestionSet::default(),
             main: None,
             last_called: None,
             doubt: None,

@@ -17,6 +17,8 @@ use crate::interpreter::{
     Event, Interpreter, Observer, Options, PossibleStates, StopPolicy, WayCondition,
 };
 use crate::machine::{Machine, Setting};
+use crate::readings::QuestionSet;
+use crate::timeline::ReadingsInForce;
 
 /// The end of a program, before which a mending block stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -130,6 +132,8 @@ pub struct ProgramAudit {
     pub ending: Ending,
     /// The files of other programs whose blocks it executes, by their names.
     pub called: BTreeSet<Arc<str>>,
+    /// The open questions whose readings decided something in its runs (R15.3).
+    pub rests_on: QuestionSet,
 }
 
 /// Audits the programs of one machine.
@@ -168,6 +172,11 @@ impl Auditor {
         &self.machine.axis(subject.axis).name
     }
 
+    /// The readings of the machine for some questions.
+    pub(super) fn readings(&self, questions: QuestionSet) -> ReadingsInForce {
+        ReadingsInForce::of(questions, &self.machine)
+    }
+
     /// An interpreter that starts with a state.
     pub(super) fn interpreter(&self, from: Compensation) -> Interpreter {
         let mut interpreter = Interpreter::new(Arc::clone(&self.machine), from, self.options);
@@ -193,6 +202,7 @@ impl Auditor {
             axes: self.axes(&runs),
             ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
             called: runs.called(),
+            rests_on: runs.rests_on(),
         })
     }
 
@@ -231,6 +241,7 @@ impl Auditor {
             observation.event(&self.scope, &event);
             ControlFlow::Continue(())
         })?;
+        observation.rests_on = interpreter.rests_on();
         Ok(observation)
     }
 

@@ -7,6 +7,7 @@ use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::{Deed, Observation};
 use super::scope::{Scope, Selected};
 use crate::interpreter::EndedBy;
+use crate::readings::QuestionSet;
 
 /// A program asks for the states of so many axes and kinds at most; of one that asks for more it is not
 /// known what it does.
@@ -91,6 +92,12 @@ impl Runs {
     pub(super) fn called(&self) -> BTreeSet<Arc<str>> {
         let called = self.all().flat_map(|run| &run.called);
         called.cloned().collect()
+    }
+
+    /// The open questions whose readings decided something.
+    pub(super) fn rests_on(&self) -> QuestionSet {
+        let questions = self.all().map(|run| run.rests_on);
+        questions.fold(QuestionSet::default(), QuestionSet::union)
     }
 
     /// The starts that are still to be tried: whatever the program asks for may be either, whatever the

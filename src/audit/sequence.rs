@@ -10,6 +10,8 @@ use super::program::Auditor;
 use super::scope::Selected;
 use crate::comp::Kind;
 use crate::interpreter::{EndedBy, Event, Interpreter, Observer, PossibleStates};
+use crate::readings::{Question, QuestionSet};
+use crate::timeline::ReadingsInForce;
 
 /// The programs of an order, one after another on one machine.
 pub struct Sequence<'a> {
@@ -17,6 +19,8 @@ pub struct Sequence<'a> {
     interpreter: Interpreter,
     /// The program that left each subject as it is, where that is not its start-up state.
     left_by: Vec<Option<String>>,
+    /// The open questions whose readings decided something so far.
+    rests_on: QuestionSet,
 }
 
 /// Effect of one program of the order.
@@ -31,6 +35,9 @@ pub struct Step {
     /// Effects on each axis and kind.
     #[serde(skip)]
     pub axes: Vec<StepAxis>,
+    /// The readings on which the states after it rest (R15.3).
+    #[serde(skip_serializing_if = "ReadingsInForce::is_empty")]
+    pub rests_on: ReadingsInForce,
 }
 
 /// Effect on an axis.
@@ -71,6 +78,7 @@ impl<'a> Sequence<'a> {
         Self {
             interpreter: auditor.interpreter(scope.start_up().clone()),
             left_by: vec![None; scope.subjects().len()],
+            rests_on: QuestionSet::default(),
             auditor,
         }
     }
@@ -121,8 +129,13 @@ impl<'a> Sequence<'a> {
             }
         }
         let has_failed = matches!(observation.by, Some(EndedBy::Error | EndedBy::Budget));
+        self.rests_on = self.rests_on.union(self.interpreter.rests_on());
+        if has_failed && self.left_by.iter().any(Option::is_some) {
+            self.rests_on.insert(Question::Reset);
+        }
         Ok(Step {
             file: file.to_owned(),
+            rests_on: self.auditor.readings(self.rests_on),
             stopped: observation.stopped.filter(|_| has_failed),
             axes,
         })

@@ -9,7 +9,7 @@ mod undescribed;
 
 use super::linter::{LeftAway, Linter, Taken};
 use super::memory;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{Ended, EndedBy, Executed};
 use crate::readings::Question;
 use crate::text::Span;
@@ -38,6 +38,14 @@ impl Linter<'_> {
         }
         if !(executed.outcomes.is_empty() && self.jumps.is_empty()) {
             self.jump(executed, said);
+        }
+        for refused in executed.diagnostics {
+            if refused.code == Code::PErr70435
+                && let Some(axis) = refused.axis.as_deref().and_then(|it| self.machine.find(it))
+            {
+                let required = self.machine.axis(axis).monitored();
+                self.memory.refused(axis, required, executed);
+            }
         }
         // The commands of a block act before its motion (R1.9).
         for motion in executed.motions() {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::memory::{Memory, Site};
-use crate::comp::{AxisIndex, Compensation, Kind, State};
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 
 /// A block is remembered with so many characters of its text.
 const MAX_TEXT: usize = 400;
@@ -59,12 +59,15 @@ struct Away {
 pub(crate) struct History {
     start_up: Compensation,
     axes: Vec<[Away; Kind::ALL.len()]>,
+    /// The kinds of each axis that nothing has switched since the start of the control.
+    unswitched: Vec<KindSet>,
 }
 
 impl History {
     pub(crate) fn new(start_up: Compensation) -> Self {
         Self {
             axes: vec![Default::default(); start_up.len()],
+            unswitched: vec![KindSet::ALL; start_up.len()],
             start_up,
         }
     }
@@ -87,6 +90,16 @@ impl History {
         self.axes[axis.get()][kind as usize].told = told;
     }
 
+    /// The kinds of an axis that nothing has switched since the start of the control.
+    pub(super) fn unswitched(&self, axis: AxisIndex) -> KindSet {
+        self.unswitched[axis.get()]
+    }
+
+    /// The states of an axis are those that an earlier session left.
+    pub(crate) fn inherit(&mut self, axis: AxisIndex) {
+        self.unswitched[axis.get()] = KindSet::NONE;
+    }
+
     /// Takes over what an earlier session knows.
     pub(crate) fn restore(&mut self, axis: AxisIndex, kind: Kind, maker: Maker) {
         self.axes[axis.get()][kind as usize].maker = Some(maker);
@@ -97,6 +110,9 @@ impl History {
         for (position, kinds) in self.axes.iter_mut().enumerate() {
             let axis = AxisIndex::new(position);
             for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
+                if did.axis(axis).kind(kind).last.is_some() {
+                    self.unswitched[position].remove(kind);
+                }
                 if left.state(axis, kind) == self.start_up.state(axis, kind) {
                     *away = Away::default();
                 } else if let Some((_, site)) = &did.axis(axis).kind(kind).last {

@@ -6,6 +6,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Executed, Outcome, WayCondition};
 use crate::machine::Machine;
+use crate::readings::{Question, QuestionSet};
 use crate::text::Place;
 
 /// A diagnostic at the end of a program, with the executed block that it is about.
@@ -92,6 +93,29 @@ impl<'m> Linter<'m> {
         !self.memory.has_new(executed)
             && self.jumps.is_empty()
             && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
+    }
+
+    /// The questions about the start of the control whose answers decide with which states the program
+    /// moved axes (R1.29, R1.40, R15.3).
+    pub(crate) fn rests_on(&self) -> QuestionSet {
+        let mut questions = QuestionSet::default();
+        for (at, of) in self.machine.axes.iter().enumerate() {
+            let axis = AxisIndex::new(at);
+            let memory = self.memory.axis(axis);
+            let unswitched = of.configured.intersection(self.history.unswitched(axis));
+            for kind in unswitched.iter() {
+                let did = memory.kind(kind);
+                let counts = kind == Kind::Frict || of.required.contains(kind) || did.is_commanded;
+                if counts && (did.moved_before.is_some() || did.refused) {
+                    questions.insert(if of.manual.contains(kind) {
+                        Question::ManualActivation
+                    } else {
+                        Question::Restart
+                    });
+                }
+            }
+        }
+        questions
     }
 
     /// Records the outcome of a note of [`end`](Self::end).

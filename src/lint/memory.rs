@@ -101,6 +101,8 @@ pub(super) struct KindMemory {
     /// The first block that moved the axis for sure, homing apart, while it was as the program found
     /// it, or may have been.
     pub(super) moved_before: Option<MovedBefore>,
+    /// Whether the control refused to move the axis while it was as the program found it (R1.36).
+    pub(super) refused: bool,
     /// The last command that switched it off, and the last that switched it on.
     pub(super) switched: [Option<Arc<Site>>; 2],
 }
@@ -296,6 +298,14 @@ impl Memory {
             memory.settled.any = is_on_all_ways;
         }
         is_new
+    }
+
+    /// A motion that the control refuses for what it requires (R1.36).
+    pub(super) fn refused(&mut self, axis: AxisIndex, required: KindSet, executed: &Executed<'_>) {
+        for kind in required.iter() {
+            let memory = &mut self.axes[axis.get()].kinds[kind as usize];
+            memory.refused |= executed.found.has(axis, kind);
+        }
     }
 
     /// Marks the message about the first motion of an axis as said.

@@ -139,8 +139,8 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         question: "Does a restart of the control set the state by P-AXIS-00522 again?",
         readings: ["start-up", "kept"],
         meanings: [
-            "the state is that of P-AXIS-00522",
-            "the state is the one before the restart",
+            "a restart sets the state by P-AXIS-00522",
+            "a restart keeps the state",
         ],
         assumed: Some(First),
         why: "with P-AXIS-00522 it is active directly after controller start-up",

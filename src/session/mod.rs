@@ -257,6 +257,7 @@ impl Session {
         };
         if !state.is_assumed_anew(self.machine.axis(axis), &self.machine) {
             self.start.restore(axis, saved.selected, saved.unknown);
+            self.history.inherit(axis);
         }
         for away in &saved.away {
             if let Some(maker) = &away.by {

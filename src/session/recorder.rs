@@ -59,7 +59,6 @@ impl Tally {
         for diagnostic in said {
             match diagnostic.code {
                 Code::Fc401 => self.rests_on.insert(Question::Reset),
-                Code::Fc405 => self.rests_on.insert(Question::WithMotion),
                 Code::Fc409 => self.rests_on.insert(Question::LookAhead),
                 Code::Fc902 => self.footing = Footing::Assumed,
                 _ => {}
@@ -394,6 +393,7 @@ impl Recorder<'_> {
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
         self.tally.note_footing(ended.diagnostics);
+        self.tally.rests_on = self.tally.rests_on.union(self.linter.rests_on());
         for axis in (0..ended.compensation.len()).map(AxisIndex::new) {
             let kinds = self.unknown_of(ended.compensation, axis);
             let kinds = kinds.iter().map(|kind| (axis, kind));

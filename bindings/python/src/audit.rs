@@ -79,7 +79,7 @@ fn audited(job: Job, stop: &Stop) -> Result<Audited, Failure> {
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(shown_path), archive)
+        MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
     });
     Ok(Audited {
         report: AuditReport {

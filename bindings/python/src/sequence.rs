@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp_host::AuditOptions;
-use frictcomp_report::audit::{sequence_records, step_line};
+use frictcomp_report::audit::{sequence_records, sequence_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
@@ -53,12 +53,11 @@ pub(crate) fn audit_sequence(
         options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
     };
     let (steps, said) = interruptible(py, move |stop| followed(job, stop))?;
-    let lines = steps.iter().map(|step| step_line(step) + "\n");
     let mut axes = steps.iter().flat_map(|step| &step.axes);
     Ok(PyAuditSequence {
         table: table(&steps),
         records: Value::from(sequence_records(&steps)).to_string(),
-        text: lines.collect(),
+        text: sequence_text(&steps),
         messages: Py::new(py, PyMessages::new(said))?,
         has_warnings: axes.any(|axis| axis.left_by.is_some()),
     })

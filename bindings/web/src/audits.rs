@@ -92,7 +92,8 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
         let audits = auditor.machines().iter().zip(archives);
         report.machines.extend(audits.map(|(loaded, archive)| {
             let origin = loaded.origin.as_deref();
-            MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+            let origin = origin.map(|it| it.display().to_string());
+            MachineAudit::new(origin, &loaded.machine, archive)
         }));
     }
     Audited { report, failures }

@@ -32,7 +32,7 @@ use frictcomp_host::{
 };
 use frictcomp_report::audit::{
     AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
-    step_line,
+    sequence_text,
 };
 use frictcomp_report::html::render_audit;
 
@@ -251,9 +251,7 @@ impl AuditArgs {
         target.text(&match self.format {
             Format::Json => document(&sequence_records(&steps)),
             Format::Ndjson => lines(&sequence_records(&steps)),
-            Format::Text | Format::Csv => steps
-                .iter()
-                .fold(String::new(), |text, step| text + &step_line(step) + "\n"),
+            Format::Text | Format::Csv => sequence_text(&steps),
         })?;
         outputs.finish()?;
         self.machine.say_unread(&registry, console);
@@ -283,7 +281,7 @@ fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(shown_path), archive)
+        MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
     });
     AuditReport {
         machines: machines.collect(),

@@ -124,7 +124,8 @@ fn compare(
 pub(super) fn unseen_remark(changed: &ChangedPrograms) -> Option<String> {
     const MOST_NAMED: usize = 5;
     let names = changed.unseen.iter().take(MOST_NAMED);
-    let names: Vec<String> = names.map(|path| format!("`{}`", shown(path))).collect();
+    let names = names.map(|place| format!("`{}`", shown(&Disk::named(place))));
+    let names: Vec<String> = names.collect();
     let more = if changed.unseen.len() > MOST_NAMED {
         ", \u{2026}"
     } else {

@@ -33,8 +33,9 @@ impl Meant {
             [_, only] => Some(only),
             _ => None,
         };
-        let is_file = alone
-            .is_some_and(|only| !is_command(&only.to_string_lossy()) && Path::new(only).is_file());
+        let is_file = alone.is_some_and(|only| {
+            !is_command(&only.to_string_lossy()) && is_meant_as_file(Path::new(only))
+        });
         if !is_file {
             return Self {
                 arguments,
@@ -62,6 +63,13 @@ impl Meant {
     pub(super) fn split(self) -> (Vec<OsString>, Option<PathBuf>) {
         (self.arguments, self.report)
     }
+}
+
+/// Whether an argument is a file, or is written as only a file is: where there is none, `run` says so.
+fn is_meant_as_file(path: &Path) -> bool {
+    let is_option = path.to_string_lossy().starts_with('-');
+    let is_written_so = path.extension().is_some() || path.components().count() > 1;
+    path.is_file() || (!is_option && is_written_so)
 }
 
 /// A new file among the temporary ones, which the browser reads when the command has ended.
@@ -124,6 +132,12 @@ mod tests {
         let report = Path::new(&dropped[4]).extension();
         assert_eq!(report.and_then(|it| it.to_str()), Some("html"));
         std::fs::remove_file(&dropped[4]).expect("it is there");
+        for missing in ["no.nc", "programs/no"] {
+            assert_eq!(
+                meant(&["frictcomp", missing], Start::Typed),
+                ["frictcomp", "run", missing]
+            );
+        }
         for other in [
             &["frictcomp"][..],
             &["frictcomp", "check"],

@@ -309,6 +309,10 @@ fn a_recording_without_states_is_refused() {
             ["has no times", "name the channel of the times"],
         ),
         ("t,active_X\n0,1\n1,7\n", ["holds 7", "`active_X`"]),
+        (
+            "t,active_X\n0,1\n1,0\n0.5,1\n",
+            ["do not rise", "after 1 s comes 0.5 s"],
+        ),
     ] {
         bench.write("states.csv", recording);
         let output = bench.call(&["replay", "states.csv", "m.nc"]);
@@ -317,6 +321,45 @@ fn a_recording_without_states_is_refused() {
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.iter().all(|it| said.contains(it)), "{said}");
     }
+}
+
+/// R15.21: what a recording cannot show is said beside an agreement: axes that it does not hold, and stretches
+/// without samples.
+#[test]
+fn an_agreement_says_what_was_not_recorded() {
+    let program =
+        "X[COMP OFF FRICT] Y[COMP OFF FRICT]\nG1 X1 F100\nX[COMP ON FRICT] Y[COMP ON FRICT]\nM30\n";
+    let bench = Bench::new(&[("m.nc", program)]);
+    bench.write(
+        "states.csv",
+        "t,active_X\n0,1\n0.1,0\n0.2,0\n0.9,0\n1.0,1\n",
+    );
+    let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
+    for words in [
+        "X: agrees (2 changes)",
+        "Y: switched by the programs and not recorded; nothing is said about it",
+        "no samples for 0.700 s after 0.200 s: a change there and back is not seen",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+    let found = json(&bench.stdout(&["replay", "states.csv", "m.nc", "--format", "json"]));
+    assert_eq!(found["unrecorded"], json(r#"["Y"]"#));
+    assert_eq!(found["gap"], json(r#"{"t":0.2,"seconds":0.7}"#));
+}
+
+/// R15.21: block numbers in the column of the lines are called so.
+#[test]
+fn block_numbers_that_stand_for_lines_are_named() {
+    let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
+    bench.write(
+        "states.csv",
+        "t,line,active_X\n0,10,1\n0.1,30,0\n0.2,70,1\n0.3,70,0\n",
+    );
+    let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
+    assert!(
+        said.contains("the program has no such lines, but such block numbers (`--block`)"),
+        "{said}"
+    );
 }
 
 /// R15.20: an export of Scope is read by the object of the state and the number of the axis, or by the names

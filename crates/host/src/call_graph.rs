@@ -32,6 +32,8 @@ pub struct GraphProgram {
     pub input: Input,
     /// Its name in outputs.
     pub name: String,
+    /// The one path that all names of its file lead to; `None` for standard input.
+    pub place: Option<PathBuf>,
     /// Whether it is one of the programs that were asked about, not only called by one.
     pub is_named: bool,
     /// The calls of programs that were found, in the order of the text.
@@ -278,9 +280,14 @@ impl Builder<'_> {
     /// The position of a program, which may be new.
     fn add(&mut self, input: Input, name: String, is_named: bool) -> usize {
         let next = self.graph.programs.len();
-        if let Input::File(path) | Input::Open(OpenText { path, .. }) = &input {
-            let real = self.disk.real(path).unwrap_or_else(|_| path.clone());
-            let at = *self.known.entry(real).or_insert(next);
+        let place = match &input {
+            Input::File(path) | Input::Open(OpenText { path, .. }) => {
+                Some(self.disk.real(path).unwrap_or_else(|_| path.clone()))
+            }
+            Input::Stdin => None,
+        };
+        if let Some(place) = &place {
+            let at = *self.known.entry(place.clone()).or_insert(next);
             if at < next {
                 return at;
             }
@@ -288,6 +295,7 @@ impl Builder<'_> {
         self.graph.programs.push(GraphProgram {
             input,
             name,
+            place,
             is_named,
             calls: Vec::new(),
             missing: Vec::new(),

@@ -22,11 +22,12 @@ pub struct ChangedPrograms {
     pub files: Vec<ChangedFile>,
     /// Whether a configuration or a list differs.
     pub is_machine_changed: bool,
-    /// The programs and lists that git does not look at: those that it ignores, or that lie elsewhere.
+    /// The places of the programs and lists that git does not look at: those that it ignores, or that
+    /// lie elsewhere.
     pub unseen: Vec<PathBuf>,
     /// The extensions that programs have here, in lower case.
     extensions: BTreeSet<String>,
-    /// The programs that were looked at.
+    /// The places of the programs that were looked at.
     read: Vec<PathBuf>,
 }
 
@@ -59,10 +60,10 @@ impl ChangedPrograms {
         if !changed.read.is_empty() {
             let mut seen = revision.files()?;
             seen.extend(changed.files.iter().filter_map(|file| file.new.clone()));
-            let lists = machines.files_read();
+            let lists = machines.files_read().into_iter();
+            let lists = lists.map(|list| Disk::place(&list));
             let read = std::mem::take(&mut changed.read).into_iter().chain(lists);
-            let unseen = read.filter(|path| !seen.contains(&Disk::place(path)));
-            changed.unseen = unseen.collect();
+            changed.unseen = read.filter(|place| !seen.contains(place)).collect();
         }
         Ok((changed, errors))
     }
@@ -91,9 +92,9 @@ impl ChangedPrograms {
         let programs = graph.programs().iter().zip(reached);
         let reached = programs.filter(|(program, is_reached)| program.is_named && *is_reached);
         let inputs = reached.map(|(program, _)| program.input.clone()).collect();
-        let paths = graph.programs().iter().filter_map(path_of);
-        let read = paths.clone().map(Path::to_owned).collect();
-        let extensions = paths.filter_map(|path| path.extension()?.to_str());
+        let programs = graph.programs().iter();
+        let read: Vec<PathBuf> = programs.filter_map(|it| it.place.clone()).collect();
+        let extensions = read.iter().filter_map(|path| path.extension()?.to_str());
         let extensions = extensions.map(str::to_ascii_lowercase).collect();
         let changed = Self {
             inputs,
@@ -159,12 +160,12 @@ impl<'a> Changes<'a> {
 
     /// Whether a program differs, or a call of it means another one.
     fn hold(&self, program: &GraphProgram) -> bool {
-        let differs = |path: &Path| self.places.contains(&Disk::place(path));
+        let place = program.place.as_deref();
         let misses = |name: &str| {
             let name = name.replace('\\', "/");
             self.gone.contains(&stem(Path::new(&name)))
         };
-        path_of(program).is_some_and(differs)
+        place.is_some_and(|place| self.places.contains(place))
             || !program.open.is_empty()
             || program.missing.iter().any(|missing| misses(&missing.name))
     }
@@ -191,13 +192,6 @@ impl<'a> Changes<'a> {
             (self.lists && has_lists)
                 || origin.is_some_and(|path| self.places.contains(&Disk::place(path)))
         })
-    }
-}
-
-fn path_of(program: &GraphProgram) -> Option<&Path> {
-    match &program.input {
-        Input::File(path) | Input::Open(OpenText { path, .. }) => Some(path),
-        Input::Stdin => None,
     }
 }
 

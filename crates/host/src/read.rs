@@ -53,7 +53,7 @@ pub(super) fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> 
     if length > most {
         return Err(too_big());
     }
-    let mut bytes = Vec::new();
+    let mut bytes = Vec::with_capacity(usize::try_from(length).expect("at most 1 GiB"));
     reader.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() > MOST_KEPT {
         return Err(too_big());

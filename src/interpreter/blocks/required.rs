@@ -52,6 +52,14 @@ impl Interpreter {
         }
     }
 
+    /// Notes that it matters whether a command acts before the motion of its block (R1.9).
+    pub(in crate::interpreter) fn note_command_with_motion(&mut self) {
+        let is_taken = self.scratch.outcomes.iter().any(|it| it.result.is_ok());
+        if is_taken && !self.scratch.moved.is_empty() {
+            self.state.rests_on.insert(Question::WithMotion);
+        }
+    }
+
     /// The state in which the block moves an axis (R1.9).
     fn state_in_motion(&self, axis: AxisIndex, kind: Kind) -> State {
         let mut changes = self.scratch.changes.iter();

@@ -45,6 +45,9 @@ impl Interpreter {
         }
         self.move_around(words);
         self.carry_along(words);
+        if !self.scratch.outcomes.is_empty() {
+            self.note_command_with_motion();
+        }
         if self.any_required && self.state.control.described.is_none() {
             let goes_on = !self.scratch.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {

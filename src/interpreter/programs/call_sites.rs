@@ -36,11 +36,12 @@ pub fn call_sites(text: &str, programs: &ConfiguredPrograms) -> Vec<CallSite> {
     if !calls_by_words && !text.contains('#') && !may_call_file(text.as_bytes()) {
         return Vec::new();
     }
-    let macros = programs.macros.iter().cloned().collect();
+    let words = programs.words.iter();
+    let words = words.map(|(word, name)| (canonical_word(word), Some(name.clone())));
     let mut sites = Sites {
         programs,
-        macros,
-        named: BTreeMap::new(),
+        macros: programs.macros.iter().cloned().collect(),
+        by_word: words.collect(),
         line: 1,
         found: Vec::new(),
     };
@@ -101,8 +102,9 @@ struct Sites<'a> {
     programs: &'a ConfiguredPrograms,
     /// The macros that were defined so far, with their code.
     macros: BTreeMap<String, String>,
-    /// The programs that `#FILE NAME` names for words; `None` for a name that only a run can tell.
-    named: BTreeMap<String, Option<String>>,
+    /// The programs of words, of the configuration and of `#FILE NAME`; `None` for a name that only a
+    /// run can tell.
+    by_word: BTreeMap<String, Option<String>>,
     line: u32,
     found: Vec<CallSite>,
 }
@@ -178,7 +180,7 @@ impl Sites<'_> {
                 FileName::Written(name) => Some(name.to_owned()),
                 FileName::Elsewhere(_) => None,
             };
-            self.named.insert(word, name);
+            self.by_word.insert(word, name);
         }
     }
 
@@ -195,22 +197,17 @@ impl Sites<'_> {
 
     /// A function, whose number is `None` where only a run can tell it.
     fn function(&mut self, letter: char, number: Option<i64>) {
+        if self.by_word.is_empty() {
+            return;
+        }
         let Some(number) = number else {
-            let is_of_letter = |word: &str| word.starts_with(letter);
-            let configured = self.programs.words.iter();
-            let mut words = configured.map(|(word, _)| canonical_word(word));
-            if words.any(|word| is_of_letter(&word)) || self.named.keys().any(|it| is_of_letter(it))
-            {
+            if self.by_word.keys().any(|word| word.starts_with(letter)) {
                 self.add(None);
             }
             return;
         };
         for word in [format!("{letter}{number}"), letter.to_string()] {
-            let called = match self.named.get(&word) {
-                Some(named) => Some(named.clone()),
-                None => self.programs.word(&word).map(|name| Some(name.to_owned())),
-            };
-            if let Some(called) = called {
+            if let Some(called) = self.by_word.get(&word).cloned() {
                 // An empty name takes the program of a word away.
                 if called.as_deref() != Some("") {
                     self.add(called);

@@ -42,7 +42,20 @@ pub(super) fn remarks(replayed: &Replayed) -> Vec<String> {
     } else {
         None
     };
-    decided.chain(stopped).chain(untried).chain(ways).collect()
+    let unrecorded = replayed.unrecorded.iter();
+    let unrecorded = unrecorded.map(|axis| {
+        let axis = visible_line(axis);
+        format!("{axis}: switched by the programs and not recorded; nothing is said about it")
+    });
+    let gap = replayed.gap.map(|gap| {
+        format!(
+            "no samples for {:.3} s after {:.3} s: a change there and back is not seen",
+            gap.length_s, gap.at_s
+        )
+    });
+    let limits = unrecorded.chain(gap);
+    let found = decided.chain(stopped).chain(untried).chain(ways);
+    found.chain(limits).collect()
 }
 
 fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
@@ -153,7 +166,11 @@ pub(super) fn document(replayed: &Replayed) -> Value {
         "axes": axes,
         "decided": decided,
         "ways": { "tried": replayed.ways[0], "fitting": replayed.ways[1] },
+        "unrecorded": replayed.unrecorded,
     });
+    if let Some(gap) = replayed.gap {
+        document["gap"] = json!({ "t": gap.at_s, "seconds": gap.length_s });
+    }
     for (key, reason) in [
         ("stopped", &replayed.stopped),
         ("untried", &replayed.untried),

@@ -357,6 +357,7 @@ sent! {
     host::replay::MatchedChange,
     host::replay::RecordedAxis,
     host::replay::RecordedChange,
+    host::replay::RecordedGap,
     host::replay::Replay<'_>,
     host::replay::ReplayChannels,
     host::replay::ReplayPlace,

@@ -29,16 +29,9 @@ const MOST_NAMED: usize = 5;
 /// The position of the program of a URI.
 fn position(graph: &CallGraph, uri: &Uri) -> Option<usize> {
     let path = path_of(&uri.0)?;
-    let (name, place) = (path.file_name()?, Disk::place(&path));
-    graph.programs().iter().position(|program| {
-        let path = path_of_program(program);
-        // Names first: a look at the disk takes its time.
-        let path = path.filter(|it| {
-            it.file_name()
-                .is_some_and(|it| it.eq_ignore_ascii_case(name))
-        });
-        path.is_some_and(|path| Disk::place(path) == place)
-    })
+    let place = Disk::place(&path);
+    let mut programs = graph.programs().iter();
+    programs.position(|program| program.place.as_ref() == Some(&place))
 }
 
 fn path_of_program(program: &GraphProgram) -> Option<&Path> {

@@ -158,7 +158,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         .zip(archives)
         .map(|(loaded, archive)| {
             let origin = loaded.origin.as_deref();
-            MachineAudit::new(origin.map(shown_path), archive)
+            MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
         });
     let report = AuditReport {
         machines: audits.collect(),

@@ -194,10 +194,17 @@ impl Pair<'_> {
                 "line"
             };
             return (!self.passes(switch.at, [before, after])).then(|| {
-                if before == after {
-                    format!("the machine changes at {kind} {after}")
+                let numbers = if self.are_numbers([before, after]) {
+                    "; the program has no such lines, but such block numbers (`--block`)"
                 } else {
-                    format!("the machine changes between {kind} {before} and {kind} {after}")
+                    ""
+                };
+                if before == after {
+                    format!("the machine changes at {kind} {after}{numbers}")
+                } else {
+                    format!(
+                        "the machine changes between {kind} {before} and {kind} {after}{numbers}"
+                    )
                 }
             });
         }
@@ -211,6 +218,14 @@ impl Pair<'_> {
                 self.recorded.name, one[1], other[0], other[1]
             )
         })
+    }
+
+    /// Whether what was recorded as lines can only be block numbers.
+    fn are_numbers(&self, recorded: [i64; 2]) -> bool {
+        let steps = &self.course.steps;
+        let is_line = |it: &i64| steps.iter().any(|step| i64::from(step.line) == *it);
+        let is_number = |it: &i64| steps.iter().any(|step| step.number == Some(*it));
+        !self.measure.by_number && recorded.iter().all(is_number) && !recorded.iter().all(is_line)
     }
 
     fn key(&self, step: &Step) -> Option<i64> {

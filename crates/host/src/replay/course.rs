@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::conditions::Condition;
+use super::recorded::RecordedAxis;
 use crate::discovery::LoadedMachine;
 use crate::dry_run::{Programs, RunContext, expect_axes, run_programs};
 use crate::error::HostError;
@@ -95,6 +96,13 @@ impl Course {
             course.stopped = Some(format!("{} of the programs did not run", played.unrun));
         }
         Ok(course)
+    }
+
+    /// The axes that the programs switch and that were not recorded.
+    pub(super) fn switched_beside(&self, recorded: &[RecordedAxis]) -> Vec<String> {
+        let switched = self.axes.iter().filter(|axis| !axis.switches.is_empty());
+        let beside = switched.filter(|axis| recorded.iter().all(|it| it.name != axis.name));
+        beside.map(|axis| axis.name.clone()).collect()
     }
 
     fn take(&mut self, record: &Record<'_>, loaded: &LoadedMachine) -> ControlFlow<()> {

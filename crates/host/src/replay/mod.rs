@@ -10,5 +10,7 @@ mod replayed;
 pub use beside::{Disagreement, MatchedChange, ReplayPlace, ReplayedAxis, ReplayedBy};
 pub use conditions::TriedCondition;
 pub(crate) use recorded::axis_of;
-pub use recorded::{RecordedAxis, RecordedChange, ReplayChannels, StateRecording, read_states};
+pub use recorded::{
+    RecordedAxis, RecordedChange, RecordedGap, ReplayChannels, StateRecording, read_states,
+};
 pub use replayed::{Replay, Replayed};

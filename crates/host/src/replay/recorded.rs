@@ -7,8 +7,8 @@ use crate::trace_error::TraceError;
 use crate::traces::{lacks, numbers_of, read_trace};
 use frictcomp::machine::Machine;
 use frictcomp_recordings::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, SelectError,
-    TimeSource, TraceRecording,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, CncObject, NotAligned,
+    SelectError, TimeSource, TraceRecording,
 };
 
 /// 0.1 µm in a millimetre.
@@ -36,8 +36,19 @@ pub struct ReplayChannels {
 pub struct StateRecording {
     /// Each axis whose state was recorded.
     pub axes: Vec<RecordedAxis>,
+    /// The longest stretch without samples, where there is one.
+    pub gap: Option<RecordedGap>,
     /// Whether blocks were recorded by their block numbers, not by lines.
     pub(super) by_number: bool,
+}
+
+/// A stretch of a recording in which samples are missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecordedGap {
+    /// The time of the last sample before it, in seconds.
+    pub at_s: f64,
+    /// Its length in seconds.
+    pub length_s: f64,
 }
 
 /// Recording of an axis.
@@ -120,6 +131,7 @@ pub fn read_states(
     let axes = found.axes.iter().map(|axis| samples.axis(axis));
     Ok(StateRecording {
         axes: axes.collect::<Result<_, _>>()?,
+        gap: samples.longest_gap(),
         by_number: found.by_number,
     })
 }
@@ -303,9 +315,31 @@ impl Samples<'_> {
         })
     }
 
+    /// Returns the times of a channel, which rise.
     fn times(&self, channel: ChannelIndex) -> Result<&[f64], TraceError> {
         let times = self.recording.times_s(channel);
-        times.ok_or_else(|| TraceError::NoTimes(self.path.to_owned()))
+        let times = times.ok_or_else(|| TraceError::NoTimes(self.path.to_owned()))?;
+        match times.windows(2).find(|pair| pair[1] <= pair[0]) {
+            None => Ok(times),
+            Some(pair) => Err(TraceError::Apart {
+                path: self.path.to_owned(),
+                reason: NotAligned::Backwards {
+                    before_s: pair[0],
+                    after_s: pair[1],
+                },
+            }),
+        }
+    }
+
+    fn longest_gap(&self) -> Option<RecordedGap> {
+        let states = self.found.axes.iter().map(|axis| axis.state);
+        let clocks = states.filter_map(|state| Clock::of(self.recording.times_s(state)?));
+        let gaps = clocks.filter(|clock| clock.gaps > 0);
+        let gaps = gaps.map(|clock| RecordedGap {
+            at_s: clock.gap_at_s,
+            length_s: clock.longest_gap_s,
+        });
+        gaps.max_by(|one, other| one.length_s.total_cmp(&other.length_s))
     }
 
     /// Returns the values of a channel at two times; `None` where it had not begun.

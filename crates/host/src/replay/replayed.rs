@@ -3,7 +3,7 @@
 use super::beside::{Measure, ReplayedAxis};
 use super::conditions::{Answers, MAX_WAYS, TriedCondition};
 use super::course::{Course, is_open};
-use super::recorded::StateRecording;
+use super::recorded::{RecordedGap, StateRecording};
 use crate::discovery::LoadedMachine;
 use crate::error::HostError;
 use crate::input::Input;
@@ -36,6 +36,10 @@ pub struct Replayed {
     pub stopped: Option<String>,
     /// Why no answers were tried although there are conditions.
     pub untried: Option<String>,
+    /// The axes that the programs switch and whose states were not recorded.
+    pub unrecorded: Vec<String>,
+    /// The longest stretch without samples: a change there and back is not seen.
+    pub gap: Option<RecordedGap>,
 }
 
 impl Replayed {
@@ -146,6 +150,8 @@ impl Replay<'_> {
             ways: [1, 1],
             stopped: course.stopped.clone(),
             untried: None,
+            unrecorded: course.switched_beside(&recording.axes),
+            gap: recording.gap,
         }
     }
 }

@@ -8,7 +8,7 @@ mod text;
 
 pub use csv::render_csv;
 pub use records::records;
-pub use sequence::{sequence_records, step_line};
+pub use sequence::{sequence_records, sequence_text};
 pub use subject::{AuditReport, MachineAudit, Word};
 pub(super) use subject::{axis_name, is_shown};
 pub use text::{Length, render_text};

@@ -23,7 +23,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
         .findings()
         .filter(|it| !it.unknown.is_empty())
         .count();
-    records.push(json!({
+    let mut summary = json!({
         "record": "summary",
         "programs": report.programs(),
         "axes": report.findings().count(),
@@ -31,7 +31,12 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
         "axes_with_unknown_programs": unknown,
         "hazards": report.hazards(),
         "possible_hazards": report.possible_hazards(),
-    }));
+    });
+    let rests_on = report.rests_on();
+    if !rests_on.is_empty() {
+        summary["rests_on"] = json!(rests_on);
+    }
+    records.push(summary);
     if let Some(Value::Object(first)) = records.first_mut() {
         first.insert("schema".to_owned(), SCHEMA.into());
     }

@@ -5,12 +5,20 @@ use std::fmt::Write as _;
 use serde_json::{Map, Value, json};
 
 use super::subject::axis_name;
+use crate::assumptions::rests_on_text;
 use crate::visible::visible_line;
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp::timeline::SCHEMA;
 
-/// One program of the order in one line.
-pub fn step_line(step: &Step) -> String {
+/// The programs of the order, a line each, and the readings on which their states rest.
+pub fn sequence_text(steps: &[Step]) -> String {
+    let lines = steps.iter().map(step_line);
+    let rests_on = steps.last().and_then(|last| rests_on_text(&last.rests_on));
+    let lines = lines.chain(rests_on).map(|line| line + "\n");
+    lines.collect()
+}
+
+fn step_line(step: &Step) -> String {
     let mut line = format!("{}:", visible_line(&step.file));
     let mut parts = Vec::new();
     for axis in &step.axes {

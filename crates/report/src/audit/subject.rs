@@ -2,6 +2,8 @@
 
 use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
 use frictcomp::comp::Kind;
+use frictcomp::machine::Machine;
+use frictcomp::timeline::ReadingsInForce;
 
 /// Archives by machine, with what was found in each.
 #[derive(Debug, Clone, Default)]
@@ -19,13 +21,16 @@ pub struct MachineAudit {
     pub archive: Archive,
     /// Effects of all programs together.
     pub findings: Vec<AxisFinding>,
+    /// The readings on which these effects rest.
+    pub rests_on: ReadingsInForce,
 }
 
 impl MachineAudit {
     /// Finds the effects of the programs of a machine together.
-    pub fn new(origin: Option<String>, archive: Archive) -> Self {
+    pub fn new(origin: Option<String>, machine: &Machine, archive: Archive) -> Self {
         Self {
             findings: archive.findings(),
+            rests_on: ReadingsInForce::of(archive.rests_on(), machine),
             origin,
             archive,
         }
@@ -35,6 +40,15 @@ impl MachineAudit {
 impl AuditReport {
     pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {
         self.machines.iter().flat_map(|machine| &machine.findings)
+    }
+
+    /// The readings on which the findings rest.
+    pub(crate) fn rests_on(&self) -> ReadingsInForce {
+        let mut all = ReadingsInForce::default();
+        for machine in &self.machines {
+            all.extend(machine.rests_on.clone());
+        }
+        all
     }
 
     /// The hazards of all axes.

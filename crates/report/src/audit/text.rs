@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::assumptions::rests_on_text;
 use crate::visible::visible_line;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
 use frictcomp::interpreter::MotionKind;
@@ -44,6 +45,9 @@ pub fn render_text(report: &AuditReport, length: Length) -> String {
         out.push('\n');
     }
     let _ = writeln!(out, "{}", total(report));
+    if let Some(text) = rests_on_text(&report.rests_on()) {
+        let _ = writeln!(out, "{text}");
+    }
     out
 }
 

@@ -8,6 +8,7 @@ use maud::{Markup, html};
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, counted, line_id};
 use super::source::Sources;
+use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
@@ -41,7 +42,13 @@ pub fn render_audit(
         &lead(report),
         &parts,
     )?;
-    page.long_part(FINDINGS, |page| findings(page, report, &marks))?;
+    page.long_part(FINDINGS, |page| {
+        findings(page, report, &marks)?;
+        match rests_on_text(&report.rests_on()) {
+            Some(text) => page.push(&html! { p { (text) } }),
+            None => Ok(()),
+        }
+    })?;
     page.long_part(MATRIX, |page| matrices(page, report, &marks))?;
     page.long_part(LINES, |page| {
         if marks.files.is_empty() && !report.has_unknown() {

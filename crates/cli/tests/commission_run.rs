@@ -8,6 +8,8 @@
 )]
 #![allow(dead_code, reason = "the recorder serves other tests, too")]
 
+#[path = "commission_run/fitted.rs"]
+mod fitted;
 #[path = "../../recordings/tests/identify/plant.rs"]
 mod plant;
 #[path = "commission_run/refused.rs"]
@@ -73,11 +75,16 @@ fn said(output: &Output) -> String {
 
 /// A folder with the machine and the programs of stage 1 in `m`.
 fn planned() -> tempfile::TempDir {
+    planned_with(&PLAN)
+}
+
+/// The same for another plan.
+fn planned_with(plan: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let machine = format!("[[axis]]\nname = \"X\"\n{AXIS}[[axis]]\nname = \"Y\"\n{AXIS}");
     std::fs::write(folder.path().join("frictcomp.toml"), machine).expect("a machine");
     std::fs::write(folder.path().join("zero.lis"), ZERO).expect("a list");
-    let output = call(folder.path(), &[&PLAN[..], &["m"]].concat());
+    let output = call(folder.path(), &[plan, &["m"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     std::fs::create_dir(folder.path().join("m/recordings")).expect("a folder");
     folder
@@ -113,18 +120,26 @@ fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
 fn friction(axis: usize, factor: f64) -> String {
     static TRACKS: LazyLock<[plant::Recorded; 2]> = LazyLock::new(|| {
         let folder = planned();
-        [("m/01-friction-X.nc", 2), ("m/02-friction-Y.nc", 3)].map(|(program, column)| {
-            let rows = driven(folder.path(), program);
-            let speeds: Vec<f64> = rows.iter().map(|it| it[column]).collect();
-            let bench = Bench {
-                seed: 7,
-                noise_n: 20.0,
-                ..Bench::default()
-            };
-            bench.record_along(&speeds)
-        })
+        [0, 1].map(|axis| constant_speeds(folder.path(), axis))
     });
-    let recorded = &TRACKS[axis];
+    torque(&TRACKS[axis], factor)
+}
+
+/// The constant speeds of X or Y as the plan in a folder commands them, recorded on a bench.
+fn constant_speeds(folder: &Path, axis: usize) -> plant::Recorded {
+    let (program, column) = [("m/01-friction-X.nc", 2), ("m/02-friction-Y.nc", 3)][axis];
+    let rows = driven(folder, program);
+    let speeds: Vec<f64> = rows.iter().map(|it| it[column]).collect();
+    let bench = Bench {
+        seed: 7,
+        noise_n: 20.0,
+        ..Bench::default()
+    };
+    bench.record_along(&speeds)
+}
+
+/// A recording as a file, with its friction multiplied.
+fn torque(recorded: &plant::Recorded, factor: f64) -> String {
     let mut text = String::from("t,v,x,torque\n");
     for at in 0..recorded.t.len() {
         let torque = (recorded.torque[at] * factor).round();
@@ -145,21 +160,39 @@ fn machine() -> Plant {
     plant
 }
 
+/// A circle that is driven on a plant, with the lists of X and Y or without.
+struct Driven {
+    plant: Plant,
+    radius: f64,
+    feed: f64,
+    lists: Option<[FrictionList; 2]>,
+}
+
 /// Radial deviations in mm over the angle, counter-clockwise and clockwise, without a list or with one.
 fn deviations(feed: f64, list: Option<&FrictionList>) -> [Vec<f64>; 2] {
+    deviations_of(&Driven {
+        plant: machine(),
+        radius: 40.0,
+        feed,
+        lists: list.map(|it| [it.clone(), it.clone()]),
+    })
+}
+
+fn deviations_of(driven: &Driven) -> [Vec<f64>; 2] {
+    let on = driven.lists.clone();
     let test = CircularTest {
         circle: Circle {
-            radius_mm: 40.0,
-            feed_mm_per_min: feed,
+            radius_mm: driven.radius,
+            feed_mm_per_min: driven.feed,
             cycle_time_s: 0.001,
         },
-        plant: machine(),
+        plant: driven.plant.clone(),
         model: FrictionModel::default(),
-        compensation: [list, list].map(|it| it.cloned().map(Method::Current)),
+        compensation: on.map_or([None, None], |it| it.map(|it| Some(Method::Current(it)))),
         reading: Reading::default(),
     };
     Direction::ALL.map(|direction| {
-        let compensation = if list.is_some() {
+        let compensation = if driven.lists.is_some() {
             Switched::On
         } else {
             Switched::Off
@@ -180,7 +213,11 @@ fn deviations(feed: f64, list: Option<&FrictionList>) -> [Vec<f64>; 2] {
 
 /// A recording of a program of circles: its commanded path with deviations from the circle and noise of
 /// 0.3 µm.
-fn circles(folder: &Path, program: &str, [ccw, cw]: &[Vec<f64>; 2]) -> String {
+fn circles(folder: &Path, program: &str, deviations: &[Vec<f64>; 2]) -> String {
+    circles_of(folder, (program, 40.0), deviations)
+}
+
+fn circles_of(folder: &Path, (program, planned): (&str, f64), [ccw, cw]: &[Vec<f64>; 2]) -> String {
     let mut random = fastrand::Rng::with_seed(1);
     let mut noise = || 0.0006 * (random.f64() + random.f64() + random.f64() - 1.5);
     let mut text = String::from("t,x,y\n");
@@ -195,7 +232,7 @@ fn circles(folder: &Path, program: &str, [ccw, cw]: &[Vec<f64>; 2]) -> String {
         };
         before = angle;
         let place = (angle / TAU * profile.len() as f64) as usize % profile.len();
-        let is_on_circle = (radius - 40.0).abs() < 0.01;
+        let is_on_circle = (radius - planned).abs() < 0.01;
         let off = if is_on_circle {
             profile[place] / radius
         } else {
@@ -286,6 +323,11 @@ fn from_recordings_to_accepted_lists() {
     ];
     let (_, text) = run(folder, &report);
     assert!(text.contains("10 recordings, 10 of them known"), "{text}");
+    let (_, text) = run(folder, &["--plant", "stiff"]);
+    assert!(
+        text.contains("no plant is fitted: the fastest recorded feed is 2.5 times the slowest; a decade is needed"),
+        "{text}"
+    );
     check_report(folder);
     other_recordings(folder);
 }

@@ -134,3 +134,56 @@ pub fn render_learned(
     };
     write_value_list(list, points, &head)
 }
+
+/// The remark in the head of a list that names the plant on which it was tuned.
+const TUNED_ON: &str = "SHA-256 of what the plant was fitted to: ";
+
+/// The key of the fitted plant on which a list was tuned, as the text of the list names it.
+pub fn tuned_on(text: &str) -> Option<&str> {
+    let (_, key) = text.split_once(TUNED_ON)?;
+    key.split_whitespace().next()
+}
+
+/// Origin of a value list that was tuned on a fitted plant.
+#[derive(Debug, Clone, Copy)]
+pub struct TunedFrom<'a> {
+    /// The axis.
+    pub axis: &'a str,
+    /// The SHA-256 of what the plant was fitted to.
+    pub plant: &'a str,
+    /// The feeds in mm/min for which it was tuned.
+    pub feeds: &'a [f64],
+    /// The feeds that were held out.
+    pub held_out: &'a [f64],
+}
+
+/// A value list that was tuned on a fitted plant, written for a build.
+pub fn render_tuned_on_plant(
+    list: &FrictionList,
+    made: TunedFrom<'_>,
+    build: Option<CncBuild>,
+) -> String {
+    let feeds = |feeds: &[f64]| {
+        let feeds: Vec<String> = feeds.iter().map(|it| format!("F{it}")).collect();
+        feeds.join(", ")
+    };
+    let from = format!(
+        "Friction compensation of axis {}, tuned at {} on a plant fitted to recorded circles",
+        visible_line(made.axis),
+        feeds(made.feeds)
+    );
+    let held_out = format!("Held out: {}", feeds(made.held_out));
+    let plant = format!("{TUNED_ON}{}", made.plant);
+    let predicted = "What it leaves is predicted; no recording has shown it yet";
+    let points = Points::of_build(build);
+    let mut remarks = vec![from.as_str(), held_out.as_str(), plant.as_str(), predicted];
+    if points == Points::Real {
+        remarks.push(FRACTIONS);
+    }
+    let head = ListHead {
+        remarks: &remarks,
+        name: Some(made.axis),
+        ..ListHead::default()
+    };
+    write_value_list(list, points, &head)
+}

@@ -1,8 +1,11 @@
 //! `frictcomp commission`: from measuring programs to a list that is proved.
 
 mod plan;
+mod plants;
 mod reading;
 mod run;
+mod run_args;
+mod sources;
 
 use clap::Subcommand;
 
@@ -13,7 +16,7 @@ use super::failure::Failure;
 #[derive(Debug, Subcommand)]
 pub(super) enum CommissionCommand {
     Plan(plan::PlanArgs),
-    Run(run::RunArgs),
+    Run(run_args::RunArgs),
 }
 
 /// Runs the command.

@@ -9,9 +9,10 @@ use crate::cycle::CycleArgs;
 use crate::failure::Failure;
 use crate::identify::refusal;
 use frictcomp_host::{
-    CircleChannels, SignedAt, read_axis, read_circles, read_motion, signatures_of, switches_of,
+    CircleChannels, SignedAt, read_axis, read_circles, read_motion, read_turns, signatures_of,
+    switches_of,
 };
-use frictcomp_physics::circle::{CommandedCircle, PathCentre};
+use frictcomp_physics::circle::{Circle, CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
     CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, NotFollowed, Plan, Program,
@@ -306,8 +307,36 @@ impl ReadingArgs {
         Ok(Found::Strokes(found))
     }
 
+    /// The CNC cycle in s.
+    pub(super) fn cycle_time_s(&self) -> Result<f64, Failure> {
+        let given = self.cycle.seconds()?;
+        Ok(given.unwrap_or(Circle::default().cycle_time_s))
+    }
+
+    /// The turns of a recorded program of circles, in the units of their plan.
+    pub(super) fn turns(
+        &self,
+        path: &Path,
+        plan: &Plan,
+        radius: f64,
+    ) -> Result<Vec<RecordedCircle>, Failure> {
+        Ok(read_turns(path, &self.circle_channels(plan), Some(radius))?)
+    }
+
     /// The circles of a recorded program.
     fn circles(&self, path: &Path, plan: &Plan, feed: f64, radius: f64) -> Result<Found, Failure> {
+        let channels = self.circle_channels(plan);
+        let commanded = CommandedCircle {
+            radius_mm: Some(radius),
+            feed_mm_per_min: None,
+        };
+        let path = PathBuf::from(path);
+        let recording = read_circles(&[path], &channels, commanded, PathCentre::Common)?;
+        Ok(Found::Circles(CirclesFound::of(&recording, feed, radius)))
+    }
+
+    /// The channels of circles.
+    fn circle_channels(&self, plan: &Plan) -> CircleChannels {
         let of_axis = |at: usize| {
             let name = plan.axes.get(at).map(|it| it.name.as_str())?;
             let named = self
@@ -316,21 +345,14 @@ impl ReadingArgs {
                 .map(|it| it.replace('%', name));
             named.or_else(|| (!["X", "Y"].contains(&name)).then(|| name.to_owned()))
         };
-        let channels = CircleChannels {
+        CircleChannels {
             names: [of_axis(0), of_axis(1)],
             selection: ChannelSelection {
                 time: self.time.clone(),
                 units: self.unit.clone(),
                 ..ChannelSelection::default()
             },
-        };
-        let commanded = CommandedCircle {
-            radius_mm: Some(radius),
-            feed_mm_per_min: None,
-        };
-        let path = PathBuf::from(path);
-        let recording = read_circles(&[path], &channels, commanded, PathCentre::Common)?;
-        Ok(Found::Circles(CirclesFound::of(&recording, feed, radius)))
+        }
     }
 
     /// The channels of an axis with its actual position or its following error.

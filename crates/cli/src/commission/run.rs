@@ -1,11 +1,12 @@
 //! `frictcomp commission run`: recordings to lists, and what is missing (R16.2, R16.9).
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
-
 use super::plan::{named, plan_name};
-use super::reading::ReadingArgs;
+use super::plants::Fitting;
+use super::run_args::RunArgs;
+use super::sources::{source_of, stage_of, write_list};
 use crate::console::Console;
 use crate::exit;
 use crate::failure::{Failure, shown};
@@ -13,55 +14,20 @@ use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::recordings_in;
 use crate::result::Format;
-use frictcomp::comp::CncBuild;
-use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
-use frictcomp_host::{FileRegistry, read_text, sha256_of, sha256_of_text};
+use frictcomp_host::{
+    FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
+};
 use frictcomp_recordings::commission::{
-    BeforeAfter, Found, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult,
-    Stage, before_after, refuse_strangers,
+    BeforeAfter, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult, Stage,
+    before_after, refuse_strangers,
 };
 use frictcomp_report::commission::{
-    AxisVerdict, PlanFile, Results, ResultsReport, Round, Shows, glitch_unit, render_results,
-    render_results_json,
+    AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
+    render_results, render_results_json,
 };
 use frictcomp_report::html::{Acceptance, render_acceptance};
-use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on};
 use frictcomp_report::{TextChange, render_unified, visible_line};
-
-/// Take the recordings of measuring programs: friction, lists, circles before and after
-///
-/// Reads the plans in a folder and every recording in its folder `recordings`, which is told by its
-/// signature. Says what is missing and what is not used, writes a provisional list of each axis to the folder
-/// `lists`, and judges the lists of stage 2 by the circles with and without them. Run it again with more
-/// recordings: what is known already is kept in `results.json`.
-#[derive(Debug, Args)]
-pub(crate) struct RunArgs {
-    /// The folder of the plan
-    #[arg(value_name = "FOLDER")]
-    folder: PathBuf,
-    #[command(flatten)]
-    reading: ReadingArgs,
-    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
-    /// build accepts fractions
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
-    /// Write the acceptance report to this file, for a browser and for paper
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
-    /// The name of the machine in the report
-    #[arg(long, value_name = "NAME", requires = "html")]
-    machine: Option<String>,
-    /// The date of the recordings in the report
-    #[arg(long, value_name = "DATE", requires = "html")]
-    date: Option<String>,
-    /// The list of an axis before the commissioning, with which the report compares that of stage 2:
-    /// `X=old.lis`
-    #[arg(long, value_name = "AXIS=LIST", requires = "html")]
-    before: Vec<String>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: Format,
-}
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
@@ -83,7 +49,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
                 && it.sha256 == sha256
                 && it.read_with == read_with(args, &plans, it.program)
         };
-        if let Some(result) = known.iter().find(same) {
+        if let Some(result) = known.recordings.iter().find(same) {
             kept += 1;
             results.push(result.clone());
             continue;
@@ -100,18 +66,32 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
-    let content = Results {
-        schema: Results::SCHEMA,
-        recordings: results.clone(),
-    };
+    // What one recording says about another is said anew each time.
+    let read = results.clone();
     refuse_strangers(&mut results);
     let axes = lists(args, &plans, &results, &mut outputs)?;
-    let rounds = rounds(&plans, &results, &registry)?;
+    let fitted = match &args.plant {
+        Some(name) => {
+            memory_for_simulation()?;
+            let fitting = Fitting {
+                args,
+                base: &find_plant(name, &registry)?,
+                plans: &plans,
+                results: &results,
+                known: &known.plants,
+                registry: &registry,
+            };
+            fitting.plants(&mut outputs)?
+        }
+        None => Plants::not_wanted(),
+    };
+    let rounds = rounds(&plans, &results, (&fitted, &registry))?;
     let report = ResultsReport {
         plans,
         results,
         kept,
         axes,
+        fitted,
         rounds,
     };
     if let Some(path) = &args.html {
@@ -120,6 +100,11 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         render_acceptance(&report, &given, &mut html).map_err(Failure::output)?;
     }
     let mut file = outputs.file("results.json", &args.folder.join(RESULTS))?;
+    let content = Results {
+        schema: Results::SCHEMA,
+        recordings: read,
+        plants: report.fitted.found().cloned().collect(),
+    };
     let text =
         serde_json::to_string_pretty(&content).map_err(|error| Failure::new(error.to_string()))?;
     write_text(&mut file, &text)?;
@@ -218,11 +203,10 @@ fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failur
 }
 
 /// The results of an earlier run; none where they are not there or not understood.
-fn known(path: &Path) -> Vec<RecordingResult> {
+fn known(path: &Path) -> Results {
     let text = read_text(path).ok();
     let read = text.and_then(|text| serde_json::from_str::<Results>(&text).ok());
     read.filter(|it| it.schema == Results::SCHEMA)
-        .map(|it| it.recordings)
         .unwrap_or_default()
 }
 
@@ -236,13 +220,6 @@ fn read_with(args: &RunArgs, plans: &[PlanFile], program: Option<u16>) -> String
     let plans: Vec<&Plan> = plans.iter().filter(has).map(|it| &it.plan).collect();
     let version = env!("CARGO_PKG_VERSION");
     sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
-}
-
-fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
-    let plan = plans
-        .iter()
-        .find(|it| it.plan.programs.iter().any(|it| it.number == number));
-    plan.map(|it| it.plan.stage)
 }
 
 /// A provisional list for each axis of stage 1 whose friction was recorded and nothing speaks against.
@@ -264,7 +241,8 @@ fn lists(
         };
         if let Some((result, found)) = source {
             let text = list_text(args, axis, result, found);
-            let path = write_list(&args.folder.join("lists"), &axis.name, &text, outputs)?;
+            let name = format!("{}-provisional", axis.name);
+            let path = write_list(&args.folder.join("lists"), &name, &text, outputs)?;
             verdict.list = Some(shown(&path));
             verdict.from = Some(result.file.clone());
         }
@@ -290,99 +268,14 @@ fn list_text(
         unit: "drive units",
         faults: &remarks,
     };
-    render_identified(&list_of(found), made, args.cnc_build)
-}
-
-/// Writes a list under a name that its content decides, so that no list takes the place of another one.
-fn write_list(
-    folder: &Path,
-    axis: &str,
-    text: &str,
-    outputs: &mut Outputs,
-) -> Result<PathBuf, Failure> {
-    let sum = sha256_of_text(text);
-    let path = folder.join(format!(
-        "{axis}-provisional-{}.lis",
-        sum.get(..8).unwrap_or(&sum)
-    ));
-    if read_text(&path).is_ok_and(|there| there == text) {
-        return Ok(path);
-    }
-    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
-    let mut file = outputs.list("the provisional list", &path)?;
-    write_text(&mut file, text)?;
-    Ok(path)
-}
-
-/// The recording that the list of an axis is made of, the last one by its name; or the reasons against a list.
-fn source_of<'a>(
-    axis: &MeasuredAxis,
-    plans: &[PlanFile],
-    results: &'a [RecordingResult],
-) -> (
-    Option<(&'a RecordingResult, &'a FrictionFound)>,
-    Vec<String>,
-) {
-    if !axis.followers.is_empty() {
-        let followers = axis.followers.join(", ");
-        let note = format!(
-            "a gantry: the motors of {followers} share the friction, and their torque is not read"
-        );
-        return (None, vec![note]);
-    }
-    let frictions = results.iter().filter_map(|it| match &it.found {
-        Found::Friction(found) if found.axis == axis.name && found.against.is_empty() => {
-            Some((it, found))
-        }
-        _ => None,
-    });
-    let of_stage = |stage: Stage| {
-        let is_so = move |it: &RecordingResult| {
-            it.program.and_then(|number| stage_of(plans, number)) == Some(stage)
-        };
-        frictions.clone().filter(move |(it, _)| is_so(it))
-    };
-    let Some((last, found)) = of_stage(Stage::Off).next_back() else {
-        return (
-            None,
-            vec!["no recording of its constant speeds can be used".to_owned()],
-        );
-    };
-    let other = of_stage(Stage::Off)
-        .chain(of_stage(Stage::On))
-        .find(|(_, it)| !found.is_steady_with(it));
-    if let Some((other, it)) = other {
-        let apart = found.apart_from(it).map_or_else(
-            || "have no speed in common".to_owned(),
-            |part| format!("differ by {:.0} % of the friction", part * 100.0),
-        );
-        let note = format!("{} and {} {apart}: repeat both warm", last.file, other.file);
-        return (None, vec![note]);
-    }
-    (Some((last, found)), Vec::new())
-}
-
-/// The list of a friction, with everything but the points as the control assumes it.
-fn list_of(found: &FrictionFound) -> FrictionList {
-    let points = found
-        .table
-        .iter()
-        .map(|&[input, output]| TablePoint { input, output });
-    FrictionList {
-        position_delay: 0,
-        reversal_lookahead: 0,
-        scaling_factor: 1000,
-        delay_cycles: 0,
-        max_points: DEFAULT_MAX_POINTS,
-        table: points.collect(),
-    }
+    render_identified(&found.list(), made, args.cnc_build)
 }
 
 /// The rounds of stage 2, each judged by its own recordings and by the lists that were accepted before it.
 fn rounds(
     plans: &[PlanFile],
     results: &[RecordingResult],
-    registry: &FileRegistry,
+    (fitted, registry): (&Plants, &FileRegistry),
 ) -> Result<Vec<Round>, Failure> {
     let mut rounds: Vec<Round> = Vec::new();
     let second = plans.iter().filter(|it| it.plan.stage == Stage::On);
@@ -394,6 +287,7 @@ fn rounds(
         if !recorded.is_empty() {
             let mut reasons = feeds_against(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
+            reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
         }
         rounds.push(Round {
@@ -487,4 +381,16 @@ fn lists_against(
         }
     }
     Ok(against)
+}
+
+/// What the recordings say about the plants on which the lists of a round were tuned.
+fn plants_against(plan: &PlanFile, fitted: &Plants) -> Result<Vec<String>, Failure> {
+    let mut keys = BTreeSet::new();
+    for used in &plan.lists {
+        let path = PathBuf::from(&used.file);
+        if path.exists() {
+            keys.extend(tuned_on(&read_text(&path)?).map(str::to_owned));
+        }
+    }
+    Ok(keys.iter().flat_map(|key| fitted.against(key)).collect())
 }

@@ -2,10 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::at_feed::AtFeed;
 use super::following::COARSEST_S;
-use crate::identify::{Identified, Track, along, count};
-use frictcomp::lists::FrictionList;
-use frictcomp_physics::circle::{Direction, RecordedCircle, Recording};
+use crate::identify::{Fit, Identified, Track, along, count};
+use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
+use frictcomp_physics::circle::{
+    Direction, PlaneAxis, RecordedCircle, Recording, recorded_height_um,
+};
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
 /// Friction of the same program in two recordings may differ by this part, and so may the start and
@@ -23,6 +26,12 @@ pub(super) const ON_FEED: f64 = 0.02;
 /// differs.
 const ONE_RATIO: f64 = 0.05;
 
+/// The greatest additive current as a part of the measured friction.
+pub const MOST_CURRENT: f64 = 1.3;
+
+/// A scaling factor with which the outputs are what they say.
+const UNSCALED: i16 = 1000;
+
 /// The friction of an axis in a recorded program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FrictionFound {
@@ -34,6 +43,8 @@ pub struct FrictionFound {
     pub offset: f64,
     /// The recorded speeds as a part of the planned ones.
     pub override_part: Option<f64>,
+    /// The curve through them, where one fits.
+    pub fit: Option<Fit>,
     /// The points of a value list: µm/s or 0.001°/s, drive units.
     pub table: Vec<[f64; 2]>,
     /// Remarks.
@@ -102,6 +113,7 @@ impl FrictionFound {
                 .collect(),
             offset: found.offset,
             override_part,
+            fit: found.fit,
             table: found
                 .points
                 .iter()
@@ -163,6 +175,37 @@ impl FrictionFound {
         parts.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
+    /// The value list with the friction at its points and everything else as the control assumes it.
+    pub fn list(&self) -> FrictionList {
+        let points = self.table.iter();
+        let points = points.map(|&[input, output]| TablePoint { input, output });
+        FrictionList {
+            position_delay: 0,
+            reversal_lookahead: 0,
+            scaling_factor: UNSCALED,
+            delay_cycles: 0,
+            max_points: DEFAULT_MAX_POINTS,
+            table: points.collect(),
+        }
+    }
+
+    /// The same list with no output above the greatest part of the friction that may be added.
+    #[must_use]
+    pub fn bounded(&self, list: &FrictionList) -> FrictionList {
+        let scale = f64::from(list.scaling_factor) / f64::from(UNSCALED);
+        let bounded = list.table.iter().map(|point| {
+            let most = MOST_CURRENT * along(&self.table, point.input).abs() / scale;
+            TablePoint {
+                input: point.input,
+                output: point.output.min(most.floor()),
+            }
+        });
+        FrictionList {
+            table: bounded.collect(),
+            ..list.clone()
+        }
+    }
+
     /// Whether two recordings of one program show the same friction.
     pub fn is_steady_with(&self, other: &Self) -> bool {
         self.apart_from(other).is_some_and(|part| part <= STEADY)
@@ -201,6 +244,8 @@ pub struct CirclesFound {
     pub glitches_um: Vec<[f64; 4]>,
     /// The largest of them.
     pub worst_um: f64,
+    /// The glitch of each axis as predictions are compared with it, without noise.
+    pub heights_um: Option<[f64; 2]>,
     /// Remarks.
     pub notes: Vec<String>,
     /// Reasons for which nothing is concluded from it.
@@ -243,7 +288,10 @@ impl CirclesFound {
             against
                 .push("it is too fast and small for a glitch to be told from the next".to_owned());
         }
+        let height = |axis| recorded_height_um(axis, &recording.circles);
+        let heights = height(PlaneAxis::X).zip(height(PlaneAxis::Y));
         Self {
+            heights_um: heights.map(|(x, y)| [x, y]),
             feed,
             measured_feed,
             acceleration: speed * speed / radius,
@@ -253,6 +301,26 @@ impl CirclesFound {
             notes,
             against,
         }
+    }
+
+    /// The glitch at the feed that was driven; `None` where it is not known.
+    pub(super) fn at_feed(&self) -> Option<AtFeed> {
+        self.measured_feed.map(|driven| AtFeed {
+            feed: self.feed,
+            driven,
+            glitch: self.worst_um,
+        })
+    }
+
+    /// By which part it was driven beside the planned feed; none within 2 %, infinite where it is not known.
+    pub fn beside(&self) -> f64 {
+        self.at_feed().map_or(f64::INFINITY, |it| it.beside())
+    }
+
+    /// Whether other circles of the same plan were driven at the same feed.
+    pub fn is_driven_as(&self, other: &Self) -> bool {
+        let feeds = self.at_feed().zip(other.at_feed());
+        feeds.is_some_and(|(one, other)| one.is_driven_as(&other))
     }
 }
 

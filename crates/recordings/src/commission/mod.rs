@@ -4,11 +4,13 @@
 //! [`Plan`] holds programs as steps within the travel of the axes. Lengths are in mm or degrees, feeds in mm
 //! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
 
+mod at_feed;
 mod error;
 mod following;
 mod found;
 mod learned;
 mod plan;
+mod plant_found;
 mod program;
 mod request;
 mod results;
@@ -19,13 +21,15 @@ mod strokes;
 
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};
-pub use found::{CirclesFound, FrictionFound};
+pub use found::{CirclesFound, FrictionFound, MOST_CURRENT};
 pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
+pub use plant_found::{
+    PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch, TunedList, against_plant, held_out,
+    with_friction,
+};
 pub use program::{Measurement, PlanStep, Program, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
-pub use results::{
-    BeforeAfter, Found, MOST_CURRENT, RecordingResult, before_after, refuse_strangers,
-};
+pub use results::{BeforeAfter, Found, RecordingResult, before_after, refuse_strangers};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};

@@ -2,20 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::found::{CirclesFound, FrictionFound, ON_FEED};
+use super::at_feed::AtFeed;
+use super::found::{CirclesFound, FrictionFound};
 use super::strokes::StrokesFound;
-
-/// The greatest additive current as a part of the measured friction.
-pub const MOST_CURRENT: f64 = 1.3;
-
-/// Two recordings are compared where the feeds that were driven differ by less than this part: v²/R by 5 %.
-const SAME_FEED: f64 = 0.025;
-
-/// A recording stands for its planned feed where it was driven at no less than this part of it …
-const SLOWEST: f64 = 0.8;
-
-/// … and at no more than this.
-const FASTEST: f64 = 1.25;
 
 /// A recording in the folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -94,11 +83,7 @@ impl Found {
     /// What reversals show at each feed.
     fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {
-            Self::Circles(found) => found.measured_feed.map(|driven| AtFeed {
-                feed: found.feed,
-                driven,
-                glitch: found.worst_um,
-            }),
+            Self::Circles(found) => found.at_feed(),
             _ => None,
         };
         let strokes = match self {
@@ -111,26 +96,6 @@ impl Found {
             glitch: it.glitch,
         });
         circles.into_iter().chain(strokes)
-    }
-}
-
-/// The glitch of a recording at a feed.
-#[derive(Debug, Clone, Copy)]
-struct AtFeed {
-    feed: f64,
-    driven: f64,
-    glitch: f64,
-}
-
-impl AtFeed {
-    fn is_near(&self) -> bool {
-        (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
-    }
-
-    /// By which part it was driven beside the planned feed; none within 2 %.
-    fn beside(&self) -> f64 {
-        let part = (self.driven / self.feed - 1.0).abs();
-        if part <= ON_FEED { 0.0 } else { part }
     }
 }
 
@@ -177,10 +142,7 @@ pub fn before_after(
     let on = recorded(&is_on);
     let mut pairs: Vec<(f64, BeforeAfter)> = Vec::new();
     for off in recorded(&is_off) {
-        let same = |on: &&AtFeed| {
-            on.feed.total_cmp(&off.feed).is_eq() && (on.driven / off.driven - 1.0).abs() < SAME_FEED
-        };
-        for on in on.iter().filter(same) {
+        for on in on.iter().filter(|it| off.is_driven_as(it)) {
             let pair = BeforeAfter {
                 feed: off.feed,
                 driven: off.driven,

@@ -1,5 +1,7 @@
 //! The friction curve through the pairs (R6.15).
 
+use serde::{Deserialize, Serialize};
+
 use super::pair::Pair;
 use super::statistics::count;
 
@@ -13,7 +15,7 @@ pub enum FrictionCurve {
 }
 
 /// `f(v) = Fc + (Fs - Fc)·exp(-(v/vs)^δ) + fv·v`, the friction in drive units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// Coulomb friction Fc.
     pub coulomb: f64,

@@ -4,27 +4,30 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
 use crate::strings::to_pretty;
 use crate::visible::visible_line;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, Found, FrictionFound, Plan, RecordingResult, Stage,
+    BeforeAfter, Found, FrictionFound, Plan, PlantFound, RecordingResult, Stage,
 };
 
 /// The content of `results.json`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Results {
     /// The form of this file.
     pub schema: u32,
     /// A result for each recording.
     pub recordings: Vec<RecordingResult>,
+    /// The fitted plants.
+    pub plants: Vec<PlantFound>,
 }
 
 impl Results {
     /// The form that is written.
-    pub const SCHEMA: u32 = 1;
+    pub const SCHEMA: u32 = 2;
 }
 
 /// The list of an axis, or the reasons for which there is none.
@@ -51,6 +54,8 @@ pub struct ResultsReport {
     pub kept: usize,
     /// The lists.
     pub axes: Vec<AxisVerdict>,
+    /// The plants that were fitted to the circles.
+    pub fitted: Plants,
     /// The rounds of stage 2, first to last.
     pub rounds: Vec<Round>,
 }
@@ -199,6 +204,9 @@ pub fn render_results(report: &ResultsReport) -> String {
     for round in &report.rounds {
         push_round(&mut out, round);
     }
+    if report.rounds.iter().any(|it| it.against.is_some()) {
+        push_plants(&mut out, &report.fitted);
+    }
     if report.rounds.iter().all(|it| it.against.is_none()) {
         out.push_str(
             "\nno list is accepted: stage 2, the same motion with it on, is not recorded\n",
@@ -302,6 +310,8 @@ struct Document<'a> {
     recordings: &'a [RecordingResult],
     missing: Vec<String>,
     axes: &'a [AxisVerdict],
+    plants: &'a [PlantVerdict],
+    no_plant: &'a [String],
     rounds: &'a [Round],
 }
 
@@ -313,6 +323,8 @@ pub fn render_results_json(report: &ResultsReport) -> String {
         recordings: &report.results,
         missing: report.missing(),
         axes: &report.axes,
+        plants: &report.fitted.verdicts,
+        no_plant: &report.fitted.lacking,
         rounds: &report.rounds,
     })
 }

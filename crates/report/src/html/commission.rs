@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
-use crate::commission::{AxisVerdict, ResultsReport, Round};
+use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, parameters};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
@@ -48,8 +48,13 @@ pub fn render_acceptance(
             .as_deref()
             .unwrap_or("a machine without a name")
     );
+    let figures = if report.fitted.verdicts.is_empty() {
+        "Every figure is recorded, none is predicted."
+    } else {
+        "What depends on the fitted plant is called predicted; every other figure is recorded."
+    };
     let lead = format!(
-        "Recordings: {}. Every figure is recorded, none is predicted.",
+        "Recordings: {}. {figures}",
         given.date.as_deref().unwrap_or("date not stated")
     );
     let axes: Vec<(Part, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
@@ -146,6 +151,7 @@ fn axis_part(report: &ResultsReport, given: &Acceptance, verdict: &AxisVerdict) 
         @if !verdict.notes.is_empty() {
             ul { @for note in &verdict.notes { li { (note) } } }
         }
+        @if let Some(plant) = report.fitted.verdicts.last() { (plant_part(plant, name)) }
         @if let Some((_, change)) = change {
             p { "The list of before and that of stage 2:" }
             pre { (change) }
@@ -190,6 +196,64 @@ fn friction_part(verdict: &AxisVerdict, friction: &FrictionFound) -> Markup {
     }
 }
 
+/// The fitted parameters of an axis, and the glitches that are predicted with them.
+fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
+    let found = &plant.found;
+    let Some(axis) = found.axes.iter().find(|it| it.axis == name) else {
+        return html! {};
+    };
+    let fitted = Table {
+        caption: Caption::Shown("Plant, predicted from circles off and on"),
+        columns: &[
+            Column::Text("parameter"),
+            Column::Number("value"),
+            Column::Number("95 % range"),
+            Column::Text("unit"),
+        ],
+    };
+    let rows = parameters(axis).map(|it| {
+        let cells = [it.value, it.range, it.unit.to_owned()].map(|text| html! { (text) });
+        Row::new(it.name, cells.to_vec())
+    });
+    let glitches = Table {
+        caption: Caption::Shown("Predicted glitch"),
+        columns: &[
+            Column::Text("feed in mm/min"),
+            Column::Number("off in µm"),
+            Column::Number("tuned list in µm"),
+            Column::Text("held out"),
+        ],
+    };
+    let tuned = plant.lists().iter().find(|it| it.axis == name);
+    let predicted = found.feeds().into_iter().map(|feed| {
+        let off = found.predicted(name, feed, None);
+        let on = tuned.and_then(|it| found.predicted(name, feed, Some(&it.sha256)));
+        let number = |um: Option<f64>| um.map_or("-".to_owned(), |it| Rounded(it, 1).to_string());
+        let held_out = if found.is_held_out(feed) { "yes" } else { "" };
+        let cells = [number(off), number(on), held_out.to_owned()];
+        let cells = cells.map(|text| html! { (text) });
+        Row::new(&Rounded(feed, 0).to_string(), cells.to_vec())
+    });
+    html! {
+        (fitted.render(rows))
+        p {
+            (Rounded(axis.left, 2).to_string()) " µm are left of " (axis.reversals)
+            " recorded reversals at the feeds that were not held out."
+        }
+        (glitches.render(predicted))
+        @if !plant.rejected.is_empty() {
+            p { "The plant is rejected, and the lists of before stay:" }
+            ul { @for reason in &plant.rejected { li { (reason) } } }
+        }
+        @if let Some(list) = tuned {
+            p { "Tuned list " (list.file) ", SHA-256 " code { (list.sha256) } "; no recording has shown it yet." }
+            @if !list.against.is_empty() {
+                ul { @for reason in &list.against { li { "Not to be recorded: " (reason) } } }
+            }
+        }
+    }
+}
+
 /// Renders the assumptions and the lists of stage 2.
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
@@ -197,7 +261,8 @@ fn grounds(report: &ResultsReport) -> Markup {
             li { "The programs switch compensation themselves; a recording of its state was compared where there is one." }
             li { "That the lists of stage 2 were loaded is what the operator confirmed; no recording shows it." }
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
-            li { "No plant was fitted: feeds, loads and temperatures that were not recorded are not judged." }
+            @for reason in &report.fitted.lacking { li { "No plant was fitted: " (reason) "." } }
+            li { "Feeds, loads and temperatures that were not recorded are not judged." }
             @for list in report.plans.iter().flat_map(|it| &it.lists) {
                 li { "List of " (list.axis) " on: " (list.file) ", SHA-256 " code { (list.sha256) } }
             }

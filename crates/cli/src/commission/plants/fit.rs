@@ -1,0 +1,155 @@
+//! Plants that are fitted to the circles of rounds, and their files.
+
+use std::ops::ControlFlow;
+
+use super::circles::{Driven, RoundCircles, has};
+use super::fitting::{Axis, Fitting, NoPlant};
+use crate::failure::Failure;
+use crate::outputs::{Outputs, write_text};
+use frictcomp::text::SourceFile;
+use frictcomp_host::{in_order, processors, read_text, sha256_of_text};
+use frictcomp_physics::circle::{DriveFit, FittedDrive, ObservedCircle, PlaneAxis};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::Plant;
+use frictcomp_recordings::commission::{PlantAxis, PlantFound, held_out};
+
+impl Fitting<'_> {
+    /// The plant of rounds: as an earlier run found it, or fitted now.
+    pub(super) fn fitted(
+        &self,
+        (axes, feeds): (&[Axis<'_>], &[f64]),
+        off: &[Driven<'_>],
+        rounds: &[RoundCircles<'_>],
+        outputs: &mut Outputs,
+    ) -> Result<PlantFound, NoPlant> {
+        let key = self.key(axes, off, rounds);
+        if let Some(known) = self.known.iter().find(|it| it.key == key) {
+            self.write_plant(known, outputs)?;
+            return Ok(known.clone());
+        }
+        let (fitted_feeds, held_out) = held_out(feeds);
+        let observed = self.observed(&fitted_feeds, off, rounds)?;
+        let fits = axes.iter().zip(observed).map(|(axis, circles)| DriveFit {
+            axis: axis.plane,
+            drive: axis.drive.clone(),
+            reading: Reading::default(),
+            circles,
+        });
+        let fits: Vec<DriveFit> = fits.collect();
+        let mut fitted = Vec::new();
+        in_order(fits.iter(), processors(), DriveFit::fit, |found| {
+            fitted.push(found);
+            ControlFlow::Continue(())
+        });
+        let fitted = fitted.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let round = rounds.last().map_or(1, |it| it.number);
+        let toml = self.text(&fitted, (round, &key))?;
+        let each = axes.iter().zip(&fitted);
+        let found = PlantFound {
+            key,
+            round,
+            axes: each
+                .map(|(axis, it)| PlantAxis::of(axis.name, it))
+                .collect(),
+            fitted_feeds,
+            held_out,
+            glitches: Vec::new(),
+            lists: Vec::new(),
+            toml,
+        };
+        self.write_plant(&found, outputs)?;
+        Ok(found)
+    }
+
+    /// The SHA-256 of all that a plant is fitted to.
+    fn key(&self, axes: &[Axis<'_>], off: &[Driven<'_>], rounds: &[RoundCircles<'_>]) -> String {
+        let frictions: Vec<_> = axes.iter().map(|it| it.from).collect();
+        let sums = |circles: &[Driven<'_>]| {
+            let sums = circles.iter().map(|it| it.result.sha256.clone());
+            sums.collect::<Vec<_>>()
+        };
+        let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
+        let on: Vec<_> = on.collect();
+        let (base, reading, off) = (self.base, self.args.reading.key(), sums(off));
+        sha256_of_text(&format!("{reading} {base:?} {frictions:?} {off:?} {on:?}"))
+    }
+
+    /// The recorded reversals of each axis at the feeds of the fit.
+    fn observed(
+        &self,
+        feeds: &[f64],
+        off: &[Driven<'_>],
+        rounds: &[RoundCircles<'_>],
+    ) -> Result<[Vec<ObservedCircle>; 2], NoPlant> {
+        let mut observed = [Vec::new(), Vec::new()];
+        let lists = rounds.iter().map(|round| {
+            let [x, y] = round
+                .lists()
+                .map(|it| it.map(|it| self.list(it)).transpose());
+            Ok::<_, NoPlant>([x?, y?])
+        });
+        let lists = lists.collect::<Result<Vec<_>, _>>()?;
+        let on = rounds
+            .iter()
+            .zip(&lists)
+            .map(|(round, lists)| (&round.circles[..], lists));
+        let without = [None, None];
+        for (circles, lists) in std::iter::once((off, &without)).chain(on) {
+            for driven in circles.iter().filter(|it| has(feeds, it.circles.feed)) {
+                let path = self
+                    .args
+                    .folder
+                    .join("recordings")
+                    .join(&driven.result.file);
+                let turns = self.args.reading.turns(&path, driven.plan, driven.radius)?;
+                let circle = self.circle(driven)?;
+                for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
+                    let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);
+                    observed[at].extend(of_axis);
+                }
+            }
+        }
+        Ok(observed)
+    }
+
+    /// The text of the plant file.
+    fn text(&self, fitted: &[FittedDrive], (round, key): (usize, &str)) -> Result<String, Failure> {
+        let [x, y] = fitted else {
+            return Err(Failure::new("a plant has two axes"));
+        };
+        let plant = Plant {
+            name: "fitted".to_owned(),
+            x: x.drive.clone(),
+            y: y.drive.clone(),
+        };
+        Ok(plant.to_toml(&[
+            format!("Fitted to recorded circles off and on up to round {round}; mass, Kv and k_I are those of {}", self.base.name),
+            format!("SHA-256 of what it was fitted to: {key}"),
+        ]))
+    }
+
+    /// Writes the plant file, under a name that its content decides.
+    fn write_plant(&self, found: &PlantFound, outputs: &mut Outputs) -> Result<(), Failure> {
+        let folder = self.args.folder.join("plants");
+        let sum = found.key.get(..8).unwrap_or(&found.key);
+        let path = folder.join(format!("round-{}-{sum}.toml", found.round));
+        if read_text(&path).is_ok_and(|there| there == found.toml) {
+            return Ok(());
+        }
+        std::fs::create_dir_all(&folder).map_err(|error| Failure::writing(&folder, error))?;
+        let mut file = outputs.file("the fitted plant", &path)?;
+        write_text(&mut file, &found.toml)?;
+        Ok(())
+    }
+}
+
+/// The fitted plant.
+pub(super) fn plant_of(found: &PlantFound) -> Result<Plant, Failure> {
+    let source = SourceFile::new("fitted".to_owned(), found.toml.clone());
+    Plant::from_toml(source).map_err(|error| {
+        Failure::new(format!(
+            "the plant in `results.json` cannot be read: {error}"
+        ))
+        .with_help("remove `results.json`, and run it again")
+    })
+}

@@ -1,0 +1,120 @@
+//! All from which plants are fitted.
+
+use std::path::PathBuf;
+
+use super::circles::Driven;
+use crate::commission::run_args::RunArgs;
+use crate::commission::sources::source_of;
+use crate::failure::Failure;
+use crate::machine::value_list;
+use frictcomp::lists::FrictionList;
+use frictcomp_host::{FileRegistry, sha256_of};
+use frictcomp_physics::circle::{Circle, CircleError, PlaneAxis};
+use frictcomp_physics::simulation::{DriveParameters, Plant};
+use frictcomp_recordings::commission::{
+    FrictionFound, PlantFound, RecordingResult, Stage, with_friction,
+};
+use frictcomp_report::commission::{PlanFile, ValueListUsed};
+
+/// All from which plants are fitted.
+pub(in crate::commission) struct Fitting<'a> {
+    pub(in crate::commission) args: &'a RunArgs,
+    /// The plant as it is known before.
+    pub(in crate::commission) base: &'a Plant,
+    pub(in crate::commission) plans: &'a [PlanFile],
+    pub(in crate::commission) results: &'a [RecordingResult],
+    /// Plants of an earlier run.
+    pub(in crate::commission) known: &'a [PlantFound],
+    pub(in crate::commission) registry: &'a FileRegistry,
+}
+
+/// Why there is no plant.
+pub(super) enum NoPlant {
+    /// The recordings or the lists make none; all else goes on.
+    Lacking(String),
+    /// The command cannot go on.
+    Failed(Failure),
+}
+
+impl From<CircleError> for NoPlant {
+    fn from(error: CircleError) -> Self {
+        Self::Lacking(error.to_string())
+    }
+}
+
+impl From<Failure> for NoPlant {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// An axis with its measured friction.
+pub(super) struct Axis<'a> {
+    pub(super) name: &'a str,
+    pub(super) plane: PlaneAxis,
+    pub(super) friction: &'a FrictionFound,
+    /// The SHA-256 of its recording.
+    pub(super) from: &'a str,
+    /// The drive with the measured friction.
+    pub(super) drive: DriveParameters,
+}
+
+impl Fitting<'_> {
+    /// Both axes of the circles with their measured friction, or the reason against a plant.
+    pub(super) fn axes(&self) -> Result<Vec<Axis<'_>>, String> {
+        let first = self.plans.iter().find(|it| it.plan.stage == Stage::Off);
+        let Some([x, y]) = first.map(|it| &it.plan.axes[..]) else {
+            return Err("circles of two axes are planned in stage 1".to_owned());
+        };
+        let each = PlaneAxis::ALL.into_iter().zip([x, y]);
+        each.map(|(plane, axis)| {
+            let (source, _) = source_of(axis, self.plans, self.results);
+            let (result, friction) =
+                source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;
+            let fit = friction.fit.as_ref().ok_or_else(|| {
+                format!(
+                    "the friction of {} is no curve of Coulomb, Stribeck and viscous friction",
+                    axis.name
+                )
+            })?;
+            let base = match plane {
+                PlaneAxis::X => &self.base.x,
+                _ => &self.base.y,
+            };
+            Ok(Axis {
+                name: &axis.name,
+                plane,
+                friction,
+                from: &result.sha256,
+                drive: with_friction(base, fit),
+            })
+        })
+        .collect()
+    }
+
+    /// A circle as it was driven.
+    pub(super) fn circle(&self, driven: &Driven<'_>) -> Result<Circle, Failure> {
+        Ok(Circle {
+            radius_mm: driven.radius,
+            feed_mm_per_min: driven.circles.measured_feed.unwrap_or(driven.circles.feed),
+            cycle_time_s: self.args.reading.cycle_time_s()?,
+        })
+    }
+
+    /// A list as it was recorded.
+    pub(super) fn list(&self, used: &ValueListUsed) -> Result<FrictionList, NoPlant> {
+        Ok(value_list(&recorded_list(used)?, self.registry)?)
+    }
+}
+
+/// The file of a list, if it is still the one that was recorded.
+pub(super) fn recorded_list(used: &ValueListUsed) -> Result<PathBuf, NoPlant> {
+    let path = PathBuf::from(&used.file);
+    if path.exists() && sha256_of(&path).map_err(Failure::from)? == used.sha256 {
+        return Ok(path);
+    }
+    Err(NoPlant::Lacking(format!(
+        "the list of {} that was recorded is no longer `{}`; put it back",
+        used.axis, used.file
+    )))
+}

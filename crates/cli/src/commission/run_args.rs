@@ -1,0 +1,52 @@
+//! The arguments of `frictcomp commission run`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::reading::ReadingArgs;
+use crate::result::Format;
+use frictcomp::comp::CncBuild;
+
+/// Take the recordings of measuring programs: friction, lists, circles before and after
+///
+/// Reads the plans in a folder and every recording in its folder `recordings`, which is told by its
+/// signature. Says what is missing and what is not used, writes a provisional list of each axis to the folder
+/// `lists`, and judges the lists of stage 2 by the circles with and without them. Run it again with more
+/// recordings: what is known already is kept in `results.json`.
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// The folder of the plan
+    #[arg(value_name = "FOLDER")]
+    pub(super) folder: PathBuf,
+    #[command(flatten)]
+    pub(super) reading: ReadingArgs,
+    /// The plant as it is known before, `stiff`, `mid`, `soft` or a TOML file: moved mass, position loop and the
+    /// force of a drive unit. Contact, Kp, friction and delay are fitted to circles off and on, and lists are
+    /// tuned on the fitted plant
+    #[arg(long, value_name = "PLANT")]
+    pub(super) plant: Option<String>,
+    /// Keep the friction curve of tuned lists as it is; do not shape it below 1 mm/s
+    #[arg(long, requires = "plant")]
+    pub(super) no_shaping: bool,
+    /// The CNC build that the lists are for, such as `3.1.3132.0`; outputs are whole numbers unless the
+    /// build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    pub(super) cnc_build: Option<CncBuild>,
+    /// Write the acceptance report to this file, for a browser and for paper
+    #[arg(long, value_name = "FILE")]
+    pub(super) html: Option<PathBuf>,
+    /// The name of the machine in the report
+    #[arg(long, value_name = "NAME", requires = "html")]
+    pub(super) machine: Option<String>,
+    /// The date of the recordings in the report
+    #[arg(long, value_name = "DATE", requires = "html")]
+    pub(super) date: Option<String>,
+    /// The list of an axis before the commissioning, with which the report compares that of stage 2:
+    /// `X=old.lis`
+    #[arg(long, value_name = "AXIS=LIST", requires = "html")]
+    pub(super) before: Vec<String>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    pub(super) format: Format,
+}

@@ -1,0 +1,39 @@
+//! The feed at which a recording was driven beside the planned one, and the glitch there.
+
+use super::found::ON_FEED;
+
+/// Two recordings are compared where the feeds that were driven differ by less than this part: v²/R by 5 %.
+const SAME_FEED: f64 = 0.025;
+
+/// A recording stands for its planned feed where it was driven at no less than this part of it …
+const SLOWEST: f64 = 0.8;
+
+/// … and at no more than this.
+const FASTEST: f64 = 1.25;
+
+/// The glitch of a recording at a feed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AtFeed {
+    /// The planned feed.
+    pub(super) feed: f64,
+    pub(super) driven: f64,
+    pub(super) glitch: f64,
+}
+
+impl AtFeed {
+    pub(super) fn is_near(&self) -> bool {
+        (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
+    }
+
+    /// By which part it was driven beside the planned feed; none within 2 %.
+    pub(super) fn beside(&self) -> f64 {
+        let part = (self.driven / self.feed - 1.0).abs();
+        if part <= ON_FEED { 0.0 } else { part }
+    }
+
+    /// Whether another recording of the planned feed was driven alike.
+    pub(super) fn is_driven_as(&self, other: &Self) -> bool {
+        self.feed.total_cmp(&other.feed).is_eq()
+            && (other.driven / self.driven - 1.0).abs() < SAME_FEED
+    }
+}

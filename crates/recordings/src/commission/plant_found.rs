@@ -1,0 +1,310 @@
+//! The plant that was fitted to recorded circles, what it predicts, and what speaks against it (R16.3, R16.9).
+
+use serde::{Deserialize, Serialize};
+
+use crate::identify::Fit;
+use frictcomp_physics::circle::{Extent, FittedDrive};
+use frictcomp_physics::simulation::DriveParameters;
+
+/// Feeds at least that a plant is fitted to.
+const FITTED_FEEDS: usize = 4;
+
+/// The fastest of them is at least so many times as fast as the slowest: a decade, as fast as it was driven.
+const DECADE: f64 = 9.8;
+
+/// Of so many feeds one is held out.
+const HELD_OUT: usize = 3;
+
+/// A prediction may miss the recording by this part of it …
+const MISSED: f64 = 0.25;
+
+/// … or by this, in µm.
+const MISSED_UM: f64 = 0.5;
+
+/// A plant with what was made of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlantFound {
+    /// The SHA-256 of all that it was fitted to.
+    pub key: String,
+    /// The last round of stage 2 whose circles it was fitted to.
+    pub round: usize,
+    /// The axes of the plan.
+    #[serde(rename = "predicted_axes")]
+    pub axes: Vec<PlantAxis>,
+    /// The feeds in mm/min that it was fitted to.
+    pub fitted_feeds: Vec<f64>,
+    /// Those that neither the fit nor the tuning has seen.
+    pub held_out: Vec<f64>,
+    /// The glitch of each axis at each recorded feed.
+    #[serde(rename = "predicted_glitches")]
+    pub glitches: Vec<PredictedGlitch>,
+    /// The tuned lists, once there are any.
+    pub lists: Vec<TunedList>,
+    /// The plant file.
+    #[serde(rename = "predicted_plant")]
+    pub toml: String,
+}
+
+/// The fitted parameters of an axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlantAxis {
+    /// The axis.
+    pub axis: String,
+    /// Stiffness of the contact in N/m.
+    pub contact: Extent,
+    /// Kp in N·s/m.
+    pub speed_gain: Extent,
+    /// Coulomb friction in N.
+    pub coulomb: Extent,
+    /// Delay of the loop in s.
+    pub delay: Extent,
+    /// Damping of the contact in N·s/m.
+    pub damping: Extent,
+    /// The root mean square in µm that is left of the recorded deviations.
+    pub left: f64,
+    /// Number of recorded reversals.
+    pub reversals: usize,
+    /// Number of simulated ones.
+    pub simulations: usize,
+}
+
+/// A predicted glitch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PredictedGlitch {
+    /// The axis.
+    pub axis: String,
+    /// The planned feed in mm/min.
+    pub feed: f64,
+    /// The SHA-256 of the list that is on.
+    pub list: Option<String>,
+    /// The glitch in µm.
+    #[serde(rename = "predicted_glitch")]
+    pub predicted_um: f64,
+}
+
+/// A recorded glitch, as a prediction is compared with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedGlitch {
+    /// The axis.
+    pub axis: String,
+    /// The planned feed in mm/min.
+    pub feed: f64,
+    /// The SHA-256 of the list that was on.
+    pub list: Option<String>,
+    /// The glitch in µm.
+    pub um: f64,
+}
+
+/// A list that was tuned on the plant.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TunedList {
+    /// The axis.
+    pub axis: String,
+    /// The file, as it is shown.
+    pub file: String,
+    /// The SHA-256 of its bytes.
+    pub sha256: String,
+    /// The options with which it was tuned.
+    pub tuned_with: String,
+    /// The largest predicted glitch in µm over all recorded feeds.
+    #[serde(rename = "predicted_glitch")]
+    pub predicted_um: f64,
+    /// Reasons for which it is not to be recorded.
+    pub against: Vec<String>,
+}
+
+impl PlantAxis {
+    /// The parameters of a fitted drive.
+    pub fn of(axis: &str, fitted: &FittedDrive) -> Self {
+        Self {
+            axis: axis.to_owned(),
+            contact: fitted.contact,
+            speed_gain: fitted.speed_gain,
+            coulomb: fitted.coulomb,
+            delay: fitted.delay_s,
+            damping: fitted.damping,
+            left: fitted.left_um,
+            reversals: fitted.reversals,
+            simulations: fitted.simulations,
+        }
+    }
+}
+
+impl PlantFound {
+    /// Whether the stiffness of each contact is determined.
+    pub fn is_determined(&self) -> bool {
+        self.axes.iter().all(|it| it.contact.is_determined())
+    }
+
+    /// All recorded feeds in mm/min, slowest first.
+    pub fn feeds(&self) -> Vec<f64> {
+        let mut feeds = [&self.fitted_feeds[..], &self.held_out].concat();
+        feeds.sort_by(f64::total_cmp);
+        feeds
+    }
+
+    /// Whether neither the fit nor the tuning has seen a feed.
+    pub fn is_held_out(&self, feed: f64) -> bool {
+        self.held_out.iter().any(|it| it.total_cmp(&feed).is_eq())
+    }
+
+    /// The glitch of an axis that is predicted at a feed with a list.
+    pub fn predicted(&self, axis: &str, feed: f64, list: Option<&str>) -> Option<f64> {
+        let found = self.glitches.iter().find(|it| {
+            it.axis == axis && it.feed.total_cmp(&feed).is_eq() && it.list.as_deref() == list
+        });
+        found.map(|it| it.predicted_um)
+    }
+
+    /// Recorded glitches that it misses.
+    pub fn missed(&self, recorded: &[RecordedGlitch]) -> Vec<String> {
+        let missed = recorded.iter().filter_map(|it| {
+            let predicted = self.predicted(&it.axis, it.feed, it.list.as_deref())?;
+            let is_missed = (predicted - it.um).abs() > MISSED_UM.max(MISSED * it.um);
+            is_missed.then(|| {
+                format!(
+                    "at F{} {predicted:.1} µm were predicted for {} {}, and {:.1} µm are recorded",
+                    it.feed,
+                    it.axis,
+                    if it.list.is_some() { "on" } else { "off" },
+                    it.um
+                )
+            })
+        });
+        missed.collect()
+    }
+
+    /// Held-out feeds at which a list is predicted to leave more than there is without one, or than the old one
+    /// leaves.
+    pub fn fails_held_out(&self, axis: &str, list: &str, old: Option<&str>) -> Vec<String> {
+        let mut against = Vec::new();
+        for &feed in &self.held_out {
+            let Some(new_um) = self.predicted(axis, feed, Some(list)) else {
+                continue;
+            };
+            let off = Some((None, "without a list"));
+            let on = old.map(|old| (Some(old), "with the old list"));
+            let worse = off.into_iter().chain(on).find_map(|(list, what)| {
+                let before = self.predicted(axis, feed, list)?;
+                (new_um > before).then_some((before, what))
+            });
+            if let Some((before, what)) = worse {
+                against.push(format!(
+                    "at F{feed}, which was held out, {new_um:.1} µm are predicted, more than {before:.1} µm {what}"
+                ));
+            }
+        }
+        against
+    }
+}
+
+/// Divides recorded feeds, slowest first, into those of the fit and those that are held out: one of three, never
+/// the slowest or the fastest, and never so many that too few are left to fit.
+pub fn held_out(feeds: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let most = feeds.len().saturating_sub(FITTED_FEEDS);
+    let count = most.min(feeds.len().div_ceil(HELD_OUT));
+    let is_out = |at: usize| (1..=count).any(|it| at == it * feeds.len() / (count + 1));
+    let each = feeds.iter().enumerate();
+    let (out, fitted): (Vec<_>, Vec<_>) = each.partition(|(at, _)| is_out(*at));
+    let of = |feeds: Vec<(usize, &f64)>| feeds.into_iter().map(|it| *it.1).collect();
+    (of(fitted), of(out))
+}
+
+/// Reasons for which no plant is fitted to circles at these feeds, slowest first, recorded off and on.
+pub fn against_plant(feeds: &[f64]) -> Vec<String> {
+    let mut against = Vec::new();
+    if feeds.len() < FITTED_FEEDS {
+        against.push(format!(
+            "{} feeds are recorded both off and on, and {FITTED_FEEDS} are needed",
+            feeds.len()
+        ));
+    }
+    if let [slowest, .., fastest] = feeds
+        && fastest / slowest < DECADE
+    {
+        against.push(format!(
+            "the fastest recorded feed is {:.1} times the slowest; a decade is needed",
+            fastest / slowest
+        ));
+    }
+    against
+}
+
+/// The drive of a plant with the friction that `identify` found, in drive units.
+pub fn with_friction(drive: &DriveParameters, fit: &Fit) -> DriveParameters {
+    const MM_PER_M: f64 = 1000.0;
+    let mut drive = drive.clone();
+    let force = drive.force_per_unit_n.abs();
+    let friction = &mut drive.friction;
+    friction.coulomb_n = fit.coulomb.abs() * force;
+    friction.breakaway_n = fit.breakaway.abs() * force;
+    friction.viscous_n_s_per_m = fit.viscous.abs() * force * MM_PER_M;
+    friction.stribeck_velocity_m_per_s = fit.stribeck / MM_PER_M;
+    friction.shape = fit.shape;
+    drive
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inner_feeds_are_held_out_and_four_are_left() {
+        // R16.2
+        let feeds = |count: usize| -> Vec<f64> { (1u32..).take(count).map(f64::from).collect() };
+        for (count, expected) in [
+            (4, vec![]),
+            (5, vec![3.0]),
+            (6, vec![3.0, 5.0]),
+            (9, vec![3.0, 5.0, 7.0]),
+        ] {
+            let (fitted, out) = held_out(&feeds(count));
+            assert_eq!(out, expected, "{count}");
+            assert_eq!(fitted.len() + out.len(), count);
+            assert_eq!(
+                (fitted[0], fitted[fitted.len() - 1]),
+                (1.0, feeds(count)[count - 1])
+            );
+        }
+    }
+
+    #[test]
+    fn a_prediction_misses_by_a_quarter_and_half_a_um() {
+        // R16.9
+        let found = |predicted_um: f64| PlantFound {
+            key: String::new(),
+            round: 2,
+            axes: Vec::new(),
+            fitted_feeds: Vec::new(),
+            held_out: vec![1000.0],
+            glitches: vec![PredictedGlitch {
+                axis: "X".to_owned(),
+                feed: 1000.0,
+                list: None,
+                predicted_um,
+            }],
+            lists: Vec::new(),
+            toml: String::new(),
+        };
+        let missed = |predicted: f64, um: f64| {
+            let recorded = RecordedGlitch {
+                axis: "X".to_owned(),
+                feed: 1000.0,
+                list: None,
+                um,
+            };
+            !found(predicted).missed(&[recorded]).is_empty()
+        };
+        assert!(!missed(1.4, 1.0) && missed(1.6, 1.0) && missed(0.4, 1.0));
+        assert!(!missed(12.4, 10.0) && missed(12.6, 10.0) && missed(7.4, 10.0));
+    }
+
+    #[test]
+    fn few_or_close_feeds_make_no_plant() {
+        // R16.3
+        assert!(against_plant(&[500.0, 1300.0, 2000.0, 4990.0]).is_empty());
+        let against = against_plant(&[2000.0, 3000.0, 5000.0]);
+        assert!(against[0].contains("3 feeds are recorded"), "{against:?}");
+        assert!(against[1].contains("2.5 times"), "{against:?}");
+    }
+}

@@ -1,0 +1,213 @@
+//! Fitted plants in words (R16.3, R16.7, R16.9).
+
+use std::fmt::Write as _;
+
+use frictcomp::diagnostic::Rounded;
+use frictcomp_physics::circle::Extent;
+use frictcomp_recordings::commission::{PlantAxis, PlantFound, TunedList};
+use serde::Serialize;
+
+use crate::visible::visible_line;
+
+/// The plants of all rounds.
+#[derive(Debug, Clone, Default)]
+pub struct Plants {
+    /// A plant for each round whose circles are recorded.
+    pub verdicts: Vec<PlantVerdict>,
+    /// Reasons for which none is fitted to all that is recorded.
+    pub lacking: Vec<String>,
+}
+
+/// A plant, and what the recordings say about it.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlantVerdict {
+    /// The plant.
+    #[serde(flatten)]
+    pub found: PlantFound,
+    /// Recorded glitches that it misses: it is rejected.
+    pub rejected: Vec<String>,
+}
+
+/// A fitted parameter in words.
+pub(crate) struct Parameter {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    /// The value; "at least" where only its lower end is known.
+    pub(crate) value: String,
+    /// The 95 % range.
+    pub(crate) range: String,
+}
+
+impl Plants {
+    /// No plant was asked for.
+    pub fn not_wanted() -> Self {
+        let reason = "`--plant` does not say what is known of the machine";
+        Self {
+            verdicts: Vec::new(),
+            lacking: vec![reason.to_owned()],
+        }
+    }
+
+    /// The plants themselves.
+    pub fn found(&self) -> impl Iterator<Item = &PlantFound> {
+        self.verdicts.iter().map(|it| &it.found)
+    }
+
+    /// Reasons against lists that were tuned on the plant with a key.
+    pub fn against(&self, key: &str) -> Vec<String> {
+        let Some(plant) = self.verdicts.iter().find(|it| it.found.key == key) else {
+            let reason = "the plant on which they were tuned is not fitted now, so that its predictions are not compared";
+            return vec![reason.to_owned()];
+        };
+        let missed = plant.rejected.iter();
+        missed
+            .map(|it| format!("the plant on which they were tuned is rejected: {it}"))
+            .collect()
+    }
+}
+
+impl PlantVerdict {
+    /// The tuned lists, unless the plant is rejected.
+    pub fn lists(&self) -> &[TunedList] {
+        if self.rejected.is_empty() {
+            &self.found.lists
+        } else {
+            &[]
+        }
+    }
+}
+
+/// The fitted parameters of an axis.
+pub(crate) fn parameters(axis: &PlantAxis) -> [Parameter; 5] {
+    const UM_PER_M: f64 = 1e6;
+    const MS_PER_S: f64 = 1e3;
+    let scaled = |name, unit, extent: Extent, factor: f64, digits| {
+        let number = |value: f64| Rounded(value * factor, digits).to_string();
+        let value = if extent.is_determined() {
+            number(extent.value)
+        } else {
+            format!("at least {}", number(extent.low))
+        };
+        Parameter {
+            name,
+            unit,
+            value,
+            range: format!("{} to {}", number(extent.low), number(extent.high)),
+        }
+    };
+    let delay = scaled("delay of the loop", "ms", axis.delay, MS_PER_S, 1);
+    [
+        scaled("contact stiffness", "N/µm", axis.contact, 1.0 / UM_PER_M, 0),
+        scaled("Kp", "kN·s/m", axis.speed_gain, 1.0 / MS_PER_S, 1),
+        scaled("Fc", "N", axis.coulomb, 1.0, 0),
+        // The delay is a range, however well it is known.
+        Parameter {
+            value: delay.range.clone(),
+            ..delay
+        },
+        scaled("contact damping", "kN·s/m", axis.damping, 1.0 / MS_PER_S, 1),
+    ]
+}
+
+/// Appends the last plant, and the lists that were tuned on it.
+pub(super) fn push_plants(out: &mut String, plants: &Plants) {
+    for reason in &plants.lacking {
+        let _ = writeln!(out, "\nno plant is fitted: {}", visible_line(reason));
+    }
+    let Some(verdict) = plants.verdicts.last() else {
+        return;
+    };
+    push_plant(out, verdict);
+    if !verdict.rejected.is_empty() {
+        out.push_str("the plant is rejected, and the lists of before stay:\n");
+        for reason in &verdict.rejected {
+            let _ = writeln!(out, "  {}", visible_line(reason));
+        }
+    }
+    for list in verdict.lists() {
+        let _ = writeln!(
+            out,
+            "{}: tuned list {}, predicted to leave at most {:.1} µm; no recording has shown it yet",
+            visible_line(&list.axis),
+            visible_line(&list.file),
+            list.predicted_um
+        );
+        for reason in &list.against {
+            let _ = writeln!(out, "  do not record it: {}", visible_line(reason));
+        }
+    }
+    if verdict.rejected.is_empty() && verdict.found.lists.is_empty() {
+        out.push_str(
+            "no list is tuned: no feed is left to hold out; record a fifth feed off and on\n",
+        );
+    }
+}
+
+fn push_plant(out: &mut String, verdict: &PlantVerdict) {
+    let found = &verdict.found;
+    let feeds = |feeds: &[f64]| {
+        let feeds: Vec<String> = feeds.iter().map(|it| format!("F{it}")).collect();
+        feeds.join(", ")
+    };
+    let _ = writeln!(
+        out,
+        "\nplant fitted to circles off and on up to round {}, at {}; held out: {}",
+        found.round,
+        feeds(&found.fitted_feeds),
+        if found.held_out.is_empty() {
+            "none".to_owned()
+        } else {
+            feeds(&found.held_out)
+        }
+    );
+    for axis in &found.axes {
+        let _ = writeln!(
+            out,
+            "{:<6} {:<18} {:<8} {:>14}  95 % range",
+            visible_line(&axis.axis),
+            "predicted",
+            "",
+            ""
+        );
+        for it in parameters(axis) {
+            let _ = writeln!(
+                out,
+                "       {:<18} {:<8} {:>14}  {}",
+                it.name, it.unit, it.value, it.range
+            );
+        }
+        let _ = writeln!(
+            out,
+            "       {:.2} µm are left of {} recorded reversals, after {} simulated ones",
+            axis.left, axis.reversals, axis.simulations
+        );
+    }
+    push_glitches(out, found);
+}
+
+/// The predicted glitch of each axis at each feed, off and with the tuned lists.
+fn push_glitches(out: &mut String, found: &PlantFound) {
+    for axis in &found.axes {
+        let name = &axis.axis;
+        let tuned = found.lists.iter().find(|it| it.axis == *name);
+        let _ = writeln!(
+            out,
+            "{} predicted glitch in µm\n{:>12} {:>8} {:>8}",
+            visible_line(name),
+            "feed mm/min",
+            "off",
+            "tuned"
+        );
+        for feed in found.feeds() {
+            let off = found.predicted(name, feed, None);
+            let on = tuned.and_then(|it| found.predicted(name, feed, Some(&it.sha256)));
+            let shown = |um: Option<f64>| um.map_or("-".to_owned(), |it| format!("{it:.1}"));
+            let held = if found.is_held_out(feed) {
+                "  held out"
+            } else {
+                ""
+            };
+            let _ = writeln!(out, "{feed:>12} {:>8} {:>8}{held}", shown(off), shown(on));
+        }
+    }
+}

@@ -226,10 +226,10 @@ fn check_accepted(found: &Value) {
         rounds[1]
     );
     let worst = |round: &Value| {
-        let circles = round["circles"].as_array().expect("circles");
+        let circles = round["recorded"].as_array().expect("feeds");
         let left = circles
             .iter()
-            .map(|it| it["on_um"].as_f64().expect("a number"));
+            .map(|it| it["on"].as_f64().expect("a number"));
         left.fold(0.0, f64::max)
     };
     let [provisional, tuned] = [worst(&rounds[0]), worst(&rounds[1])];

@@ -1,6 +1,7 @@
 //! The feed at which a recording was driven beside the planned one, and the glitch there.
 
-use super::found::ON_FEED;
+/// A measured speed is the planned one within this part.
+pub(super) const ON_FEED: f64 = 0.02;
 
 /// Two recordings are compared where the feeds that were driven differ by less than this part: v²/R by 5 %.
 const SAME_FEED: f64 = 0.025;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::at_feed::AtFeed;
+use super::at_feed::{AtFeed, ON_FEED};
 use super::following::COARSEST_S;
 use crate::identify::{Fit, Identified, Track, along, count};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
@@ -18,9 +18,6 @@ const STEADY: f64 = 0.1;
 /// Greatest difference between the directions, beyond a constant weight, as a share of the
 /// friction.
 const EVEN: f64 = 0.2;
-
-/// A measured speed is the planned one within this part.
-pub(super) const ON_FEED: f64 = 0.02;
 
 /// The ratios of the recorded to the planned speeds scatter by less than this part, where only an override
 /// differs.

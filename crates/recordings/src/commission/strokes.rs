@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::at_feed::ON_FEED;
 use super::following::{Following, NotFollowed, Turn};
-use super::found::ON_FEED;
 use crate::identify::{Track, count};
 
 /// Reversals without a stop at each feed: the ends of four strokes forth and back, without the last one.

@@ -291,17 +291,24 @@ fn contradictions(answers: &[Answer]) -> Vec<Question> {
     found
 }
 
+/// The answers in words; what is not decidable for one reason is said once.
 fn told(answers: &[Answer]) -> String {
     let mut text = String::new();
-    for answer in answers {
+    let is_alike = |one: &Answer, other: &Answer| {
+        one.verdict == AnswerVerdict::Undecidable
+            && one.verdict == other.verdict
+            && (&one.axis, one.build, &one.evidence) == (&other.axis, other.build, &other.evidence)
+    };
+    for alike in answers.chunk_by(is_alike) {
+        let answer = &alike[0];
         let question = answer.question;
-        let facts = question.facts();
+        let rules: Vec<_> = alike.iter().map(|it| it.question.facts().rule).collect();
         let reading = match answer.verdict {
             AnswerVerdict::Reading(reading) => format!(": {}", question.name_of(reading)),
             AnswerVerdict::Undecidable => String::new(),
         };
         let build = answer.build.map_or(String::new(), |it| format!(" on {it}"));
-        let _ = writeln!(text, "{} {}{reading}", facts.rule, answer.word());
+        let _ = writeln!(text, "{} {}{reading}", rules.join(", "), answer.word());
         let _ = writeln!(text, "  axis {}{build}: {}", answer.axis, answer.evidence);
     }
     text

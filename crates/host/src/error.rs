@@ -261,6 +261,9 @@ impl HostError {
                 io::ErrorKind::NotFound => "create the folder, or name another file",
                 io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
                 io::ErrorKind::IsADirectory => "name a file in it",
+                io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
+                    "name a folder that is there, or a new one"
+                }
                 kind => return to_write(kind).map(str::to_owned),
             },
             Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
@@ -370,6 +373,11 @@ fn writing(path: &Path, reason: &io::Error) -> String {
             format!("`{shown}` cannot be written: another program has it open")
         }
         io::ErrorKind::IsADirectory => format!("`{shown}` cannot be written: it is a folder"),
+        // A folder was to be made there.
+        io::ErrorKind::AlreadyExists => format!("`{shown}` is a file, not a folder"),
+        io::ErrorKind::NotADirectory => {
+            format!("`{shown}` cannot be written: a part of its path is a file, not a folder")
+        }
         _ => format!("`{shown}` cannot be written: {reason}"),
     }
 }

@@ -10,6 +10,7 @@ use super::trace_error::TraceError;
 use frictcomp_physics::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
+use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_physics::current::{
     CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions,
 };
@@ -439,6 +440,24 @@ pub(super) fn numbers_of<'a>(
         });
     }
     Ok(recording.values(channel))
+}
+
+/// The column `pos_<axis>`, in mm or degrees unless it names another unit.
+pub(super) fn position_column(
+    selection: &ChannelSelection,
+    axis: &str,
+    channels: &[Channel],
+) -> Result<Option<Pick>, SelectError> {
+    let name = format!("pos_{axis}");
+    let mut all = channels.iter();
+    let Some(channel) = all.find(|channel| channel.name.eq_ignore_ascii_case(&name)) else {
+        return Ok(None);
+    };
+    let mut pick = selection.pick_named(&channel.name, ChannelQuantity::Position, channels)?;
+    if pick.is_unit_assumed {
+        pick.unit.factor = POSITION_UNITS_PER_MM;
+    }
+    Ok(Some(pick))
 }
 
 pub(super) fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {

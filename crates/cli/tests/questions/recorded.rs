@@ -69,7 +69,10 @@ fn scope(task: Task) -> Export {
 }
 
 fn plain(task: &Task) -> String {
-    let header = ["t", "x [mm]", "v [mm/s]", "output_X", "active_X"];
+    with_header(["t", "x [mm]", "v [mm/s]", "output_X", "active_X"], task)
+}
+
+fn with_header(header: [&str; 5], task: &Task) -> String {
     let mut text = header.join(";") + "\n";
     let rows = task.signals[0].samples.len();
     for row in 0..rows {
@@ -84,7 +87,7 @@ fn plain(task: &Task) -> String {
 
 /// The bytes of a recording in one of the layouts.
 fn laid_out(task: Task, layout: usize) -> Vec<u8> {
-    match layout % 5 {
+    match layout % 6 {
         0 => plain(&task).into_bytes(),
         1 => scope(task).bytes(),
         2 => Export {
@@ -96,6 +99,7 @@ fn laid_out(task: Task, layout: usize) -> Vec<u8> {
         }
         .bytes(),
         3 => sinumerik(&task, true).into_bytes(),
+        4 => with_header(["t", "pos_X", "speed", "output_X", "active_X"], &task).into_bytes(),
         _ => {
             let (motion, friction) = task.signals.split_at(2);
             let tasks = [motion, friction].map(|signals| Task {
@@ -123,7 +127,8 @@ fn said_of(bench: &Bench, rule: &str, arguments: &[&str]) -> String {
     let mut is_own = false;
     for line in said.lines() {
         if !line.starts_with(' ') {
-            is_own = line.split(' ').next() == Some(rule);
+            let mut words = line.split(' ');
+            is_own = words.any(|word| word.trim_end_matches(',') == rule);
         }
         if is_own {
             found += line.trim();
@@ -200,10 +205,7 @@ fn recordings_that_tell_nothing_say_why() {
         let bench = bench();
         record(&bench, "r.csv", bytes);
         let said = said_of(&bench, rule, &["r.csv"]);
-        assert!(
-            said.starts_with(&format!("{rule} not decidable ")),
-            "{said}"
-        );
+        assert!(said.contains(" not decidable "), "{said}");
         assert!(said.contains(reason), "{said}");
         let written = bench.read("frictcomp.toml");
         assert!(!written.contains(&format!("\"{rule}\"")), "{written}");

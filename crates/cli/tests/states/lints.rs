@@ -95,7 +95,7 @@ fn who_made_it_so_is_named() {
     // R1.52: the last command that left it away from its start-up state, of whichever program.
     assert_snapshot!(said(&[
         "%FIRST\nN10 X[COMP OFF FRICT] (off) ; measured\nM30",
-        "%SECOND\nX[COMP OFF FRICT NO_MOVE]\nX1\nM30",
+        "%SECOND\nX[COMP OFF FRICT NO_MOVE] (measured) ; again\nX1\nM30",
         "G01 Y1 F100\nX1\nX[COMP ON FRICT]\nM30",
         "X1\nM30",
     ]), @"

@@ -7,7 +7,7 @@ use super::axis::AskedAxis;
 use crate::error::HostError;
 use crate::replay::axis_of;
 use crate::trace_error::TraceError;
-use crate::traces::{lacks, read_trace};
+use crate::traces::{lacks, position_column, read_trace};
 use frictcomp::machine::{Machine, Parameterisation};
 use frictcomp::readings::{Question, Way};
 use frictcomp::text::shown_path;
@@ -115,15 +115,17 @@ impl RecordedQuestions<'_> {
             });
         }
         let find = |quantity| self.selection.find(quantity, channels);
-        let motion = [
-            find(ChannelQuantity::Position)?,
-            find(ChannelQuantity::Velocity)?,
-        ];
+        let position = match find(ChannelQuantity::Position)? {
+            None => position_column(self.selection, &self.axis.name, channels)?,
+            found => found,
+        };
+        let motion = [position, find(ChannelQuantity::Velocity)?];
         if motion == [None, None] {
             return Err(lacks(
                 channels,
-                "neither a column `x` nor a column `v`",
-                "name the channels of the commanded position or velocity of the axis",
+                "no commanded position or velocity of the axis",
+                "in a CSV file the columns are `x` (0.1 µm or 0.0001°), `pos_<axis>` (mm or degrees) or `v` \
+                 (µm/s or 0.001°/s); any other is to be named",
             ));
         }
         let state = channels.iter().find(|channel| {

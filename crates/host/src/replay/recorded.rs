@@ -4,15 +4,13 @@ use std::path::Path;
 
 use crate::error::HostError;
 use crate::trace_error::TraceError;
-use crate::traces::{lacks, numbers_of, read_trace};
+use crate::traces::{lacks, numbers_of, position_column, read_trace};
 use frictcomp::machine::Machine;
+use frictcomp_physics::current::POSITION_UNITS_PER_MM;
 use frictcomp_recordings::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, CncObject, NotAligned,
     SelectError, TimeSource, TraceRecording,
 };
-
-/// 0.1 µm in a millimetre.
-const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
 
 /// Meaning of the channels.
 #[derive(Debug, Clone, Default)]
@@ -202,34 +200,19 @@ impl ReplayChannels {
         })
     }
 
-    /// The channel of the positions of an axis with what makes mm of it; the column `pos_<axis>` is in mm.
+    /// The channel of the positions of an axis with what makes mm of it.
     fn position_of(
         &self,
         axis: &str,
         channels: &[Channel],
     ) -> Result<Option<(ChannelIndex, f64)>, SelectError> {
+        let position = ChannelQuantity::Position;
         let given = self.positions.iter().find(|(name, _)| name == axis);
-        let short = format!("pos_{axis}");
-        let name = match given {
-            Some((_, name)) => name,
-            None if channels
-                .iter()
-                .any(|it| it.name.eq_ignore_ascii_case(&short)) =>
-            {
-                &short
-            }
-            None => return Ok(None),
+        let pick = match given {
+            Some((_, name)) => Some(self.selection.pick_named(name, position, channels)?),
+            None => position_column(&self.selection, axis, channels)?,
         };
-        let pick = self
-            .selection
-            .pick_named(name, ChannelQuantity::Position, channels)?;
-        let is_mm = pick.is_unit_assumed && given.is_none();
-        let factor = if is_mm {
-            1.0
-        } else {
-            pick.unit.factor / UNITS_PER_MM
-        };
-        Ok(Some((pick.channel, factor)))
+        Ok(pick.map(|pick| (pick.channel, pick.unit.factor / POSITION_UNITS_PER_MM)))
     }
 }
 

@@ -1,6 +1,7 @@
 // One session with the extension in VS Code, in a browser, as a user would have it: the demo program,
 // its problems, a hover, a quick fix, the compensation view, a report, the contour. Once alone, and once beside an
-// extension that declares the languages that ISG's extension declares.
+// extension that declares the languages that ISG's extension declares, or ISG's own, whose built folder
+// ISG_EXTENSION names.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import fs from "node:fs";
@@ -8,7 +9,7 @@ import os from "node:os";
 import path from "node:path";
 import { chromium } from "playwright-core";
 
-const { FRICTCOMP, BROWSER, SERVER, BESIDE, SCREENSHOTS } = process.env;
+const { FRICTCOMP, BROWSER, SERVER, BESIDE, ISG_EXTENSION, SCREENSHOTS } = process.env;
 const HERE = path.resolve(import.meta.dirname, "../..");
 const DEMO = path.resolve(HERE, "../../programs/demo");
 const THEMES = ["Default Dark Modern", "Default Light Modern", "Default High Contrast"];
@@ -56,19 +57,23 @@ function prepare() {
   theme(THEMES[0]);
 }
 
-/** An extension that declares what ISG's does, and nothing else. */
+/** ISG's extension, or one that declares what ISG's does, and nothing else. */
 function standIn() {
-  const folder = path.join(extensions, "isg-cnc.vscode-isg-cnc-0.4.3");
+  const folder = path.join(extensions, "isg-cnc.vscode-isg-cnc-1.3.0");
+  if (ISG_EXTENSION) {
+    fs.cpSync(ISG_EXTENSION, folder, { recursive: true });
+    return;
+  }
   fs.mkdirSync(folder);
   write(path.join(folder, "package.json"), {
     name: "vscode-isg-cnc",
     publisher: "isg-cnc",
-    version: "0.4.3",
-    engines: { vscode: "^1.91.0" },
+    version: "1.3.0",
+    engines: { vscode: "^1.86.2" },
     contributes: {
       languages: [
-        { id: "isg-cnc", aliases: ["ISG CNC"], extensions: [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"] },
-        { id: "isg-list", aliases: ["ISG list"], extensions: [".lis"] },
+        { id: "isg-cnc", aliases: ["CNC", "ISG CNC"], extensions: [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"] },
+        { id: "isg-list", aliases: ["List", "ISG List"], extensions: [".lis"] },
       ],
     },
   });
@@ -125,7 +130,7 @@ async function session(page) {
   await trust(page);
   await open(page, "friction.nc");
 
-  const language = BESIDE === "isg" ? "ISG CNC" : "NC program (ISG, TwinCAT)";
+  const language = BESIDE === "isg" ? "CNC" : "NC program (ISG, TwinCAT)";
   await page.locator("#status\\.editor\\.mode").filter({ hasText: language }).waitFor();
 
   await command(page, "Problems: Focus on Problems View");

@@ -265,6 +265,16 @@ fn another_configuration_concerns_all_its_programs() {
 }
 
 #[test]
+fn before_the_first_commit_everything_is_new() {
+    // R17.4
+    let bench = Bench::new(&[("a.nc", "M30\n"), ("b.nc", "M30\n")]);
+    git(&bench, &["init", "-q"]);
+    git(&bench, &["add", "a.nc"]);
+    assert!(changed(&bench, &["HEAD", "."]).0.starts_with("2 of 2 programs"));
+    assert_eq!(bench.status(&["diff", "--git", "HEAD"]), Some(0));
+}
+
+#[test]
 fn what_git_cannot_say_is_an_error() {
     // R17.4
     let bench = Bench::new(&[("a.nc", "M30\n")]);
@@ -283,7 +293,7 @@ fn what_git_cannot_say_is_an_error() {
         );
     }
     git(&bench, &["init", "-q"]);
-    assert!(refused(&["check", "--changed"]).contains("there is no revision `HEAD`"));
+    assert!(refused(&["check", "--changed=gone"]).contains("there is no revision `gone`"));
     commit(&bench);
     let said = refused(&["diff", "--git", "gone"]);
     assert!(

@@ -20,7 +20,7 @@ const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
 pub struct Revision {
     /// The top folder of the work tree.
     top: PathBuf,
-    /// The name of the commit.
+    /// The name of the commit, or of the empty tree.
     commit: String,
 }
 
@@ -60,7 +60,7 @@ impl ChangedFile {
 }
 
 impl Revision {
-    /// A revision by its name, in the repository of a folder.
+    /// A revision by its name, in the repository of a folder. Before the first commit `HEAD` has no files.
     ///
     /// # Errors
     /// There is no command `git`, the folder is in no repository, or there is no such revision.
@@ -76,9 +76,17 @@ impl Revision {
         }
         let commit = format!("{name}^{{commit}}");
         let verify = ["rev-parse", "--verify", "--quiet", "--end-of-options"];
-        let found = git(folder, &[&verify[..], &[&commit]].concat())?;
+        let mut found = git(folder, &[&verify[..], &[&commit]].concat())?;
         if !found.status.success() {
-            return Err(HostError::NoRevision(name.to_owned()));
+            let is_unborn = name == "HEAD"
+                && git(folder, &["symbolic-ref", "--quiet", "HEAD"])?
+                    .status
+                    .success();
+            if !is_unborn {
+                return Err(HostError::NoRevision(name.to_owned()));
+            }
+            // Nothing on the standard input is the tree without files.
+            found = git(folder, &["hash-object", "-t", "tree", "--stdin"])?;
         }
         Ok(Self {
             top: PathBuf::from(os(line(&top.stdout))),

@@ -10,6 +10,10 @@
 
 #[path = "commission_run/fitted.rs"]
 mod fitted;
+#[path = "commission_run/loops.rs"]
+mod loops;
+#[path = "learn/machine.rs"]
+mod machine;
 #[path = "../../recordings/tests/identify/plant.rs"]
 mod plant;
 #[path = "commission_run/refused.rs"]
@@ -27,6 +31,7 @@ use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, Job, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
+use machine::PITCH_MM;
 use plant::Bench;
 
 const AXIS: &str = "frict_comp = true\nvalue_list = \"zero.lis\"\nmax_velocity = 20000\nmax_acceleration = 2\nmax_jerk = 50\n";
@@ -211,15 +216,39 @@ fn deviations_of(driven: &Driven) -> [Vec<f64>; 2] {
     })
 }
 
-/// A recording of a program of circles: its commanded path with deviations from the circle and noise of
-/// 0.3 µm.
-fn circles(folder: &Path, program: &str, deviations: &[Vec<f64>; 2]) -> String {
-    circles_of(folder, (program, 40.0), deviations)
+/// What a recorder adds to positions.
+#[derive(Debug, Clone, Copy)]
+struct Recorder {
+    noise_um: f64,
+    /// Error of the screws.
+    screw_um: f64,
+    seed: u64,
 }
 
-fn circles_of(folder: &Path, (program, planned): (&str, f64), [ccw, cw]: &[Vec<f64>; 2]) -> String {
-    let mut random = fastrand::Rng::with_seed(1);
-    let mut noise = || 0.0006 * (random.f64() + random.f64() + random.f64() - 1.5);
+impl Default for Recorder {
+    fn default() -> Self {
+        Self {
+            noise_um: 0.3,
+            screw_um: 0.0,
+            seed: 1,
+        }
+    }
+}
+
+/// A recording of a program of circles: its commanded path with deviations from the circle.
+fn circles(folder: &Path, program: &str, deviations: &[Vec<f64>; 2]) -> String {
+    circles_of(folder, (program, 40.0), (deviations, Recorder::default()))
+}
+
+fn circles_of(
+    folder: &Path,
+    (program, planned): (&str, f64),
+    ([ccw, cw], recorder): (&[Vec<f64>; 2], Recorder),
+) -> String {
+    let mut random = fastrand::Rng::with_seed(recorder.seed);
+    let noise_mm = 0.002 * recorder.noise_um;
+    let mut noise = || noise_mm * (random.f64() + random.f64() + random.f64() - 1.5);
+    let screw = |at: f64| 1e-3 * recorder.screw_um * (TAU * at / PITCH_MM + 1.0).sin();
     let mut text = String::from("t,x,y\n");
     let mut before = 0.0_f64;
     for (at, [x, y, ..]) in driven(folder, program).iter().enumerate() {
@@ -238,7 +267,10 @@ fn circles_of(folder: &Path, (program, planned): (&str, f64), [ccw, cw]: &[Vec<f
         } else {
             0.0
         };
-        let [x, y] = [x + off * east + noise(), y + off * north + noise()];
+        let [x, y] = [
+            x + off * east + screw(*x) + noise(),
+            y + off * north + screw(*y) + noise(),
+        ];
         writeln!(text, "{:.3},{x:.4},{y:.4}", at as f64 * 0.001).expect("text");
     }
     text

@@ -8,7 +8,8 @@ use frictcomp_physics::simulation::{Plant, Preset};
 use serde_json::Value;
 
 use super::{
-    Driven, call, circles_of, constant_speeds, deviations_of, planned_with, put, run, said, torque,
+    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_with, put, run,
+    said, torque,
 };
 
 /// Five feeds over a decade on a radius of 25 mm; the one in the middle is held out.
@@ -61,13 +62,17 @@ fn record(
             lists: on.clone(),
         };
         let program = program(folder, *feed, round);
-        let text = circles_of(folder, (&program, 25.0), &deviations_of(&driven));
+        let text = circles_of(
+            folder,
+            (&program, 25.0),
+            (&deviations_of(&driven), Recorder::default()),
+        );
         put(folder, &format!("{feed}-in-{round}.csv"), &text);
     }
 }
 
 /// The program of the circle of a round at a feed.
-fn program(folder: &Path, feed: f64, round: usize) -> String {
+pub(super) fn program(folder: &Path, feed: f64, round: usize) -> String {
     let end = format!("-circle-{feed}.nc");
     let mut names = names_in(&folder.join("m"), "");
     names.retain(|it| it.ends_with(&end));
@@ -82,14 +87,14 @@ fn names_in(folder: &Path, begin: &str) -> Vec<String> {
     names.filter(|it| it.starts_with(begin)).collect()
 }
 
-fn list(path: &Path) -> FrictionList {
+pub(super) fn list(path: &Path) -> FrictionList {
     let read = read_value_list(path, &FileRegistry::default()).expect("a list");
     assert!(read.diagnostics.is_empty(), "{}", path.display());
     read.list
 }
 
 /// The lists of X and Y of one kind.
-fn lists(folder: &Path, kind: &str) -> [PathBuf; 2] {
+pub(super) fn lists(folder: &Path, kind: &str) -> [PathBuf; 2] {
     ["X", "Y"].map(|axis| {
         let names = names_in(&folder.join("m/lists"), &format!("{axis}-{kind}-"));
         assert_eq!(names.len(), 1, "{names:?}");

@@ -50,6 +50,12 @@ fn what_speaks_against_a_list_is_named() {
         &|it| format!("{},{},{},{}", it[0], it[1], it[2], it[3] * heavier(it)),
         head,
     );
+    let elsewhere = rows(
+        &|it| format!("{},{},{},{},{:.0}", it[0], it[1], it[2], it[3], 0.4 * it[2]),
+        "t,v,x,torque,x_act",
+    );
+    let short = good.lines().take(good.lines().count() * 9 / 10);
+    let short = short.collect::<Vec<_>>().join("\n");
     let seconds = good.lines().count() as f64 / 1000.0;
     let drifting = rows(
         &|it| {
@@ -68,6 +74,11 @@ fn what_speaks_against_a_list_is_named() {
             "not used: its program has compensation of X off, and the recording says otherwise at",
         ),
         (vec![("a.csv", &still)], "not used:"),
+        (
+            vec![("a.csv", &elsewhere)],
+            "not used: the actual position does not follow the commanded one",
+        ),
+        (vec![("a.csv", &short)], "s before its program, which takes"),
         (
             vec![("a.csv", &unsigned)],
             "not used: it has no signature; say `--role a.csv=NUMBER`",
@@ -203,30 +214,77 @@ fn counter_clockwise(recording: &str) -> String {
     kept
 }
 
-/// R16.9: circles of one direction or without times are not used; those at another feed count with what was
-/// driven.
+/// R16.9: circles of one direction, with exchanged columns, about another centre, too coarse, and copies are not
+/// used; those at another feed count with what was driven, and those that end early say so.
 #[test]
 fn circles_count_with_what_was_driven() {
     let folder = planned();
     let folder = folder.path();
-    let whole = circles(folder, "m/03-circle-2000.nc", &deviations(2000.0, None));
-    let slower = changed(&whole, "t,x,y", &|it| {
-        format!("{:.5},{},{}", it[0] / 0.9, it[1], it[2])
-    });
+    let of = |program: &str, feed: f64| circles(folder, program, &deviations(feed, None));
+    let whole = of("m/03-circle-2000.nc", 2000.0);
+    let other = of("m/04-circle-3000.nc", 3000.0);
+    let row = |change: &dyn Fn(&[f64]) -> [f64; 3]| {
+        let text = |it: &[f64]| {
+            let [t, x, y] = change(it);
+            format!("{t:.5},{x:.4},{y:.4}")
+        };
+        changed(&whole, "t,x,y", &text)
+    };
+    let rows = |keeps: &dyn Fn(usize) -> bool| {
+        let kept = whole.lines().enumerate();
+        let kept = kept.filter(|(at, _)| *at == 0 || keeps(*at));
+        kept.map(|(_, it)| it).collect::<Vec<_>>().join("\n")
+    };
+    let count = whole.lines().count();
+    let exchanged = row(&|it| [it[0], it[2] + 50.0, it[1] - 50.0]);
+    let missing = "missing: a recording of 03-circle-2000.nc that can be used";
     for (text, words) in [
         (counter_clockwise(&whole), "one direction is missing"),
+        (exchanged.clone(), "not used: it has no signature"),
         (
-            slower,
+            row(&|it| [it[0], it[1] + 3.0, it[2]]),
+            "is of another place or machine",
+        ),
+        (
+            rows(&|at| at % 4 == 0),
+            "not used: a sample every 4.0 ms does not show what a reversal does",
+        ),
+        (other.clone(), "not used: it is `b.csv` once more"),
+        (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
+    ] {
+        put(folder, "b.csv", &other);
+        put(folder, "c.csv", &text);
+        let (status, said) = run(folder, &[]);
+        assert!(
+            status == Some(1) && said.contains(words) && said.contains(missing),
+            "{words}: {said}"
+        );
+    }
+    put(folder, "c.csv", &exchanged);
+    let (_, said) = run(folder, &["--role", "c.csv=3"]);
+    let words = "not used: it begins clockwise and its program counter-clockwise";
+    assert!(said.contains(words) && said.contains(missing), "{said}");
+    for (text, words) in [
+        (
+            row(&|it| [it[0] / 0.9, it[1], it[2]]),
             "driven at 1800 mm/min in place of 2000: 22.50 mm/s² count",
+        ),
+        (
+            rows(&|at| at < count * 4 / 5),
+            "turns cw are in it: it begins late or ends early",
         ),
     ] {
         put(folder, "c.csv", &text);
         let (status, said) = run(folder, &[]);
-        assert!(status == Some(1) && said.contains(words), "{words}: {said}");
+        assert!(
+            status == Some(1) && said.contains(words) && !said.contains(missing),
+            "{words}: {said}"
+        );
     }
 }
 
-/// R16.9: a list that adds too much, that has changed since, whose friction or feeds are not recorded.
+/// R16.9: a list that adds too much, that has changed since, that shows no effect, whose friction or feeds are not
+/// recorded.
 #[test]
 fn lists_that_are_not_accepted_say_why() {
     let folder = planned();
@@ -271,6 +329,7 @@ fn lists_that_are_not_accepted_say_why() {
         "times the measured friction; 1.3 are the most",
         "the friction of Y is not known",
         "F3000 is not recorded both off and on",
+        "off and on hardly differ at any feed: the lists were not on, or on in both",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

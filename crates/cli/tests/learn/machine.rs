@@ -10,7 +10,7 @@ use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{DriveParameters, FrictionModel, Plant, Preset};
 
 /// Pitch of the screws in mm.
-const PITCH_MM: f64 = 10.0;
+pub(crate) const PITCH_MM: f64 = 10.0;
 
 /// A machine, and its recorder.
 #[derive(Debug, Clone)]
@@ -95,20 +95,21 @@ impl Machine {
         }
     }
 
-    /// The largest true glitch of X and of Y in µm with lists, over feeds.
-    pub(crate) fn left_um(&self, feeds: &[f64], lists: [&FrictionList; 2]) -> [f64; 2] {
+    /// The largest true glitch of X and of Y in µm with lists or without, over feeds.
+    pub(crate) fn left_um(&self, feeds: &[f64], lists: [Option<&FrictionList>; 2]) -> [f64; 2] {
         let mut most = [0.0_f64; 2];
         for &feed in feeds {
             let job = Job {
-                compensation: Switched::On,
+                compensation: switched(lists),
                 direction: Direction::Ccw,
             };
-            let lap = self
-                .test(feed, lists.map(Some), 1.0)
-                .run(job)
-                .expect("a lap");
-            let figures = Comparison::of([lap]).on.figures;
-            let shape = figures.ccw.and_then(|it| it.shape).expect("glitches");
+            let lap = self.test(feed, lists, 1.0).run(job).expect("a lap");
+            let compared = Comparison::of([lap]);
+            let side = match job.compensation {
+                Switched::Off => compared.off,
+                Switched::On => compared.on,
+            };
+            let shape = side.figures.ccw.and_then(|it| it.shape).expect("glitches");
             for glitch in shape.glitches {
                 let at = usize::from(glitch.crossing.axis().as_str() == "Y");
                 most[at] = most[at].max(glitch.height_um);
@@ -128,11 +129,7 @@ impl Machine {
         let mut random = fastrand::Rng::with_seed(seed);
         let friction = 0.99 + 0.02 * random.f64();
         let test = self.test(feed, lists, friction);
-        let compensation = if lists[0].is_some() {
-            Switched::On
-        } else {
-            Switched::Off
-        };
+        let compensation = switched(lists);
         let mut rows = Vec::new();
         for direction in Direction::ALL {
             let job = Job {
@@ -170,5 +167,13 @@ impl Machine {
             let time = (begin + at) as f64 / 1000.0;
             rows.push([time, screw(x) + noise(), screw(y) + noise()]);
         }
+    }
+}
+
+fn switched(lists: [Option<&FrictionList>; 2]) -> Switched {
+    if lists[0].is_some() {
+        Switched::On
+    } else {
+        Switched::Off
     }
 }

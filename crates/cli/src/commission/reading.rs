@@ -70,6 +70,12 @@ impl ReadingArgs {
         format!("{self:?}")
     }
 
+    /// All that decides how recorded circles are read.
+    pub(super) fn circles_key(&self) -> String {
+        let (time, places) = (&self.time, &self.actual_position);
+        format!("{time:?} {places:?} {:?} {:?}", self.unit, self.cycle)
+    }
+
     /// The number of the program and what its recording tells. What cannot be read is a result, too: the
     /// other recordings are read all the same.
     pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, Found) {

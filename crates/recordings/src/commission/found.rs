@@ -7,7 +7,7 @@ use super::following::COARSEST_S;
 use crate::identify::{Fit, Identified, Track, along, count};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp_physics::circle::{
-    Direction, PlaneAxis, RecordedCircle, Recording, recorded_height_um,
+    Direction, Figures, PathFigures, PlaneAxis, RecordedCircle, Recording, recorded_height_um,
 };
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
@@ -241,6 +241,8 @@ pub struct CirclesFound {
     pub glitches_um: Vec<[f64; 4]>,
     /// The largest of them.
     pub worst_um: f64,
+    /// The figures of ISO 230-4.
+    pub iso: IsoFigures,
     /// The glitch of each axis as predictions are compared with it, without noise.
     pub heights_um: Option<[f64; 2]>,
     /// Remarks.
@@ -288,6 +290,7 @@ impl CirclesFound {
         let height = |axis| recorded_height_um(axis, &recording.circles);
         let heights = height(PlaneAxis::X).zip(height(PlaneAxis::Y));
         Self {
+            iso: IsoFigures::of(&recording.side.figures),
             heights_um: heights.map(|(x, y)| [x, y]),
             feed,
             measured_feed,
@@ -318,6 +321,31 @@ impl CirclesFound {
     pub fn is_driven_as(&self, other: &Self) -> bool {
         let feeds = self.at_feed().zip(other.at_feed());
         feeds.is_some_and(|(one, other)| one.is_driven_as(&other))
+    }
+}
+
+/// Figures of ISO 230-4 in µm, where a recording has them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct IsoFigures {
+    /// Circular deviation G of the counter-clockwise path about the centre of the minimum zone.
+    pub g_ccw: Option<f64>,
+    /// That of the clockwise path.
+    pub g_cw: Option<f64>,
+    /// Bidirectional circular deviation G(b).
+    pub g_b: Option<f64>,
+    /// Circular hysteresis H.
+    pub h: Option<f64>,
+}
+
+impl IsoFigures {
+    fn of(figures: &Figures) -> Self {
+        let deviation = |path: &Option<PathFigures>| path.as_ref().map(|it| it.g_mz_um);
+        Self {
+            g_ccw: deviation(&figures.ccw),
+            g_cw: deviation(&figures.cw),
+            g_b: figures.g_b_um,
+            h: figures.h_um,
+        }
     }
 }
 

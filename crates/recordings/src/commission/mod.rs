@@ -21,12 +21,12 @@ mod strokes;
 
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};
-pub use found::{CirclesFound, FrictionFound, MOST_CURRENT};
+pub use found::{CirclesFound, FrictionFound, IsoFigures, MOST_CURRENT};
 pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
 pub use plant_found::{
-    PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch, TunedList, against_plant, held_out,
-    with_friction,
+    ComparedGlitch, PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch, TunedList,
+    against_plant, held_out, with_friction,
 };
 pub use program::{Measurement, PlanStep, Program, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};

@@ -21,6 +21,12 @@ const MISSED: f64 = 0.25;
 /// … or by this, in µm.
 const MISSED_UM: f64 = 0.5;
 
+/// Predictions that differ by less than this in µm are the same.
+const SAME_UM: f64 = 0.1;
+
+/// A list is a gain where it leaves at most this part.
+const GAIN: f64 = 0.95;
+
 /// A plant with what was made of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlantFound {
@@ -83,7 +89,7 @@ pub struct PredictedGlitch {
 }
 
 /// A recorded glitch, as a prediction is compared with it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RecordedGlitch {
     /// The axis.
     pub axis: String,
@@ -92,7 +98,20 @@ pub struct RecordedGlitch {
     /// The SHA-256 of the list that was on.
     pub list: Option<String>,
     /// The glitch in µm.
+    #[serde(rename = "recorded_glitch")]
     pub um: f64,
+}
+
+/// A recorded glitch at a feed that neither the fit nor the tuning has seen, or with a list that was tuned on the
+/// plant, beside its prediction.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ComparedGlitch {
+    /// The recorded glitch.
+    #[serde(flatten)]
+    pub recorded: RecordedGlitch,
+    /// The predicted one in µm.
+    #[serde(rename = "predicted_glitch")]
+    pub predicted_um: f64,
 }
 
 /// A list that was tuned on the plant.
@@ -130,6 +149,30 @@ impl PlantAxis {
     }
 }
 
+impl ComparedGlitch {
+    /// Says by how much the recording misses the prediction, where that rejects the plant.
+    pub fn missed(&self) -> Option<String> {
+        let (recorded, predicted) = (&self.recorded, self.predicted_um);
+        let is_missed = (predicted - recorded.um).abs() > MISSED_UM.max(MISSED * recorded.um);
+        is_missed.then(|| {
+            format!(
+                "at F{} {predicted:.1} µm were predicted for {} {}, and {:.1} µm are recorded",
+                recorded.feed,
+                recorded.axis,
+                recorded.state(),
+                recorded.um
+            )
+        })
+    }
+}
+
+impl RecordedGlitch {
+    /// Whether a list was on, as a word.
+    pub fn state(&self) -> &'static str {
+        if self.list.is_some() { "on" } else { "off" }
+    }
+}
+
 impl PlantFound {
     /// Whether the stiffness of each contact is determined.
     pub fn is_determined(&self) -> bool {
@@ -156,22 +199,36 @@ impl PlantFound {
         found.map(|it| it.predicted_um)
     }
 
-    /// Recorded glitches that it misses.
-    pub fn missed(&self, recorded: &[RecordedGlitch]) -> Vec<String> {
-        let missed = recorded.iter().filter_map(|it| {
-            let predicted = self.predicted(&it.axis, it.feed, it.list.as_deref())?;
-            let is_missed = (predicted - it.um).abs() > MISSED_UM.max(MISSED * it.um);
-            is_missed.then(|| {
-                format!(
-                    "at F{} {predicted:.1} µm were predicted for {} {}, and {:.1} µm are recorded",
-                    it.feed,
-                    it.axis,
-                    if it.list.is_some() { "on" } else { "off" },
-                    it.um
-                )
+    /// Recorded glitches beside their predictions.
+    pub fn compared(&self, recorded: Vec<RecordedGlitch>) -> Vec<ComparedGlitch> {
+        let compared = recorded.into_iter().filter_map(|recorded| {
+            let list = recorded.list.as_deref();
+            let predicted_um = self.predicted(&recorded.axis, recorded.feed, list)?;
+            Some(ComparedGlitch {
+                recorded,
+                predicted_um,
             })
         });
-        missed.collect()
+        compared.collect()
+    }
+
+    /// The largest predicted glitch of an axis with a list over all recorded feeds; `None` without a prediction.
+    pub fn largest(&self, axis: &str, list: &str) -> Option<f64> {
+        let feeds = self.feeds().into_iter();
+        let predicted = feeds.filter_map(|feed| self.predicted(axis, feed, Some(list)));
+        predicted.max_by(f64::total_cmp)
+    }
+
+    /// Says where a list is predicted to leave hardly less than the old one.
+    pub fn no_gain(&self, axis: &str, list: &str, old: &str) -> Option<String> {
+        let new_um = self.largest(axis, list)?;
+        let old_um = self.largest(axis, old)?;
+        (new_um > GAIN * old_um).then(|| {
+            format!(
+                "at most {new_um:.1} µm are predicted, and {old_um:.1} µm with the list that was recorded last: it is \
+                 no gain"
+            )
+        })
     }
 
     /// Held-out feeds at which a list is predicted to leave more than there is without one, or than the old one
@@ -186,7 +243,7 @@ impl PlantFound {
             let on = old.map(|old| (Some(old), "with the old list"));
             let worse = off.into_iter().chain(on).find_map(|(list, what)| {
                 let before = self.predicted(axis, feed, list)?;
-                (new_um > before).then_some((before, what))
+                (new_um > before + SAME_UM).then_some((before, what))
             });
             if let Some((before, what)) = worse {
                 against.push(format!(
@@ -293,7 +350,9 @@ mod tests {
                 list: None,
                 um,
             };
-            !found(predicted).missed(&[recorded]).is_empty()
+            found(predicted).compared(vec![recorded])[0]
+                .missed()
+                .is_some()
         };
         assert!(!missed(1.4, 1.0) && missed(1.6, 1.0) && missed(0.4, 1.0));
         assert!(!missed(12.4, 10.0) && missed(12.6, 10.0) && missed(7.4, 10.0));

@@ -368,7 +368,7 @@ pub(super) fn check_compensation(
         (_, Some(Switched::On)) => Err(refused(
             Code::Fc521,
             "friction compensation was on, and the torque is not known to hold what it adds".to_owned(),
-            help,
+            "if it is the actual torque of the drive, say so; else record that",
         )),
         (_, None) => Ok(Some(TraceFinding::new(
             Code::Fc521,

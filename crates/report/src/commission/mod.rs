@@ -7,8 +7,8 @@ mod results;
 mod summary;
 mod words;
 
-pub(crate) use plants::parameters;
 pub use plants::{PlantVerdict, Plants};
+pub(crate) use plants::{list_on, parameters};
 pub use program::render_program;
 pub use readme::render_readme;
 pub use results::{

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use frictcomp::diagnostic::Rounded;
 use frictcomp_physics::circle::Extent;
-use frictcomp_recordings::commission::{PlantAxis, PlantFound, TunedList};
+use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, TunedList};
 use serde::Serialize;
 
 use crate::visible::visible_line;
@@ -24,6 +24,8 @@ pub struct PlantVerdict {
     /// The plant.
     #[serde(flatten)]
     pub found: PlantFound,
+    /// Recorded glitches beside what was predicted for them.
+    pub compared: Vec<ComparedGlitch>,
     /// Recorded glitches that it misses: it is rejected.
     pub rejected: Vec<String>,
 }
@@ -182,7 +184,37 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
             axis.left, axis.reversals, axis.simulations
         );
     }
+    push_compared(out, &verdict.compared);
     push_glitches(out, found);
+}
+
+/// What was off, or the beginning of the SHA-256 of the list that was on, as the names of files have it.
+pub(crate) fn list_on(compared: &ComparedGlitch) -> &str {
+    let list = compared.recorded.list.as_deref();
+    list.map_or("off", |sum| sum.get(..8).unwrap_or(sum))
+}
+
+/// The recorded glitches beside the predicted ones.
+fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
+    if compared.is_empty() {
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "recorded beside predicted glitch in µm, each a mean over 8 ms\n{:>12} {:<6} {:<10} {:>9} {:>9}",
+        "feed mm/min", "axis", "list", "predicted", "recorded"
+    );
+    for it in compared {
+        let _ = writeln!(
+            out,
+            "{:>12} {:<6} {:<10} {:>9.1} {:>9.1}",
+            it.recorded.feed,
+            visible_line(&it.recorded.axis),
+            list_on(it),
+            it.predicted_um,
+            it.recorded.um
+        );
+    }
 }
 
 /// The predicted glitch of each axis at each feed, off and with the tuned lists.

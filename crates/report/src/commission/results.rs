@@ -145,6 +145,14 @@ impl ResultsReport {
         missing.map(|it| it.file.clone()).collect()
     }
 
+    /// What the program with a number has on: nothing, or the lists of a round.
+    pub fn compensation_of(&self, number: u16) -> String {
+        let has = |plan: &&PlanFile| plan.plan.programs.iter().any(|it| it.number == number);
+        let rounds = self.plans.iter().filter(|it| it.plan.stage == Stage::On);
+        let round = (2..).zip(rounds).find(|(_, plan)| has(plan));
+        round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
+    }
+
     /// Whether every program is recorded, every axis has a list, and the lists of the last round are accepted.
     pub fn is_complete(&self) -> bool {
         self.missing().is_empty()

@@ -6,11 +6,11 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
-use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, parameters};
+use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, list_on, parameters};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
-use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis};
+use frictcomp_recordings::commission::{CirclesFound, Found, FrictionFound, MeasuredAxis};
 
 const VERDICT: Part = Part::new("verdict", "Verdict");
 const CIRCLES: Part = Part::new("circles", "Before and after");
@@ -106,7 +106,51 @@ fn circles(report: &ResultsReport) -> Markup {
             p { "No feed is recorded both with compensation off and on." }
         }
         @for round in rounds { (round_circles(round)) }
+        (iso_figures(report))
     }
+}
+
+/// The figures of ISO 230-4 of each circle that is used, in the order of the programs.
+fn iso_figures(report: &ResultsReport) -> Markup {
+    let used = report.results.iter().filter(|it| it.found.is_used());
+    let circles = used.filter_map(|it| match &it.found {
+        Found::Circles(circles) => Some((it.program?, circles)),
+        _ => None,
+    });
+    let mut circles: Vec<(u16, &CirclesFound)> = circles.collect();
+    circles.sort_by_key(|it| it.0);
+    if circles.is_empty() {
+        return html! {};
+    }
+    let table = Table {
+        caption: Caption::Shown("Figures of ISO 230-4 in µm, recorded; a row for each circle"),
+        columns: &[
+            Column::Text("program"),
+            Column::Text("compensation"),
+            Column::Number("feed in mm/min"),
+            Column::Number("G ccw"),
+            Column::Number("G cw"),
+            Column::Number("G(b)"),
+            Column::Number("H"),
+        ],
+    };
+    let rows = circles.into_iter().map(|(number, circles)| {
+        let iso = circles.iso;
+        let feed = Rounded(circles.measured_feed.unwrap_or(circles.feed), 0);
+        let figures = [iso.g_ccw, iso.g_cw, iso.g_b, iso.h].map(number_or_dash);
+        let cells = [report.compensation_of(number), feed.to_string()];
+        let cells = cells.into_iter().chain(figures);
+        let cells = cells.map(|text| html! { (text) });
+        Row::new(&number.to_string(), cells.collect::<Vec<_>>())
+    });
+    html! {
+        (table.render(rows))
+        p { "G about the centre of the minimum zone, G(b) and H about the mean centre of both directions." }
+    }
+}
+
+fn number_or_dash(um: Option<f64>) -> String {
+    um.map_or("-".to_owned(), |it| Rounded(it, 1).to_string())
 }
 
 fn round_circles(round: &Round) -> Markup {
@@ -228,9 +272,8 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
     let predicted = found.feeds().into_iter().map(|feed| {
         let off = found.predicted(name, feed, None);
         let on = tuned.and_then(|it| found.predicted(name, feed, Some(&it.sha256)));
-        let number = |um: Option<f64>| um.map_or("-".to_owned(), |it| Rounded(it, 1).to_string());
         let held_out = if found.is_held_out(feed) { "yes" } else { "" };
-        let cells = [number(off), number(on), held_out.to_owned()];
+        let cells = [number_or_dash(off), number_or_dash(on), held_out.to_owned()];
         let cells = cells.map(|text| html! { (text) });
         Row::new(&Rounded(feed, 0).to_string(), cells.to_vec())
     });
@@ -240,6 +283,7 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
             (Rounded(axis.left, 2).to_string()) " µm are left of " (axis.reversals)
             " recorded reversals at the feeds that were not held out."
         }
+        (compared_part(plant, name))
         (glitches.render(predicted))
         @if !plant.rejected.is_empty() {
             p { "The plant is rejected, and the lists of before stay:" }
@@ -252,6 +296,31 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
             }
         }
     }
+}
+
+/// The recorded glitches of an axis beside what was predicted for them.
+fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
+    let table = Table {
+        caption: Caption::Shown(
+            "Glitches that the plant was not fitted to, recorded beside predicted; each a mean over 8 ms",
+        ),
+        columns: &[
+            Column::Text("feed in mm/min"),
+            Column::Text("list"),
+            Column::Number("predicted in µm"),
+            Column::Number("recorded in µm"),
+        ],
+    };
+    let compared = plant.compared.iter();
+    let of_axis = compared.filter(|it| it.recorded.axis == name);
+    let rows = of_axis.map(|it| {
+        let [predicted, recorded] =
+            [it.predicted_um, it.recorded.um].map(|um| Rounded(um, 1).to_string());
+        let cells = [list_on(it).to_owned(), predicted, recorded];
+        let cells = cells.map(|text| html! { (text) });
+        Row::new(&Rounded(it.recorded.feed, 0).to_string(), cells.to_vec())
+    });
+    html! { @if !plant.compared.is_empty() { (table.render(rows)) } }
 }
 
 /// Renders the assumptions and the lists of stage 2.

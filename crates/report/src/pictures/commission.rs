@@ -15,6 +15,9 @@ pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
     };
     let slowest = found.speeds.first().map_or(0.0, |it| it[0]);
     let points = found.table.iter().map(|it| [it[0] / 1000.0, it[1]]);
+    let points: Vec<[f64; 2]> = points.filter(|it| it[0] >= slowest).collect();
+    let curve = points.windows(2).flat_map(|ends| between(ends[0], ends[1]));
+    let curve: Vec<[f64; 2]> = curve.chain(points.last().copied()).collect();
     let series = |name: &str, points: Vec<[f64; 2]>, drawn: Drawn| Series {
         name: name.to_owned(),
         points,
@@ -40,16 +43,22 @@ pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
                     found.speeds.iter().flat_map(bar).collect(),
                     Drawn::Held,
                 ),
-                series(
-                    "list",
-                    points.filter(|it| it[0] >= slowest).collect(),
-                    Drawn::Marked,
-                ),
+                series("list", curve, Drawn::Line),
+                series("list", points, Drawn::Points),
             ],
             ..Panel::default()
         }],
         ..LineChart::default()
     }
+}
+
+/// A straight line between two points of a list, which is none over the logarithm of the speed, without its end.
+fn between(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    const PARTS: u32 = 12;
+    (0..PARTS).map(move |part| {
+        let share = f64::from(part) / f64::from(PARTS);
+        [0, 1].map(|at| from[at] + share * (to[at] - from[at]))
+    })
 }
 
 /// The glitches of a round over the feed, off and on.

@@ -63,15 +63,15 @@ impl Fitting<'_> {
 
     /// The SHA-256 of all that a plant is fitted to.
     fn key(&self, axes: &[Axis<'_>], off: &[Driven<'_>], rounds: &[RoundCircles<'_>]) -> String {
-        let frictions: Vec<_> = axes.iter().map(|it| it.from).collect();
+        let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();
         let sums = |circles: &[Driven<'_>]| {
             let sums = circles.iter().map(|it| it.result.sha256.clone());
             sums.collect::<Vec<_>>()
         };
         let on = rounds.iter().map(|it| (it.shas(), sums(&it.circles)));
         let on: Vec<_> = on.collect();
-        let (base, reading, off) = (self.base, self.args.reading.key(), sums(off));
-        sha256_of_text(&format!("{reading} {base:?} {frictions:?} {off:?} {on:?}"))
+        let (reading, off) = (self.args.reading.circles_key(), sums(off));
+        sha256_of_text(&format!("{reading} {frictions:?} {off:?} {on:?}"))
     }
 
     /// The recorded reversals of each axis at the feeds of the fit.

@@ -53,8 +53,6 @@ pub(super) struct Axis<'a> {
     pub(super) name: &'a str,
     pub(super) plane: PlaneAxis,
     pub(super) friction: &'a FrictionFound,
-    /// The SHA-256 of its recording.
-    pub(super) from: &'a str,
     /// The drive with the measured friction.
     pub(super) drive: DriveParameters,
 }
@@ -69,7 +67,7 @@ impl Fitting<'_> {
         let each = PlaneAxis::ALL.into_iter().zip([x, y]);
         each.map(|(plane, axis)| {
             let (source, _) = source_of(axis, self.plans, self.results);
-            let (result, friction) =
+            let (_, friction) =
                 source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;
             let fit = friction.fit.as_ref().ok_or_else(|| {
                 format!(
@@ -85,7 +83,6 @@ impl Fitting<'_> {
                 name: &axis.name,
                 plane,
                 friction,
-                from: &result.sha256,
                 drive: with_friction(base, fit),
             })
         })

@@ -104,6 +104,7 @@ impl Fitting<'_> {
             let on = (Some(sha256.as_str()), Some(&list));
             let predicted_um = self.predict_axis(found, axis, recorded, on)?;
             let mut against = found.fails_held_out(axis.name, &sha256, old);
+            against.extend(old.and_then(|old| found.no_gain(axis.name, &sha256, old)));
             let strongest = axis.friction.strongest(&list);
             if let Some((speed, part)) = strongest.filter(|it| it.1 > MOST_CURRENT) {
                 against.push(format!(

@@ -5,7 +5,9 @@ use super::fitting::{Axis, Fitting, NoPlant, recorded_list};
 use crate::failure::Failure;
 use crate::outputs::Outputs;
 use frictcomp_host::read_text;
-use frictcomp_recordings::commission::{PlantFound, RecordedGlitch, Stage, against_plant};
+use frictcomp_recordings::commission::{
+    ComparedGlitch, PlantFound, RecordedGlitch, Stage, against_plant,
+};
 use frictcomp_report::commission::{PlantVerdict, Plants};
 use frictcomp_report::value_lists::tuned_on;
 
@@ -65,7 +67,8 @@ impl Fitting<'_> {
             let on = glitches(axes, &round.circles, round.shas(), &found.held_out);
             held_out.extend(on);
         }
-        let mut rejected = found.missed(&held_out);
+        let mut compared = found.compared(held_out);
+        let mut rejected = missed(&compared);
         if rejected.is_empty() && later.is_empty() {
             self.tuned(&mut found, axes, recorded, last, outputs)?;
         }
@@ -75,9 +78,15 @@ impl Fitting<'_> {
             }
             self.predict(&mut found, axes, recorded, round.lists())?;
             let tried = glitches(axes, &round.circles, round.shas(), &feeds);
-            rejected.extend(found.missed(&tried));
+            let tried = found.compared(tried);
+            rejected.extend(missed(&tried));
+            compared.extend(tried);
         }
-        Ok(PlantVerdict { found, rejected })
+        Ok(PlantVerdict {
+            found,
+            compared,
+            rejected,
+        })
     }
 
     /// The usable circles of each plan of a stage.
@@ -92,6 +101,10 @@ impl Fitting<'_> {
             })
             .collect()
     }
+}
+
+fn missed(compared: &[ComparedGlitch]) -> Vec<String> {
+    compared.iter().filter_map(ComparedGlitch::missed).collect()
 }
 
 /// Whether a list of a round was tuned on a plant.

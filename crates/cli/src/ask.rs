@@ -11,7 +11,7 @@ use super::channels::MotionChannels;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
-use super::failure::Failure;
+use super::failure::{Failure, shown};
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::result::Format;
@@ -21,14 +21,15 @@ use frictcomp::machine::Machine;
 use frictcomp::readings::{Basis, Question};
 use frictcomp::text::shown_path;
 use frictcomp_host::ask::{
-    Answer, AnswerVerdict, AnsweredReading, AskedAxis, RecordedQuestions, ask, date_of,
-    read_answers, read_recorded_answers, readme, with_findings,
+    Answer, AnswerVerdict, AnsweredReading, AskedAxis, RecordedQuestions, UnreadAnswer, ask,
+    date_of, read_answers, read_recorded_answers, readme, with_findings,
 };
 use frictcomp_host::{
     CONFIG_NAME, FileRegistry, HostError, LoadedMachine, MendedFile, read_text, write_mended,
     write_new,
 };
 use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_report::visible_line;
 
 /// Ask the control what its documents leave open: write NC programs that ask, read their answers,
 /// and remember them in `frictcomp.toml`
@@ -168,9 +169,16 @@ impl AskArgs {
     /// The answers in a file: lines of a text, or what a recording shows.
     fn answers_in(&self, path: &Path, machine: &Machine) -> Result<Vec<Answer>, Failure> {
         const LINES: &str = "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
-        let answers = read_answers(&read_text(path)?, |name| self.asked(name, machine));
+        let (answers, unread) = read_answers(&read_text(path)?, |name| self.asked(name, machine));
+        for UnreadAnswer { line, reason } in &unread {
+            let reason = visible_line(reason);
+            Console::talk(&format!("{}:{line} is no answer: {reason}", shown(path)));
+        }
         if !answers.is_empty() {
             return Ok(answers);
+        }
+        if !unread.is_empty() {
+            return Err(Failure::new(format!("`{}` holds no answer", shown(path))).with_help(LINES));
         }
         let of_machine = machine.cycle_time_ms.map(|ms| ms / 1000.0);
         let asked = RecordedQuestions {

@@ -118,6 +118,26 @@ fn a_control_of_either_kind_is_read_rightly() {
     }
 }
 
+/// R15.2: a line that is meant as an answer and is none is said, with its place.
+#[test]
+fn lines_that_are_no_answers_are_named() {
+    let bench = bench();
+    bench.write(
+        "note.txt",
+        "frictcomp-ask R1.9\n\nfrictcomp-ask R9.99 0 X V3.1.3081.5 reading x\n",
+    );
+    let output = bench.call(&["ask", "--read", "note.txt"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).expect("text");
+    for words in [
+        "note.txt:1 is no answer: after `frictcomp-ask` an answer has a rule",
+        "note.txt:3 is no answer: there is no question `R9.99`",
+        "`note.txt` holds no answer",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+}
+
 /// R15.1, R15.2: what an operator sees is a line of a note.
 #[test]
 fn a_note_answers_what_no_program_does() {

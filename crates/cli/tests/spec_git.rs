@@ -270,7 +270,11 @@ fn before_the_first_commit_everything_is_new() {
     let bench = Bench::new(&[("a.nc", "M30\n"), ("b.nc", "M30\n")]);
     git(&bench, &["init", "-q"]);
     git(&bench, &["add", "a.nc"]);
-    assert!(changed(&bench, &["HEAD", "."]).0.starts_with("2 of 2 programs"));
+    assert!(
+        changed(&bench, &["HEAD", "."])
+            .0
+            .starts_with("2 of 2 programs")
+    );
     assert_eq!(bench.status(&["diff", "--git", "HEAD"]), Some(0));
 }
 

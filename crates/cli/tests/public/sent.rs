@@ -348,6 +348,7 @@ sent! {
     host::ask::AskedAxis,
     host::ask::AskedFile,
     host::ask::RecordedQuestions<'_>,
+    host::ask::UnreadAnswer,
     host::conformance::Answers,
     host::conformance::Case,
     host::conformance::CaseError,

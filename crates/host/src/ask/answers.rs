@@ -46,19 +46,41 @@ impl Answer {
 /// The values of one run, by their words; the last one of a word counts.
 type Values = BTreeMap<String, String>;
 
-/// The answers in a text, in the order of the questions. `axis` is what else is known of an axis by its
+/// A line of answers that is none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnreadAnswer {
+    /// The line, from 1.
+    pub line: usize,
+    /// Why it is no answer.
+    pub reason: String,
+}
+
+/// The answers in a text, in the order of the questions, and the lines that are meant as answers and are
+/// none. `axis` is what else is known of an axis by its
 /// name, as when the programs were written.
-pub fn read_answers(text: &str, axis: impl Fn(&str) -> AskedAxis) -> Vec<Answer> {
+pub fn read_answers(
+    text: &str,
+    axis: impl Fn(&str) -> AskedAxis,
+) -> (Vec<Answer>, Vec<UnreadAnswer>) {
+    let mut unread = Vec::new();
     let mut runs: BTreeMap<(Question, String, String), (String, Values)> = BTreeMap::new();
-    for line in text.lines() {
+    for (at, line) in text.lines().enumerate() {
+        let mut leave = |reason: String| {
+            let line = at + 1;
+            unread.push(UnreadAnswer { line, reason });
+        };
         let Some(found) = line.find(TAG) else {
             continue;
         };
         let words: Vec<&str> = line[found..].split_whitespace().collect();
         let [_, rule, print, name, build, word, rest @ ..] = words.as_slice() else {
+            leave(format!(
+                "after `{TAG}` an answer has a rule, a fingerprint, an axis, a build and what was seen"
+            ));
             continue;
         };
         let Some(question) = Question::of_rule(rule) else {
+            leave(format!("there is no question `{rule}`"));
             continue;
         };
         let key = (question, (*name).to_owned(), (*build).to_owned());
@@ -90,7 +112,7 @@ pub fn read_answers(text: &str, axis: impl Fn(&str) -> AskedAxis) -> Vec<Answer>
             evidence,
         }
     });
-    answers.collect()
+    (answers.collect(), unread)
 }
 
 /// A reading with its evidence, or why there is none.

@@ -12,7 +12,7 @@ mod programs;
 mod recording;
 mod written;
 
-pub use answers::{Answer, AnswerVerdict, read_answers};
+pub use answers::{Answer, AnswerVerdict, UnreadAnswer, read_answers};
 pub use axis::AskedAxis;
 pub use programs::{AskedFile, ask, readme};
 pub use recording::{RecordedQuestions, read_recorded_answers};

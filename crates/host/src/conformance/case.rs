@@ -197,6 +197,15 @@ fn is_toml(path: &Path) -> bool {
     path.extension().is_some_and(|it| it == "toml")
 }
 
+/// What is wrong with the TOML of a case, with the line where it is known.
+fn in_words(text: &str, error: &toml::de::Error) -> String {
+    let message = error.message();
+    match error.span().and_then(|span| text.get(..span.start)) {
+        Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
+        None => message.to_owned(),
+    }
+}
+
 impl Case {
     /// Reads a case.
     ///
@@ -212,13 +221,13 @@ impl Case {
     }
 
     fn parse(file: &Path, text: &str) -> Result<Self, String> {
-        let mut table: Table = text.parse().map_err(|error| format!("{error}"))?;
+        let mut table: Table = text.parse().map_err(|error| in_words(text, &error))?;
         let of_machine = MACHINE.iter().filter_map(|key| table.remove_entry(*key));
         let machine: Table = of_machine.collect();
         let machine = toml::to_string(&machine).map_err(|error| error.to_string())?;
         let written: Written = Value::Table(table)
             .try_into()
-            .map_err(|error| format!("{error}"))?;
+            .map_err(|error| in_words(text, &error))?;
         if written.source.is_some() == (written.assumed || !written.reading.is_empty()) {
             return Err("a case has `source`, or `assumed = true`, or `[reading.…]`".to_owned());
         }

@@ -361,6 +361,7 @@ fn from_recordings_to_accepted_lists() {
         "{text}"
     );
     check_report(folder);
+    one_feed_without_effect(folder);
     other_recordings(folder);
 }
 
@@ -423,6 +424,18 @@ fn second_stage(folder: &Path) {
             &circles(folder, &on, &deviations(feed, Some(&list))),
         );
     }
+}
+
+/// At one feed the lists were not on.
+fn one_feed_without_effect(folder: &Path) {
+    let path = folder.join("m/recordings/on3000.csv");
+    let whole = std::fs::read(&path).expect("a recording");
+    let off = circles(folder, "m/67-circle-3000.nc", &deviations(3000.0, None));
+    put(folder, "on3000.csv", &off);
+    let (status, text) = run(folder, &[]);
+    let words = "at F3000 off and on hardly differ, and at the next feeds they do";
+    assert!(status == Some(1) && text.contains(words), "{text}");
+    std::fs::write(path, whole).expect("written");
 }
 
 /// Another round, then a recording that changed.

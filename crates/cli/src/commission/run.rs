@@ -333,6 +333,14 @@ fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -
             ));
         }
     }
+    for three in recorded.windows(3) {
+        if three[1].stands_out(&three[0], &three[2]) {
+            against.push(format!(
+                "at F{} off and on hardly differ, and at the next feeds they do: compensation was the same in both",
+                three[1].feed
+            ));
+        }
+    }
     if !recorded.iter().any(BeforeAfter::shows_an_effect) {
         against.push(
             "off and on hardly differ at any feed: the lists were not on, or on in both".to_owned(),

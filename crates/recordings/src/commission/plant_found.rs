@@ -149,6 +149,21 @@ impl PlantAxis {
     }
 }
 
+impl PlantAxis {
+    /// Says which parameter ends at the bound of its search, where the range has no width.
+    fn at_a_bound(&self) -> Option<String> {
+        let found = [("the contact", self.contact), ("Kp", self.speed_gain)];
+        let bound = found.into_iter().find(|(_, it)| it.high <= it.low);
+        bound.map(|(name, _)| {
+            format!(
+                "{name} of {} ends at the bound of its search: mass, loops or friction are not those of this machine, \
+                 or the recordings are of two states of it",
+                self.axis
+            )
+        })
+    }
+}
+
 impl ComparedGlitch {
     /// Says by how much the recording misses the prediction, where that rejects the plant.
     pub fn missed(&self) -> Option<String> {
@@ -197,6 +212,11 @@ impl PlantFound {
             it.axis == axis && it.feed.total_cmp(&feed).is_eq() && it.list.as_deref() == list
         });
         found.map(|it| it.predicted_um)
+    }
+
+    /// Reasons against the fit itself.
+    pub fn against_fit(&self) -> Vec<String> {
+        self.axes.iter().filter_map(PlantAxis::at_a_bound).collect()
     }
 
     /// Recorded glitches beside their predictions.

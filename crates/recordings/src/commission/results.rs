@@ -123,6 +123,14 @@ impl BeforeAfter {
         const LEAST: f64 = 0.05;
         self.on < self.off * (1.0 - LEAST)
     }
+
+    /// Whether off and on are alike here, although compensation takes much away at the next feeds on both sides: it was
+    /// on in both recordings, or in none.
+    pub fn stands_out(&self, slower: &Self, faster: &Self) -> bool {
+        const MUCH: f64 = 0.8;
+        let takes_much = |it: &Self| it.on < it.off * MUCH;
+        !self.shows_an_effect() && takes_much(slower) && takes_much(faster)
+    }
 }
 
 /// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest

@@ -55,6 +55,12 @@ impl Plants {
         self.verdicts.iter().map(|it| &it.found)
     }
 
+    /// Whether the recordings reject the last plant.
+    pub fn is_rejected(&self) -> bool {
+        let last = self.verdicts.last();
+        last.is_some_and(|it| !it.rejected.is_empty())
+    }
+
     /// Reasons against lists that were tuned on the plant with a key.
     pub fn against(&self, key: &str) -> Vec<String> {
         let Some(plant) = self.verdicts.iter().find(|it| it.found.key == key) else {

@@ -153,9 +153,11 @@ impl ResultsReport {
         round.map_or("off".to_owned(), |(round, _)| format!("on, round {round}"))
     }
 
-    /// Whether every program is recorded, every axis has a list, and the lists of the last round are accepted.
+    /// Whether every program is recorded, every axis has a list, the lists of the last round are accepted, and no
+    /// recording rejects the plant.
     pub fn is_complete(&self) -> bool {
         self.missing().is_empty()
+            && !self.fitted.is_rejected()
             && self.axes.iter().all(|it| it.list.is_some())
             && self.rounds.last().is_some_and(Round::is_accepted)
     }

@@ -68,7 +68,8 @@ impl Fitting<'_> {
             held_out.extend(on);
         }
         let mut compared = found.compared(held_out);
-        let mut rejected = missed(&compared);
+        let mut rejected = found.against_fit();
+        rejected.extend(missed(&compared));
         if rejected.is_empty() && later.is_empty() {
             self.tuned(&mut found, axes, recorded, last, outputs)?;
         }

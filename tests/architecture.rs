@@ -47,17 +47,6 @@ const ROOMS: [(&str, &[&str]); 27] = [
         ],
     ),
     (
-        "audit",
-        &[
-            "text",
-            "diagnostic",
-            "comp",
-            "syntax",
-            "machine",
-            "interpreter",
-        ],
-    ),
-    (
         "lint",
         &[
             "text",
@@ -94,6 +83,19 @@ const ROOMS: [(&str, &[&str]); 27] = [
             "machine",
             "interpreter",
             "lint",
+            "timeline",
+        ],
+    ),
+    (
+        "audit",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "readings",
+            "syntax",
+            "machine",
+            "interpreter",
             "timeline",
         ],
     ),

@@ -357,7 +357,7 @@ fn block_numbers_that_stand_for_lines_are_named() {
     );
     let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
     assert!(
-        said.contains("the program has no such lines, but such block numbers (`--block`)"),
+        said.contains("the program has no such lines, but such block numbers"),
         "{said}"
     );
 }

@@ -195,7 +195,7 @@ impl Pair<'_> {
             };
             return (!self.passes(switch.at, [before, after])).then(|| {
                 let numbers = if self.are_numbers([before, after]) {
-                    "; the program has no such lines, but such block numbers (`--block`)"
+                    "; the program has no such lines, but such block numbers"
                 } else {
                     ""
                 };

@@ -124,14 +124,14 @@ fn lines_that_are_no_answers_are_named() {
     let bench = bench();
     bench.write(
         "note.txt",
-        "frictcomp-ask R1.9\n\nfrictcomp-ask R9.99 0 X V3.1.3081.5 reading x\n",
+        "frictcomp-ask R1.9\n\nfrictcomp-ask X9.9 0 X V3.1.3081.5 reading x\n",
     );
     let output = bench.call(&["ask", "--read", "note.txt"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).expect("text");
     for words in [
         "note.txt:1 is no answer: after `frictcomp-ask` an answer has a rule",
-        "note.txt:3 is no answer: there is no question `R9.99`",
+        "note.txt:3 is no answer: there is no question `X9.9`",
         "`note.txt` holds no answer",
     ] {
         assert!(said.contains(words), "{said}");

@@ -1,7 +1,9 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
-use frictcomp::timeline::{Record, States};
-use serde::Serialize;
+use frictcomp::comp::KindSet;
+use frictcomp::timeline::{Record, StateView, States};
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 
 use super::strings::append_json;
 use super::view::View;
@@ -13,16 +15,45 @@ pub(super) struct Frame {
     pub(super) after: &'static [u8],
 }
 
-/// Appends records.
+/// The text of [`States`], which stays the same over most blocks.
+#[derive(Debug, Serialize, Deserialize)]
+struct KeptStates {
+    #[serde(skip)]
+    version: u64,
+    friction: Box<RawValue>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compensation: Option<Box<RawValue>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    possible: Option<Box<RawValue>>,
+}
+
+impl KeptStates {
+    fn of(state: StateView<'_>, kinds: KindSet) -> Self {
+        let mut text = Vec::new();
+        append_json(&mut text, &States::of(state, kinds));
+        let kept = serde_json::from_slice(&text).expect("the keys are those of the states");
+        Self {
+            version: state.version,
+            ..kept
+        }
+    }
+}
+
+/// Appends records; keeps the text of the last states.
 #[derive(Debug)]
 pub(super) struct Encoder {
     view: View,
     frame: Frame,
+    states: Option<KeptStates>,
 }
 
 impl Encoder {
     pub(super) fn new(view: View, frame: Frame) -> Self {
-        Self { view, frame }
+        Self {
+            view,
+            frame,
+            states: None,
+        }
     }
 
     /// Appends the objects of a record, each in its frame.
@@ -32,8 +63,10 @@ impl Encoder {
         {
             return;
         }
-        let states = record.state();
-        let states = states.map(|state| States::of(state, self.view.kinds));
+        if let Some(state) = record.state() {
+            self.keep(state);
+        }
+        let states = record.state().and(self.states.as_ref());
         let object = record.with_states(self.view.kinds, states);
         let ends = matches!(record, Record::End(_));
         if !ends {
@@ -44,6 +77,16 @@ impl Encoder {
         }
         if ends {
             self.object(out, &object);
+        }
+    }
+
+    fn keep(&mut self, state: StateView<'_>) {
+        if self
+            .states
+            .as_ref()
+            .is_none_or(|kept| kept.version != state.version)
+        {
+            self.states = Some(KeptStates::of(state, self.view.kinds));
         }
     }
 

@@ -1,36 +1,27 @@
 //! Values as JSON, and numbers, appended to a buffer that is used again and again.
 
-use std::io;
+use std::borrow::Cow;
 
 use frictcomp::text::shown_json;
 use serde::Serialize;
-use serde_json::Serializer;
-use serde_json::ser::Formatter;
 
 use super::visible::any_byte;
 
-/// JSON in which nothing stands that cannot be seen, whatever JSON itself asks for (R9.76).
-struct Visible;
-
-impl Formatter for Visible {
-    fn write_string_fragment<W>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()>
-    where
-        W: ?Sized + io::Write,
-    {
-        // Most texts are ASCII that can be seen.
-        if any_byte(fragment.as_bytes(), |byte| !(0x20..0x7f).contains(&byte)) {
-            writer.write_all(shown_json(fragment).as_bytes())
-        } else {
-            writer.write_all(fragment.as_bytes())
+/// Appends a value as JSON on one line, in which nothing hidden stands, whatever JSON itself asks for
+/// (R9.76).
+pub(super) fn append_json(out: &mut Vec<u8>, value: &(impl Serialize + ?Sized)) {
+    let start = out.len();
+    let written = serde_json::to_writer(&mut *out, value);
+    written.expect("memory takes every byte, and numbers and texts are always JSON");
+    let is_special = |byte: u8| !(0x20..0x7f).contains(&byte);
+    // Most values are ASCII that can be seen.
+    if any_byte(&out[start..], is_special) {
+        let text = String::from_utf8_lossy(&out[start..]);
+        if let Cow::Owned(shown) = shown_json(&text) {
+            out.truncate(start);
+            out.extend_from_slice(shown.as_bytes());
         }
     }
-}
-
-/// Appends a value as JSON on one line.
-pub(super) fn append_json(out: &mut Vec<u8>, value: &(impl Serialize + ?Sized)) {
-    let mut serializer = Serializer::with_formatter(out, Visible);
-    let written = value.serialize(&mut serializer);
-    written.expect("memory takes every byte, and numbers and texts are always JSON");
 }
 
 /// A value as a JSON document in which nothing hidden stands.

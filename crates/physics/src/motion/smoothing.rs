@@ -45,6 +45,10 @@ pub(super) struct SmoothRun {
     first: usize,
     /// The number of the last vertex, once it is known.
     last: Option<usize>,
+    /// The smooth vertices around the newest span.
+    smooth: VecDeque<Place>,
+    /// The number of the first of them in the run.
+    first_smooth: usize,
 }
 
 impl SmoothRun {
@@ -54,6 +58,8 @@ impl SmoothRun {
             vertices: VecDeque::new(),
             first: 0,
             last: None,
+            smooth: VecDeque::new(),
+            first_smooth: 0,
         }
     }
 
@@ -61,7 +67,8 @@ impl SmoothRun {
     pub(super) fn begin(&mut self, vertex: Place) {
         self.vertices.clear();
         self.vertices.push_back(vertex);
-        (self.first, self.last) = (0, None);
+        self.smooth.clear();
+        (self.first, self.first_smooth, self.last) = (0, 0, None);
     }
 
     /// Adds the next vertex.
@@ -93,8 +100,9 @@ impl SmoothRun {
         &self.vertices[at.min(self.vertices.len() - 1)]
     }
 
-    /// The four control points of the span after a vertex.
-    pub(super) fn span(&self, number: usize) -> [Place; 4] {
+    /// The four control points of the span after a vertex, which is never before that of the last call.
+    pub(super) fn span(&mut self, number: usize) -> [Place; 4] {
+        self.smooth_around(number);
         let before = match number.checked_sub(1) {
             Some(before) => self.control(before),
             None => mirrored(self.vertex(0), &self.control(1)),
@@ -122,18 +130,31 @@ impl SmoothRun {
 
     /// A control point: the smooth vertex, so far beyond it that the spline passes through it.
     fn control(&self, number: usize) -> Place {
-        let own = self.smooth(number);
+        let smooth = |number: usize| &self.smooth[number - self.first_smooth];
+        let own = smooth(number);
         let inner = number >= 2 && self.last.is_none_or(|last| number + 2 <= last);
         if !inner {
-            return own;
+            return own.clone();
         }
-        let (before, after) = (self.smooth(number - 1), self.smooth(number + 1));
+        let (before, after) = (smooth(number - 1), smooth(number + 1));
         let axes = own.iter().zip(before.iter().zip(after.iter()));
         axes.map(|(own, (before, after))| own - (before - 2.0 * own + after) / 6.0)
             .collect()
     }
 
-    fn smooth(&self, number: usize) -> Place {
+    /// Makes the smooth vertices that a span depends on, each once.
+    fn smooth_around(&mut self, span: usize) {
+        while self.first_smooth + 2 < span {
+            self.smooth.pop_front();
+            self.first_smooth += 1;
+        }
+        let last = self.last.map_or(span + 3, |last| last.min(span + 3));
+        for number in self.first_smooth + self.smooth.len()..=last {
+            self.smooth.push_back(self.weighed(number));
+        }
+    }
+
+    fn weighed(&self, number: usize) -> Place {
         let rest = self.last.map_or(WIDEST, |last| last.saturating_sub(number));
         let half = WIDEST.min(number).min(rest);
         let own = self.vertex(number);

@@ -407,7 +407,7 @@ fn a_glitch_is_that_of_the_circular_test() {
             let of_axis = of_axis.filter(|it| it.axis == name && second.contains(&it.line));
             let glitches: Vec<_> = of_axis.collect();
             assert!(glitches.len() >= 2, "{found:?}");
-            assert!(glitches.iter().all(|it| it.is_measured), "{glitches:?}");
+            assert!(glitches.iter().all(|it| it.has_figure()), "{glitches:?}");
             let most = |of: fn(&PerRun<f64>) -> f64| {
                 let each = glitches.iter().map(|it| of(&it.glitch_um));
                 each.fold(0.0, f64::max)

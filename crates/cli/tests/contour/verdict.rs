@@ -271,6 +271,30 @@ fn what_was_left_out_does_not_count_as_no_reversal() {
     assert!(said.contains("FC915"), "{said}");
 }
 
+#[test]
+fn a_reversal_along_the_path_is_called_so() {
+    // R11.26: X goes forth and back on its own line, so that nothing of it is normal to the path.
+    let forth_and_back = "G90 G01 X20 F2000\nN20 G01 X5\nN30 G01 X20\nM30\n";
+    for command in ["", "X[COMP OFF FRICT] "] {
+        let bench = bench(&format!("{command}{forth_and_back}"), MACHINE);
+        let (_, text, _) = contour(&bench, &[]);
+        let sentence = text
+            .lines()
+            .find(|line| line.starts_with("X reverses twice"));
+        let sentence = sentence.expect("a sentence on X");
+        assert!(sentence.contains("N20, along the path"), "{text}");
+        assert!(!sentence.contains("0.0 µm"), "{text}");
+        let rows = text
+            .lines()
+            .filter(|line| line.contains("N20") && line.contains("  X "));
+        for row in rows {
+            assert!(row.contains("  along the path  "), "{text}");
+        }
+        let found = document(&bench, &[]);
+        assert_eq!(found["axes"][0]["worst"]["glitch"], 0.0, "{found}");
+    }
+}
+
 /// A machine whose X has a list with this output at every velocity.
 fn listed(output: f64) -> String {
     MACHINE.replacen(

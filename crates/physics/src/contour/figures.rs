@@ -111,10 +111,10 @@ impl ContourSummary {
             return;
         }
         self.cutting += 1;
-        self.unmeasured += u64::from(!reversal.is_measured);
+        self.unmeasured += u64::from(!reversal.has_figure());
         let is_more = |known: &Option<ContourReversal>, of: fn(&ContourReversal) -> f64| {
             let is_more = |known: &ContourReversal| of(reversal) > of(known);
-            reversal.is_measured && known.as_ref().is_none_or(is_more)
+            reversal.has_figure() && known.as_ref().is_none_or(is_more)
         };
         if reversal.state != State::Active {
             self.uncompensated += 1;

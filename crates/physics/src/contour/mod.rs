@@ -33,5 +33,5 @@ pub use obstacle::ContourObstacle;
 pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
 pub use per_run::PerRun;
 pub use program::{ContourPoint, ContourSink, ProgramContour};
-pub use reversals::ContourReversal;
+pub use reversals::{ContourReversal, GlitchFigure};
 pub use verdict::{ContourLimits, ContourVerdict};

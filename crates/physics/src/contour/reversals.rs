@@ -13,6 +13,17 @@ use frictcomp::comp::State;
 /// Greatest share of the motion for an axis that reverses: beyond it the path itself turns back.
 const ALONG: f64 = 0.99;
 
+/// Basis of the glitch at a reversal (R11.26).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum GlitchFigure {
+    /// None: a stop, a corner or the next reversal of the axis is too near.
+    Missing,
+    /// The axis moves along the path: nothing of it is normal to the path, and the glitch is 0.
+    AlongPath,
+    /// The deviation before and after the reversal.
+    Measured,
+}
+
 /// A reversal of an axis.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -47,14 +58,19 @@ pub struct ContourReversal {
     /// straight line through both sides of the reversal, peak to peak in µm; 0 where there is no
     /// figure.
     pub glitch_um: PerRun<f64>,
-    /// Whether there is a figure: the path goes on long enough before it and after it (R11.26).
-    pub is_measured: bool,
+    /// Basis of the glitch.
+    pub figure: GlitchFigure,
 }
 
 impl ContourReversal {
     /// Returns the gain by compensation at it, in µm.
     pub fn gain_um(&self) -> f64 {
         self.glitch_um.programmed - self.glitch_um.all_on
+    }
+
+    /// Whether the glitch is known.
+    pub fn has_figure(&self) -> bool {
+        self.figure != GlitchFigure::Missing
     }
 }
 
@@ -79,9 +95,12 @@ struct Open {
 impl Open {
     fn finish(mut self) -> (Event, ContourReversal) {
         if let Some(window) = self.window {
-            let figure = window.figure();
-            self.reversal.is_measured = figure.is_some();
-            self.reversal.glitch_um = PerRun::from_each(figure.unwrap_or_default());
+            let (figure, glitch_um) = match window.figure() {
+                Some(glitch_um) => (GlitchFigure::Measured, glitch_um),
+                None => (GlitchFigure::Missing, [0.0; 3]),
+            };
+            self.reversal.figure = figure;
+            self.reversal.glitch_um = PerRun::from_each(glitch_um);
         }
         (self.event, self.reversal)
     }
@@ -221,7 +240,7 @@ impl Reversals {
             state: cause.friction.get(axis).copied().unwrap_or(State::Unknown),
             current_units: [self.added[axis], measured.added[axis]],
             glitch_um: PerRun::default(),
-            is_measured: true,
+            figure: GlitchFigure::AlongPath,
         }
     }
 }

@@ -146,7 +146,7 @@ impl ContourSink for ContourRecorder<'_> {
     }
 
     fn reversal(&mut self, reversal: &ContourReversal) {
-        if reversal.movement != Movement::Rapid && reversal.is_measured {
+        if reversal.movement != Movement::Rapid && reversal.has_figure() {
             self.keep_worst(reversal);
         }
         if let Some(picture) = &mut self.picture {

@@ -26,7 +26,7 @@ fn position(reversal: &ContourReversal, names: &[String]) -> Map<String, Value> 
 /// A reversal: µm, mm, mm/min, mm/s², s, currents in drive units.
 pub fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
     let glitch = &reversal.glitch_um;
-    let figure = |um: f64| reversal.is_measured.then(|| rounded(um, 3));
+    let figure = |um: f64| reversal.has_figure().then(|| rounded(um, 3));
     json!({
         "axis": reversal.axis,
         "file": &*reversal.file,
@@ -50,7 +50,7 @@ pub fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
 pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
     let glitch = &reversal.glitch_um;
     let figure = |um: f64| {
-        let um = reversal.is_measured.then(|| rounded(um, 3));
+        let um = reversal.has_figure().then(|| rounded(um, 3));
         um.map_or(String::new(), |um| um.to_string())
     };
     let places = names.iter().zip(&reversal.positions);

@@ -8,7 +8,7 @@ use super::remarks::{compensation, contour_remarks, not_judged};
 use crate::visible::visible_line;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
-    ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour,
+    ContourReversal, ContourSink, ContourSummary, Deviations, GlitchFigure, ProgramContour,
 };
 use frictcomp_physics::motion::Cause;
 
@@ -184,18 +184,27 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
             Block::from(switch).words()
         );
         let glitch = &switch.glitch_um;
-        let _ = if switch.is_measured {
-            writeln!(
+        let _ = match switch.figure {
+            GlitchFigure::Measured => writeln!(
                 out,
                 ": {:.1} µm there against {:.1} µm with all on; if the command stops the path, there is no jump",
                 glitch.programmed, glitch.all_on
-            )
-        } else {
-            writeln!(out, "; too near to a stop or a corner for a figure")
+            ),
+            GlitchFigure::AlongPath => writeln!(out, ": {}", glitch_in_words(switch)),
+            GlitchFigure::Missing => writeln!(out, "; {}", glitch_in_words(switch)),
         };
     }
     if more > 0 {
         let _ = writeln!(out, "and {more} more such places");
+    }
+}
+
+/// The glitch as programmed, or why there is none: "along the path".
+pub(crate) fn glitch_in_words(reversal: &ContourReversal) -> String {
+    match reversal.figure {
+        GlitchFigure::Measured => format!("{:.1} µm", reversal.glitch_um.programmed),
+        GlitchFigure::AlongPath => "along the path".to_owned(),
+        GlitchFigure::Missing => "too near to a stop or a corner for a figure".to_owned(),
     }
 }
 
@@ -276,6 +285,15 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
                 None => {
                     let _ = write!(text, ", always with compensation{driven}");
                 }
+                Some(dearest) if dearest.figure == GlitchFigure::AlongPath => {
+                    let _ = write!(
+                        text,
+                        ", {least}{} without compensation: {} at {}",
+                        times(axis.uncompensated),
+                        glitch_in_words(dearest),
+                        Block::from(dearest).words()
+                    );
+                }
                 Some(dearest) => {
                     let _ = write!(
                         text,
@@ -292,9 +310,9 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
     if let Some(worst) = &axis.worst {
         let _ = write!(
             text,
-            "; worst at {}, {:.1} µm",
+            "; worst at {}, {}",
             Block::from(worst).words(),
-            worst.glitch_um.programmed
+            glitch_in_words(worst)
         );
     }
     text
@@ -319,18 +337,23 @@ fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
     );
     for reversal in worst {
         let glitch = &reversal.glitch_um;
+        let glitches = if reversal.figure == GlitchFigure::Measured {
+            format!(
+                "{:>11.2} {:>9.2} {:>9.2}",
+                glitch.programmed, glitch.all_on, glitch.all_off
+            )
+        } else {
+            format!("{:>31}", glitch_in_words(reversal))
+        };
         let programmed = reversal.programmed_mm_per_min;
         let row = format!(
-            "{:>7}  {:<4} {:<12} {:>7} {:>9.0} {:>9.0} {:>11.2} {:>9.2} {:>9.2}  {}",
+            "{:>7}  {:<4} {:<12} {:>7} {:>9.0} {:>9.0} {glitches}  {}",
             reversal.line,
             visible_line(&reversal.axis),
             reversal.state.as_str(),
             programmed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
             reversal.feed_mm_per_min,
             reversal.acceleration_mm_per_s2.round() + 0.0,
-            glitch.programmed,
-            glitch.all_on,
-            glitch.all_off,
             Block::from(reversal).beside(program)
         );
         let _ = writeln!(out, "{}", row.trim_end());

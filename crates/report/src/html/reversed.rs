@@ -9,7 +9,7 @@ use super::page::Page;
 use super::parts::{counted, line_id};
 use super::source::{SourceText, Sources};
 use frictcomp::comp::State;
-use frictcomp_physics::contour::ContourReversal;
+use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 use frictcomp_physics::motion::Movement;
 
 /// Lines without a reversal that a page holds at most, in all files together.
@@ -24,8 +24,8 @@ struct OfAxis {
     rapid: u64,
     cutting: u64,
     uncompensated: u64,
-    /// The largest glitches in µm: as programmed, all on, all off.
-    glitch_um: [f64; 3],
+    /// The largest glitches in µm: as programmed, all on, all off; `None` where none is measured.
+    glitch_um: Option<[f64; 3]>,
 }
 
 /// The reversals of each line of a file, by axis.
@@ -154,16 +154,19 @@ impl OfAxis {
         }
         self.cutting += 1;
         self.uncompensated += u64::from(reversal.state != State::Active);
+        if reversal.figure != GlitchFigure::Measured {
+            return;
+        }
         let glitch = &reversal.glitch_um;
         let each = [glitch.programmed, glitch.all_on, glitch.all_off];
-        for (largest, glitch) in self.glitch_um.iter_mut().zip(each) {
+        let largest = self.glitch_um.get_or_insert_default();
+        for (largest, glitch) in largest.iter_mut().zip(each) {
             *largest = largest.max(glitch);
         }
     }
 
     /// "X: 3 reversals, 2 without compensation, at most 23.8 µm (all on 1.5, all off 23.8)"
     fn words(&self, axis: &str) -> Markup {
-        let [programmed, on, off] = self.glitch_um;
         html! {
             (axis) ": "
             @if self.cutting > 0 {
@@ -171,7 +174,12 @@ impl OfAxis {
                 @if self.uncompensated > 0 {
                     ", " span.state.away { (self.uncompensated) " without compensation" }
                 }
-                (format!(", at most {programmed:.1} µm (all on {on:.1}, all off {off:.1})"))
+                @match self.glitch_um {
+                    Some([programmed, on, off]) => {
+                        (format!(", at most {programmed:.1} µm (all on {on:.1}, all off {off:.1})"))
+                    }
+                    None => { ", along the path or too near to a stop or a corner for a figure" }
+                }
                 @if self.rapid > 0 { "; " }
             }
             @if self.rapid > 0 { (counted(self.rapid, "reversal")) " in rapid" }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::contour::glitch_in_words;
 use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PlaneChart, PlaneMark,
     PlanePoint, Series, Standing, Stroke,
@@ -180,13 +181,13 @@ impl ContourPicture {
             weight: reversal.glitch_um.programmed,
             label: None,
             title: format!(
-                "line {}: {} reverses at {:.0} mm/min{}, {}, {:.1} µm",
+                "line {}: {} reverses at {:.0} mm/min{}, {}, {}",
                 reversal.line,
                 reversal.axis,
                 reversal.feed_mm_per_min,
                 programmed,
                 reversal.state.as_str(),
-                reversal.glitch_um.programmed
+                glitch_in_words(reversal)
             ),
             href: None,
         };

@@ -47,6 +47,8 @@ pub(super) struct CommandedPath {
     back: u64,
     /// The number of the first of the points.
     first: u64,
+    /// Length of the longest step so far, in mm.
+    longest: f64,
 }
 
 fn minus(one: &Places, other: &Places) -> Places {
@@ -64,6 +66,7 @@ impl CommandedPath {
             points: VecDeque::new(),
             back,
             first: 0,
+            longest: 0.0,
         }
     }
 
@@ -71,6 +74,7 @@ impl CommandedPath {
     pub(super) fn restart(&mut self) {
         self.first = self.last() + 1;
         self.points.clear();
+        self.longest = 0.0;
     }
 
     /// The number of the last point.
@@ -96,9 +100,11 @@ impl CommandedPath {
             return self.last();
         };
         let step = minus(&place, &last.place);
-        if dot(&step, &step) < SAME * SAME {
+        let square = dot(&step, &step);
+        if square < SAME * SAME {
             return self.last();
         }
+        self.longest = self.longest.max(square.sqrt());
         let mut side = last.side;
         let mut bend = Places::default();
         let mut is_corner = false;
@@ -156,14 +162,26 @@ impl CommandedPath {
         let from = commanded.saturating_sub(self.back).clamp(lowest, highest);
         let mut at = (*near).clamp(from, highest);
         let mut best = self.project(at, place);
-        for number in at + 1..=highest {
+        let mut number = at + 1;
+        while number <= highest {
             let next = self.project(number, place);
             if next.square < best.square {
                 (at, best) = (number, next);
             }
+            number += 1 + self.further(&next, &best);
         }
         *near = at;
         self.signed(at, &best)
+    }
+
+    /// The number of steps after a foot that are too short to come nearer than the best one.
+    fn further(&self, foot: &Foot, best: &Foot) -> u64 {
+        let steps = (foot.square.sqrt() - best.square.sqrt()) / self.longest;
+        // The foot may be at the beginning of its step, and a step ends where the next one begins.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        // at most the points kept
+        let further = (steps - 1.001).max(0.0) as u64;
+        further
     }
 
     /// The foot of a place on the step that begins at a point.

@@ -60,11 +60,7 @@ struct Said {
 
 impl Said {
     fn about(self, recorded: Measured) -> Measured {
-        Measured {
-            kind: self.kind.or(recorded.kind),
-            compensation: self.compensation.or(recorded.compensation),
-            ..recorded
-        }
+        recorded.stated(self.kind, self.compensation)
     }
 }
 

@@ -86,11 +86,7 @@ impl TorqueArgs {
             Compensation::On => Switched::On,
             Compensation::Off => Switched::Off,
         });
-        Measured {
-            kind: self.torque_kind.or(recorded.kind),
-            compensation: said.or(recorded.compensation),
-            ..recorded
-        }
+        recorded.stated(self.torque_kind, said)
     }
 }
 

@@ -10,6 +10,8 @@
 
 #[path = "../../recordings/tests/identify/plant.rs"]
 mod plant;
+#[path = "identify_faults/table.rs"]
+mod table;
 mod workspace;
 
 use std::process::Command;
@@ -293,6 +295,49 @@ fn what_the_torque_holds_is_asked() {
 }
 
 #[test]
+fn a_statement_that_the_recording_contradicts_gives_no_list() {
+    // R6.21: a loop that is compensated to 60 % looks like one with less friction.
+    let mut compensated = demo();
+    let curve = found(&compensated).expect("a curve").curve;
+    let speeds = compensated.velocities.clone().expect("velocities");
+    for (torque, speed) in compensated.torques.iter_mut().zip(&speeds) {
+        if *speed != 0.0 {
+            *torque -= 0.6 * curve.at(speed.abs() / 1000.0) * speed.signum();
+        }
+    }
+    let [actual, loop_output] = [TorqueKind::Actual, TorqueKind::Loop].map(Some);
+    let [on, off] = [Switched::On, Switched::Off].map(Some);
+    // What the recording shows, what is said, and whether there is no list.
+    for (shown, said, refused) in [
+        ((loop_output, None), (actual, None), true),
+        ((loop_output, on), (actual, None), true),
+        ((loop_output, off), (actual, None), false),
+        ((loop_output, on), (None, off), true),
+        ((None, on), (None, off), true),
+        ((actual, on), (None, off), false),
+    ] {
+        let (kind, compensation) = shown;
+        let recorded = Measured {
+            kind,
+            compensation,
+            ..Measured::default()
+        };
+        let options = IdentifyOptions {
+            measured: recorded.stated(said.0, said.1),
+            ..IdentifyOptions::default()
+        };
+        let result = identify(&compensated, &options);
+        assert_eq!(result.is_err(), refused, "{shown:?} {said:?}");
+        let (code, message) = self::said(&result).expect("a doubt");
+        assert_eq!(code, Code::Fc521, "{message}");
+        assert!(message.contains(" said to "), "{message}");
+    }
+    // What agrees with the recording raises no doubt.
+    let agreed = Measured::default().stated(actual, off);
+    assert_eq!(agreed.contradiction, None);
+}
+
+#[test]
 fn inverted_signs_are_named() {
     // R6.21
     let invert = |values: &mut Vec<f64>| values.iter_mut().for_each(|it| *it = -*it);
@@ -456,6 +501,13 @@ fn the_command_writes_no_wrong_list() {
         assert_eq!(said.contains("FC521"), refused, "{more:?}: {said}");
         assert_eq!(list.is_empty(), refused, "{more:?}");
     }
+    // The name of the channel tells more than what is said of it.
+    let named = plain.replace("Signal", "SpeedControllerOut");
+    let channels = ["--velocity", "SetVelo", "--torque", "SpeedControllerOut"];
+    let actual = [&channels[..], &["--torque-kind", "actual"]].concat();
+    let (status, said, list) = play("named.csv", named.as_bytes(), &actual);
+    assert_eq!((status, list.as_str()), (Some(2), ""), "{said}");
+    assert!(said.contains("is said to be `actual`"), "{said}");
     // A unit that is wrong by 1000.
     let demo = with_torques(|it| it);
     let channels = [

@@ -3,7 +3,7 @@
 use super::clipped::clipped;
 use super::finding::TraceFinding;
 use super::identified::IdentifyError;
-use super::measured::{Measured, TorqueKind};
+use super::measured::{Contradiction, Measured, TorqueKind};
 use super::pair::{Pair, speeds_of};
 use super::segment::Segment;
 use super::statistics::{count, samples_in, trimmed_mean};
@@ -356,6 +356,9 @@ pub(super) fn check_compensation(
 ) -> Result<Option<TraceFinding>, IdentifyError> {
     let help =
         "record the actual torque of the drive, or confirm that friction compensation was off";
+    if let Some(contradiction) = measured.contradiction {
+        return contradicted(contradiction, measured);
+    }
     match (measured.kind, measured.compensation) {
         (Some(TorqueKind::Actual), _) | (_, Some(Switched::Off)) => Ok(None),
         (Some(TorqueKind::Loop), None) => Err(refused(
@@ -378,6 +381,33 @@ pub(super) fn check_compensation(
             "say which torque it is, or confirm that friction compensation was off",
         ))),
     }
+}
+
+/// What the recording shows stands against what is said of it: no list unless it matters to none.
+fn contradicted(
+    contradiction: Contradiction,
+    measured: &Measured,
+) -> Result<Option<TraceFinding>, IdentifyError> {
+    let (message, help, is_harmless) = match contradiction {
+        Contradiction::Kind(said) => (
+            format!(
+                "the torque is said to be `{}`, and the name of its channel tells the output of the speed \
+                 controller, which lacks what compensation adds",
+                said.as_str()
+            ),
+            "record the actual torque of the drive, or give its channel the name that it has there",
+            measured.compensation == Some(Switched::Off),
+        ),
+        Contradiction::Compensation => (
+            "compensation is said to have been off, and the recorded state shows it on".to_owned(),
+            "record with compensation off, or name the state of this axis",
+            measured.kind == Some(TorqueKind::Actual),
+        ),
+    };
+    if is_harmless {
+        return Ok(Some(TraceFinding::new(Code::Fc521, message, help)));
+    }
+    Err(refused(Code::Fc521, message, help))
 }
 
 /// A place that the axis passes harder in both directions.

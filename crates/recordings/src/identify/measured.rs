@@ -92,6 +92,16 @@ impl FromStr for TorqueKind {
     }
 }
 
+/// Statement of the user that the recording contradicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Contradiction {
+    /// The channel bears the name of the speed controller's output, and is said to be another torque.
+    Kind(TorqueKind),
+    /// The recorded state shows compensation on, and it is said to have been off.
+    Compensation,
+}
+
 /// Known properties of a recorded torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
@@ -101,9 +111,28 @@ pub struct Measured {
     pub compensation: Option<Switched>,
     /// The rated torque in the unit of the channel, where it is known.
     pub rated: Option<f64>,
+    /// A statement that the recording contradicts.
+    pub contradiction: Option<Contradiction>,
 }
 
 impl Measured {
+    /// Returns the properties with what the user says of the torque.
+    #[must_use]
+    pub fn stated(self, kind: Option<TorqueKind>, compensation: Option<Switched>) -> Self {
+        let is_loop = self.kind == Some(TorqueKind::Loop);
+        let other_kind = kind.filter(|kind| is_loop && *kind != TorqueKind::Loop);
+        let states = [self.compensation, compensation];
+        let other_state = states == [Some(Switched::On), Some(Switched::Off)];
+        Self {
+            kind: kind.or(self.kind),
+            compensation: compensation.or(self.compensation),
+            contradiction: other_kind
+                .map(Contradiction::Kind)
+                .or(other_state.then_some(Contradiction::Compensation)),
+            ..self
+        }
+    }
+
     /// Returns the properties common to two recordings; compensation was on if it was on in either.
     #[must_use]
     pub fn common(self, other: Self) -> Self {
@@ -116,6 +145,7 @@ impl Measured {
                 self.compensation.and(other.compensation)
             },
             rated: self.rated.filter(|_| self.rated == other.rated),
+            contradiction: self.contradiction.or(other.contradiction),
         }
     }
 }
@@ -130,6 +160,7 @@ impl Default for Measured {
             kind: Some(TorqueKind::Actual),
             compensation: None,
             rated: Some(RATED_UNITS),
+            contradiction: None,
         }
     }
 }

@@ -34,7 +34,7 @@ pub use curve::{Fit, FrictionCurve};
 pub(crate) use curve::{along, solve_linear};
 pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};
-pub use measured::{Measured, TorqueKind};
+pub use measured::{Contradiction, Measured, TorqueKind};
 pub use pair::{Drift, Pair, Visit};
 pub use recorded::{AxisChannels, AxisRecording, state_channel};
 pub use ripple::Ripple;

@@ -189,6 +189,7 @@ impl AxisChannels {
             kind: self.torque.and_then(|pick| TorqueKind::of(channel(pick))),
             compensation: state.filter(|it| !it.is_empty()).map(switched),
             rated: is_of_the_drive.then_some(RATED_UNITS),
+            contradiction: None,
         }
     }
 

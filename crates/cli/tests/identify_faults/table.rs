@@ -59,7 +59,9 @@ const FAULTS: [(&str, Fault, Option<Code>); 10] = [
 ];
 
 fn each(values: &mut [f64], change: fn(f64) -> f64) {
-    values.iter_mut().for_each(|it| *it = change(*it));
+    for value in values {
+        *value = change(*value);
+    }
 }
 
 fn clip(track: &mut Track) {

@@ -20,6 +20,7 @@ use frictcomp_host::{Axes, FileRegistry, Input, LoadedMachine, Naming, SingleRun
 use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, Reading, axes_to_follow};
 use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
 use frictcomp_report::assumed_limits;
+use frictcomp_report::assumptions::rests_on_text;
 use frictcomp_report::pictures::AxisPlot;
 
 /// Runs a program and writes the currents of its axes.
@@ -94,6 +95,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     say_left_out(currents.left_out());
     say_table(&names, currents.sink());
     Console::talk(&format!("reading: {reading}"));
+    if let Some(text) = rests_on_text(currents.rests_on()) {
+        Console::talk(&text);
+    }
     for (name, cycles) in names.iter().zip(currents.saturated()) {
         say_saturated(&format!(" of axis {name}"), cycles);
     }

@@ -1,6 +1,7 @@
 //! Every output says on which readings of open questions its results rest (R15.3).
 
 use super::folder::{Bench, json};
+use super::machine::LIST;
 use super::{MACHINE, bench};
 use serde_json::{Value, json as value};
 
@@ -121,6 +122,50 @@ fn an_audit_names_the_readings_that_decide_it() {
     let steps = bench.stdout(&["audit", "--sequence", "order.txt", "--format", "ndjson"]);
     let last = json(steps.lines().last().expect("a step"));
     assert_eq!(last["rests_on"][0]["rule"], "R1.9");
+}
+
+/// R15.3, R4.2 to R4.7: a current rests on what its list makes of the readings, and on what switched it; an option
+/// that says otherwise is no reading of the machine.
+#[test]
+fn currents_and_contours_name_the_readings_that_decide_them() {
+    let bench = bench();
+    bench.write("a.nc", "X[COMP ON FRICT]\nG1 X10 F1000\nX0\nM30\n");
+    let current = |list: &str, arguments: &[&str]| {
+        bench.write("frictcomp.toml", &format!("{MACHINE}{list}"));
+        let all = [
+            &[
+                "current", "--axis", "X", "--start", "X0", "-o", "c.csv", "a.nc",
+            ],
+            arguments,
+        ];
+        String::from_utf8(bench.call(&all.concat()).stderr).expect("text")
+    };
+    let rules = |said: &str| -> Vec<String> {
+        let line = said.split("Rests on ").nth(1).unwrap_or_default();
+        let words = line.split_whitespace().map(|it| it.trim_end_matches(','));
+        words
+            .filter(|it| it.starts_with("R4."))
+            .map(str::to_owned)
+            .collect()
+    };
+    let all = ["R4.2", "R4.3", "R4.5", "R4.6", "R4.7"];
+    assert_eq!(rules(&current(LIST, &[])), all);
+    let said = current(LIST, &["--reading", "decay=step"]);
+    assert_eq!(rules(&said), all[1..], "{said}");
+    let plain = "[axis.value]\nmode = 3\ntable = [[0, 200], [1000, 300]]\n";
+    assert_eq!(rules(&current(plain, &[])), ["R4.6"]);
+    let second = "\n[[axis]]\nname = \"Y\"\nnumber = 2\nenable = true\n";
+    let of_two = format!("{MACHINE}{plain}{second}{plain}");
+    bench.write("frictcomp.toml", &of_two);
+    let contour = ["contour", "--start", "X0,Y0", "a.nc"];
+    let text = bench.stdout(&contour);
+    assert_eq!(rules(&text), ["R4.6"], "{text}");
+    let found = json(&bench.stdout(&[&contour[..], &["--format", "json"]].concat()));
+    assert_eq!(
+        found["rests_on"][0]["rule"], "R4.6",
+        "{}",
+        found["rests_on"]
+    );
 }
 
 /// R15.3, R2.96: a selected reading of a block search decides what follows.

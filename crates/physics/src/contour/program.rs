@@ -26,7 +26,8 @@ use frictcomp::comp::{AxisIndex, State};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::interpreter::{Motion, PositionFrame};
 use frictcomp::machine::Machine;
-use frictcomp::timeline::{Record, Row, Sink};
+use frictcomp::readings::QuestionSet;
+use frictcomp::timeline::{ReadingsInForce, Record, Row, Sink};
 
 const UM_PER_MM: f64 = 1000.0;
 
@@ -90,6 +91,9 @@ pub struct ProgramContour<S> {
     unlimited: Option<ProgramTrace<FeedOnly>>,
     assumed: Vec<(AxisIndex, AssumedLimits)>,
     moving: MovingAxes,
+    /// The open questions on the currents of the lists.
+    of_currents: QuestionSet,
+    rests_on: ReadingsInForce,
 }
 
 /// A cycle that is not driven yet.
@@ -142,6 +146,9 @@ impl<S: ContourSink> ProgramContour<S> {
             ..ContourSummary::default()
         };
         let planner = options.planner;
+        let lists = options.axes.iter().map(|axis| &axis.list);
+        let of_currents = lists.map(|list| options.reading.rests_on(&machine.readings, list));
+        let of_currents = of_currents.fold(QuestionSet::default(), QuestionSet::union);
         let tracer = Tracer {
             path: CommandedPath::new(lag_cycles(&options)),
             programmed: followers(),
@@ -170,6 +177,8 @@ impl<S: ContourSink> ProgramContour<S> {
             unlimited,
             assumed: assumed.collect(),
             moving: MovingAxes::default(),
+            of_currents,
+            rests_on: ReadingsInForce::default(),
         }
     }
 
@@ -185,6 +194,11 @@ impl<S: ContourSink> ProgramContour<S> {
         if let Some(unlimited) = &mut self.unlimited {
             let _ = unlimited.finish();
         }
+    }
+
+    /// Returns the readings of open questions on which the contour rests, once the session is over (R15.3).
+    pub fn rests_on(&self) -> &ReadingsInForce {
+        &self.rests_on
     }
 
     /// Returns the deviations of each run from the path.
@@ -332,10 +346,15 @@ fn seconds(cycles: u64, each_s: f64) -> f64 {
 
 impl<S: ContourSink> Sink for ProgramContour<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        if let Record::Block(row) = record
-            && let Some(Motion::Travel(_)) = row.motion
-        {
-            self.trace.sink().sink.block(row);
+        match record {
+            Record::Block(row) if matches!(row.motion, Some(Motion::Travel(_))) => {
+                self.trace.sink().sink.block(row);
+            }
+            Record::Summary(summary) => {
+                let questions = self.of_currents.union(summary.rests_on);
+                self.rests_on = ReadingsInForce::of(questions, summary.state.machine);
+            }
+            _ => {}
         }
         let _ = self.moving.record(record);
         if let Some(unlimited) = &mut self.unlimited {

@@ -15,7 +15,8 @@ use frictcomp::comp::AxisIndex;
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::lists::FrictionList;
 use frictcomp::machine::{Machine, Parameterisation};
-use frictcomp::timeline::{Record, Sink};
+use frictcomp::readings::QuestionSet;
+use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 
 /// The additive currents of several axes in one CNC cycle.
 #[derive(Debug, Clone, Copy)]
@@ -116,6 +117,9 @@ pub fn axes_to_follow(
 /// ([`Motions::Taken`](frictcomp::session::Motions::Taken)).
 pub struct ProgramCurrents<S> {
     trace: ProgramTrace<Cycles<S>>,
+    /// The open questions on the currents of the lists.
+    of_lists: QuestionSet,
+    rests_on: ReadingsInForce,
 }
 
 /// The cycles of a trace on their way to a sink.
@@ -146,8 +150,14 @@ impl<S: CurrentSink> ProgramCurrents<S> {
             count: 0,
             sink,
         };
+        let lists = followed
+            .iter()
+            .map(|axis| values(&machine.axis(*axis).friction));
+        let of_lists = lists.map(|list| options.reading.rests_on(&machine.readings, &list));
         Self {
             trace: ProgramTrace::new(machine, followed, options.planner, cycles),
+            of_lists: of_lists.fold(QuestionSet::default(), QuestionSet::union),
+            rests_on: ReadingsInForce::default(),
         }
     }
 
@@ -167,6 +177,11 @@ impl<S: CurrentSink> ProgramCurrents<S> {
     /// follows there.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
+    }
+
+    /// Returns the readings of open questions on which the currents rest, once the session is over (R15.3).
+    pub fn rests_on(&self) -> &ReadingsInForce {
+        &self.rests_on
     }
 
     /// Returns the number of motions that the trace leaves out.
@@ -197,6 +212,10 @@ impl<S: CurrentSink> ProgramCurrents<S> {
 
 impl<S: CurrentSink> Sink for ProgramCurrents<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Summary(summary) = record {
+            let questions = self.of_lists.union(summary.rests_on);
+            self.rests_on = ReadingsInForce::of(questions, summary.state.machine);
+        }
         self.trace.record(record)
     }
 }

@@ -6,7 +6,8 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use frictcomp::diagnostic::did_you_mean;
-use frictcomp::readings::{Alternative, Question, Readings};
+use frictcomp::lists::FrictionList;
+use frictcomp::readings::{Alternative, Question, QuestionSet, Readings};
 
 /// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is what is assumed
 /// unless the user says otherwise.
@@ -121,6 +122,29 @@ impl Reading {
     pub fn with(mut self, question: Question, reading: Alternative) -> Self {
         self.choose(question, question.name_of(reading));
         self
+    }
+
+    /// The questions whose readings, as a machine selects them, decide the current of a list (R4.2 to R4.7,
+    /// R15.3); those that were chosen otherwise are not among them.
+    pub fn rests_on(self, readings: &Readings, list: &FrictionList) -> QuestionSet {
+        let mut questions = QuestionSet::default();
+        let Some(first) = list.table.first() else {
+            return questions;
+        };
+        for (question, decides) in [
+            (Question::Standstill, true),
+            (Question::Below, first.input > 0.0),
+            (Question::Delay, list.delay_cycles > 0),
+            (Question::Start, list.position_delay > 0),
+            (Question::Decay, list.reversal_lookahead > 1),
+        ] {
+            let mut of_machine = self;
+            of_machine.choose(question, readings.name(question));
+            if decides && of_machine == self {
+                questions.insert(question);
+            }
+        }
+        questions
     }
 
     fn choose(&mut self, question: Question, name: &str) {

@@ -124,6 +124,7 @@ pub fn summary_record(
         "cut_short": contour.is_cut_short(),
         "whole": contour.is_whole(),
         "time_not_of_the_machine": rounded(contour.time_not_of_the_machine_s(), 6),
+        "rests_on": contour.rests_on(),
     })
 }
 

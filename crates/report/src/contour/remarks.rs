@@ -1,6 +1,7 @@
 //! The basis of the figures of a contour.
 
 use super::places::Block;
+use crate::assumptions::rests_on_text;
 use crate::limits::assumed_limits;
 use crate::visible::visible_line;
 use frictcomp_physics::contour::{
@@ -18,6 +19,7 @@ pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<Strin
     let options = contour.options();
     let axes = options.axes.iter();
     lines.extend(axes.filter_map(|axis| misfit(axis, options)));
+    lines.extend(rests_on_text(contour.rests_on()));
     lines
 }
 

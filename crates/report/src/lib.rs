@@ -29,6 +29,7 @@ mod diagnostics;
 pub mod drives;
 mod feed_moves;
 mod findings;
+mod glitch;
 pub mod html;
 pub mod identify;
 mod json;

@@ -13,5 +13,4 @@ pub use golden::{GoldenContour, render_agreed};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
 pub use remarks::{contour_remarks, exceeded};
-pub(crate) use text::glitch_in_words;
 pub use text::{ContourSubject, render_text};

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::places::Block;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
+use crate::glitch::glitch_in_words;
 use crate::visible::visible_line;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
@@ -196,15 +197,6 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
     }
     if more > 0 {
         let _ = writeln!(out, "and {more} more such places");
-    }
-}
-
-/// The glitch as programmed, or why there is none: "along the path".
-pub(crate) fn glitch_in_words(reversal: &ContourReversal) -> String {
-    match reversal.figure {
-        GlitchFigure::Measured => format!("{:.1} µm", reversal.glitch_um.programmed),
-        GlitchFigure::AlongPath => "along the path".to_owned(),
-        GlitchFigure::Missing => "too near to a stop or a corner for a figure".to_owned(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::contour::glitch_in_words;
+use crate::glitch::glitch_in_words;
 use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PlaneChart, PlaneMark,
     PlanePoint, Series, Standing, Stroke,

@@ -172,7 +172,7 @@ impl AskArgs {
         let (answers, unread) = read_answers(&read_text(path)?, |name| self.asked(name, machine));
         for UnreadAnswer { line, reason } in &unread {
             let reason = visible_line(reason);
-            Console::talk(&format!("{}:{line} is no answer: {reason}", shown(path)));
+            Console::talk(&format!("{}:{line}: not an answer: {reason}", shown(path)));
         }
         if !answers.is_empty() {
             return Ok(answers);

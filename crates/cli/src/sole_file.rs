@@ -65,7 +65,7 @@ impl Meant {
     }
 }
 
-/// Whether an argument is a file, or is written as only a file is: where there is none, `run` says so.
+/// Whether an argument is a file, or looks like the path of one; `run` reports a file that is missing.
 fn is_meant_as_file(path: &Path) -> bool {
     let is_option = path.to_string_lossy().starts_with('-');
     let is_written_so = path.extension().is_some() || path.components().count() > 1;

@@ -18,6 +18,8 @@ mod folder;
 mod layouts;
 #[path = "questions/machine.rs"]
 mod machine;
+#[path = "questions/notes.rs"]
+mod notes;
 #[path = "questions/recorded.rs"]
 mod recorded;
 mod workspace;
@@ -115,26 +117,6 @@ fn a_control_of_either_kind_is_read_rightly() {
             assert!(confirmed.date.starts_with("20"), "{}", confirmed.date);
             assert_eq!(bench.status(&["config", "show"]), Some(0));
         }
-    }
-}
-
-/// R15.2: a line that is meant as an answer and is none is said, with its place.
-#[test]
-fn lines_that_are_no_answers_are_named() {
-    let bench = bench();
-    bench.write(
-        "note.txt",
-        "frictcomp-ask R1.9\n\nfrictcomp-ask X9.9 0 X V3.1.3081.5 reading x\n",
-    );
-    let output = bench.call(&["ask", "--read", "note.txt"]);
-    assert_eq!(output.status.code(), Some(2));
-    let said = String::from_utf8(output.stderr).expect("text");
-    for words in [
-        "note.txt:1 is no answer: after `frictcomp-ask` an answer has a rule",
-        "note.txt:3 is no answer: there is no question `X9.9`",
-        "`note.txt` holds no answer",
-    ] {
-        assert!(said.contains(words), "{said}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 
-/// The glitch as programmed, or why there is none: "along the path".
+/// The glitch as programmed, or the reason why it has no figure: "along the path".
 pub(crate) fn glitch_in_words(reversal: &ContourReversal) -> String {
     match reversal.figure {
         GlitchFigure::Measured => format!("{:.1} µm", reversal.glitch_um.programmed),

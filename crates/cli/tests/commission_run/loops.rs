@@ -149,7 +149,7 @@ fn told_plant(found: &Value, machine: &Machine) -> String {
     .join(", ")
 }
 
-/// The record of a call of `frictcomp commission`; of a plan there is none.
+/// The record that a call of `frictcomp commission` prints; a plan prints none.
 fn commission(folder: &Path, arguments: &[&str]) -> Value {
     let all = [&["commission"], arguments, &["--format", "json"]].concat();
     let output = call(folder, &all);

@@ -46,17 +46,17 @@ impl Answer {
 /// The values of one run, by their words; the last one of a word counts.
 type Values = BTreeMap<String, String>;
 
-/// A line of answers that is none.
+/// A line that is marked as an answer and cannot be read as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnreadAnswer {
     /// The line, from 1.
     pub line: usize,
-    /// Why it is no answer.
+    /// The reason.
     pub reason: String,
 }
 
-/// The answers in a text, in the order of the questions, and the lines that are meant as answers and are
-/// none. `axis` is what else is known of an axis by its
+/// The answers in a text, in the order of the questions, and the lines that are marked as answers and
+/// cannot be read. `axis` is what else is known of an axis by its
 /// name, as when the programs were written.
 pub fn read_answers(
     text: &str,

@@ -52,7 +52,8 @@ pub fn friction_of_axis(found: &FrictionFound) -> LineChart {
     }
 }
 
-/// A straight line between two points of a list, which is none over the logarithm of the speed, without its end.
+/// A straight line between two points of a list, as points without its end: over the logarithm of the speed it is
+/// a curve.
 fn between(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     const PARTS: u32 = 12;
     (0..PARTS).map(move |part| {

@@ -46,21 +46,26 @@ frict_comp.table[1].in 10000
 frict_comp.table[1].out 0
 ";
 
-const PLAN: [&str; 13] = [
-    "commission",
-    "plan",
-    "--axis",
-    "X,Y",
-    "--travel",
-    "X0..100,Y-50..50",
-    "--feeds",
-    "2000,3000,4000,5000",
-    "--radius",
-    "40",
-    "--slowest",
-    "0.5",
-    "-o",
-];
+/// The call that plans circles of X and Y at these feeds.
+const fn planned_at(feeds: &'static str, radius: &'static str) -> [&'static str; 13] {
+    [
+        "commission",
+        "plan",
+        "--axis",
+        "X,Y",
+        "--travel",
+        "X0..100,Y-50..50",
+        "--feeds",
+        feeds,
+        "--radius",
+        radius,
+        "--slowest",
+        "0.5",
+        "-o",
+    ]
+}
+
+const PLAN: [&str; 13] = planned_at("2000,3000,4000,5000", "40");
 
 const FEEDS: [f64; 4] = [2000.0, 3000.0, 4000.0, 5000.0];
 

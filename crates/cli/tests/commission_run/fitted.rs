@@ -8,28 +8,14 @@ use frictcomp_physics::simulation::{Plant, Preset};
 use serde_json::Value;
 
 use super::{
-    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_with, put, run,
-    said, torque,
+    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_at, planned_with,
+    put, run, said, torque,
 };
 
 /// Five feeds over a decade on a radius of 25 mm; the one in the middle is held out.
 const FEEDS: [f64; 5] = [250.0, 500.0, 800.0, 1400.0, 2500.0];
 
-const PLAN: [&str; 13] = [
-    "commission",
-    "plan",
-    "--axis",
-    "X,Y",
-    "--travel",
-    "X0..100,Y-50..50",
-    "--feeds",
-    "250,500,800,1400,2500",
-    "--radius",
-    "25",
-    "--slowest",
-    "0.5",
-    "-o",
-];
+const PLAN: [&str; 13] = planned_at("250,500,800,1400,2500", "25");
 
 /// The machine: the friction that is recorded, and a contact and a speed loop that differ from `mid`.
 fn machine(contact: f64) -> Plant {

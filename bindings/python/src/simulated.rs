@@ -20,6 +20,7 @@ use frictcomp_physics::current::Reading;
 use frictcomp_physics::motion::check_cycle;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
 use frictcomp_report::pictures;
 use frictcomp_report::svg::Frame;
@@ -279,6 +280,7 @@ pub(crate) fn tune(
             plant: name,
             model: model.as_str(),
             reading: reading.to_string(),
+            not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
             tuned: search(&task, &watch).map_err(Failure::of_circle)?,
         }))
     })

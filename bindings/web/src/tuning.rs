@@ -7,6 +7,7 @@ use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{Aim, Circle, Ranges, Shaping, Task};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_text};
@@ -82,6 +83,7 @@ fn tuned(settings: &TuneSettings) -> Result<TuneReport, Refusal> {
         plant: settings.plant.clone(),
         model: model.as_str(),
         reading: Reading::default().to_string(),
+        not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
         tuned,
     })
 }

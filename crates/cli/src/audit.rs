@@ -34,6 +34,7 @@ use frictcomp_report::audit::{
     AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
     sequence_text,
 };
+use frictcomp_report::fitted;
 use frictcomp_report::html::render_audit;
 
 /// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
@@ -168,9 +169,10 @@ impl AuditArgs {
             archives = failures.keep(auditor.audit());
         }
         let report = report(&auditor, archives);
+        let width = target.look.width;
         let printed = target.text(&match self.format {
-            Format::Text if self.all => render_text(&report, Length::Whole),
-            Format::Text => render_text(&report, Length::Folded),
+            Format::Text if self.all => fitted(&render_text(&report, Length::Whole), width),
+            Format::Text => fitted(&render_text(&report, Length::Folded), width),
             Format::Csv => render_csv(&report),
             Format::Json => document(&records(&report)),
             Format::Ndjson => lines(&records(&report)),
@@ -248,10 +250,11 @@ impl AuditArgs {
         outputs.check()?;
         say_undescribed(&auditor, console);
         let steps = failures.keep(auditor.follow());
+        let width = target.look.width;
         target.text(&match self.format {
             Format::Json => document(&sequence_records(&steps)),
             Format::Ndjson => lines(&sequence_records(&steps)),
-            Format::Text | Format::Csv => sequence_text(&steps),
+            Format::Text | Format::Csv => fitted(&sequence_text(&steps), width),
         })?;
         outputs.finish()?;
         self.machine.say_unread(&registry, console);

@@ -17,6 +17,7 @@ use frictcomp_host::conformance::{
     Answers, Case, CaseError, Compared, Mismatch, Totals, export, find_cases, run_case,
 };
 use frictcomp_host::{FileRegistry, HostError, read_text};
+use frictcomp_report::fitted;
 
 /// Run the conformance cases on this engine, write them for a control, or compare what a control
 /// answered
@@ -73,7 +74,7 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     };
     outputs.check()?;
     let text = match args.result.format {
-        Format::Text => text(&totals, answered.as_ref()),
+        Format::Text => fitted(&text(&totals, answered.as_ref()), result.look.width),
         Format::Json => format!("{:#}\n", document(&totals, answered.as_ref())),
     };
     result.text(&text)?;

@@ -22,6 +22,7 @@ use frictcomp_report::contour::{
     ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_text,
     summary_record,
 };
+use frictcomp_report::fitted;
 use frictcomp_report::html::render_contour;
 use frictcomp_report::pictures::ContourPicture;
 use frictcomp_report::svg::Frame;
@@ -93,6 +94,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let simulation = &args.simulation;
     let setup = simulation.setup((&loaded, Naming::AsGiven), &args.execution, &registry)?;
     outputs.check()?;
+    let width = result.look.width;
     let target = &mut result;
     let mut contour = drive_contour(&input, &loaded, &setup, |options| {
         args.recorder(options, (target, &pictures))
@@ -104,7 +106,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     };
     pictures.draw(&mut contour, &subject)?;
     let text = match args.result.format {
-        Format::Text => render_text(&mut contour, &subject),
+        Format::Text => fitted(&render_text(&mut contour, &subject), width),
         Format::Json => document(&mut contour, &limits),
         Format::Ndjson => {
             let mut record = summary_record(&contour, &limits);

@@ -26,6 +26,7 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Plant};
+use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::pictures::tuning;
 use frictcomp_report::svg::Frame;
 use frictcomp_report::tune::{TuneReport, render_json, render_text, round};
@@ -197,6 +198,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             plant: name,
             model: model.as_str(),
             reading: args.reading.to_string(),
+            not_modelled: not_modelled([&task.plant.x, &task.plant.y]),
             tuned: tune(&task, &watch)?,
         });
     }

@@ -8,9 +8,11 @@
 )]
 #![allow(dead_code, reason = "the recorder serves other tests, too")]
 
+#[path = "identify_faults/faults.rs"]
+mod faults;
 #[path = "../../recordings/tests/identify/plant.rs"]
 mod plant;
-#[path = "identify_faults/table.rs"]
+#[path = "../../../tests/support/table.rs"]
 mod table;
 mod workspace;
 

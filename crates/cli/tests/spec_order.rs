@@ -427,7 +427,10 @@ fn the_order_of_the_shop_is_followed() {
             "# Monday\noff.nc\n\nmoves.nc\nstops.nc\nmoves.nc\n",
         ),
     ]);
-    let said = text(&bench, &["audit", "--sequence", "order.txt"]);
+    let said = text(
+        &bench,
+        &["audit", "--sequence", "order.txt", "--width", "200"],
+    );
     let lines: Vec<&str> = said.lines().collect();
     assert_eq!(
         lines[..2],

@@ -89,7 +89,15 @@ fn states_stand_near_their_blocks() {
 #[test]
 fn tables_and_failures_keep_within_their_width() {
     // R9.72
-    let commands: [&[&str]; 9] = [
+    let commands: [&[&str]; 13] = [
+        &["audit", "programs/demo/order"],
+        &["audit", "--sequence", "programs/demo/order/monday.txt"],
+        &["contour", "programs/demo/contour/plate.nc"],
+        &[
+            "replay",
+            "programs/demo/replay/other.csv",
+            "programs/demo/replay/pocket.nc",
+        ],
         &["config", "show", "programs/machines/mill3"],
         &["codes"],
         &["circle", "--radius", "5", "--feed", "3000"],

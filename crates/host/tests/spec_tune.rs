@@ -2,6 +2,11 @@
 
 #![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
 
+#[path = "spec_tune/deviating.rs"]
+mod deviating;
+#[path = "../../../tests/support/table.rs"]
+mod table;
+
 use frictcomp::lists::Points;
 use frictcomp::text::SourceFile;
 use frictcomp_host::{Watch, tune as tune_on_all_processors};

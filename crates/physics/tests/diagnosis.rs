@@ -5,10 +5,13 @@
 
 #[path = "spec_recorded/recorder.rs"]
 mod recorder;
+#[path = "../../../tests/support/table.rs"]
+mod table;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
+
+use table::agrees;
 
 use frictcomp_physics::circle::{
     CommandedCircle, Direction, Figures, Finding, PathCentre, RecordedCircle, Recording, diagnose,
@@ -281,15 +284,5 @@ fn every_fault_is_named_and_no_other_and_the_document_says_so() {
         let _ = writeln!(table, "| {} | {cells} |", row.name);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/circular-test.md");
-    let text = fs::read_to_string(path).expect("the document");
-    let (begin, end) = ("<!-- diagnosis -->\n", "<!-- end of diagnosis -->\n");
-    let from = text.find(begin).expect("its beginning") + begin.len();
-    let to = text.find(end).expect("its end");
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        let written = [&text[..from], &table, &text[to..]].concat();
-        fs::write(path, written).expect("written");
-    } else {
-        assert_eq!(&text[from..to], table);
-    }
+    agrees("circular-test.md", "diagnosis", &table);
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use super::assumptions::not_modelled_line;
 use super::commission::ValueListUsed;
 use super::strings::to_pretty;
 use super::visible::visible_line;
@@ -110,6 +111,8 @@ pub struct LearnReport {
     pub schema: u32,
     /// The reference plant.
     pub plant: String,
+    /// What its simulation leaves out.
+    pub not_modelled: Vec<&'static str>,
     /// Feeds of the circles in mm/min, as they were recorded.
     pub feeds: Vec<f64>,
     /// X and Y.
@@ -141,10 +144,11 @@ pub fn render_text(report: &LearnReport) -> String {
         let feeds: Vec<String> = report.feeds.iter().map(|it| format!("{it:.0}")).collect();
         let _ = writeln!(
             out,
-            "circles at {} mm/min, each recorded twice; the plant {} gives the direction\n\n\
+            "circles at {} mm/min, each recorded twice; the plant {} gives the direction\n{}\n\n\
              round  axis  glitch µm   spread  predicted",
             feeds.join(", "),
-            visible_line(&report.plant)
+            visible_line(&report.plant),
+            not_modelled_line(&report.not_modelled)
         );
     }
     for axis in &report.axes {

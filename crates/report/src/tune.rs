@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::assumptions::not_modelled_line;
 use super::circle::stiction_line;
 use super::strings::to_pretty;
 use super::visible::visible_line;
@@ -22,6 +23,8 @@ pub struct TuneReport {
     pub model: &'static str,
     /// The reading of the documents, in words.
     pub reading: String,
+    /// What its simulation leaves out.
+    pub not_modelled: Vec<&'static str>,
     /// What was found.
     pub tuned: Tuned,
 }
@@ -111,11 +114,11 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         }
         let _ = writeln!(
             out,
-            "{}; beyond that the glitch is not known\n{}",
+            "{}; beyond that the glitch is not known\n{}{}\n",
             tuned_range(&report.tuned),
-            checked(&report.tuned)
+            checked(&report.tuned),
+            not_modelled_line(&report.not_modelled)
         );
-        out.push('\n');
         let _ = writeln!(
             out,
             "v\u{b2}/R mm/s\u{b2}  feed mm/min  radius mm   glitch \u{b5}m  off      on   friction \
@@ -183,6 +186,7 @@ struct PlantRecord<'a> {
     plant: &'a str,
     model: &'static str,
     reading: &'a str,
+    not_modelled: &'a [&'static str],
     trials: usize,
     /// Those of X.
     parameters: Option<Parameters>,
@@ -268,6 +272,7 @@ impl<'a> PlantRecord<'a> {
             plant: &report.plant,
             model: report.model,
             reading: &report.reading,
+            not_modelled: &report.not_modelled,
             trials: report.tuned.trials,
             parameters: Parameters::of(x),
             axes: AxisRecords {

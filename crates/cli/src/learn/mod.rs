@@ -15,6 +15,7 @@ use folder::LearningFolder;
 use frictcomp_host::{FileRegistry, find_plant, learn, memory_for_simulation, read_text};
 use frictcomp_physics::circle::{LearningProgress, PlaneAxis};
 use frictcomp_physics::simulation::Plant;
+use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::learn::{
     LearnReport, LearnedAxis, NextStep, Prediction, render_file, render_json, render_text,
 };
@@ -116,6 +117,7 @@ fn report(plant: &Plant, folder: &LearningFolder, learned: &Learned, is_over: bo
     LearnReport {
         schema: 1,
         plant: plant.name.clone(),
+        not_modelled: not_modelled([&plant.x, &plant.y]),
         feeds: feeds.map(|it| round(it.circle.feed_mm_per_min)).collect(),
         axes,
         predictions: folder.file.rounds.iter().map(|it| it.predictions).collect(),

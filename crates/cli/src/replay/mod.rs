@@ -21,6 +21,7 @@ use frictcomp::text::shown_path;
 use frictcomp_host::replay::{Replay, ReplayChannels, read_states};
 use frictcomp_host::{FileRegistry, Input};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::fitted;
 use frictcomp_report::html::render_replay;
 
 /// Lay what a machine did, from a recording, beside the dry run of its programs
@@ -106,8 +107,9 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         let report = page::report(&replayed, &recording, shown_path(&args.recording));
         render_replay(&report, &mut html).map_err(Failure::output)?;
     }
+    let width = result.look.width;
     result.text(&match args.result.format {
-        Format::Text => shown::text(&replayed),
+        Format::Text => fitted(&shown::text(&replayed), width),
         Format::Json => format!("{:#}\n", shown::document(&replayed)),
     })?;
     outputs.finish()?;

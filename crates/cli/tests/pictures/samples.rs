@@ -148,6 +148,7 @@ pub(super) fn glitches() -> LineChart {
         plant: "stiff".to_owned(),
         model: "lugre",
         reading: Reading::default().to_string(),
+        not_modelled: Vec::new(),
         tuned: Tuned {
             axes: [axis.clone(), axis],
             feeds: feeds.to_vec(),

@@ -3,8 +3,11 @@
 //! of a report that names what its run depends on are made from them.
 
 mod in_force;
+mod simulated;
 mod table;
 
 pub use in_force::rests_on_text;
+pub use simulated::not_modelled;
+pub(crate) use simulated::not_modelled_line;
 pub(crate) use table::Met;
 pub use table::{Assumption, Chapter, Difference, When, chapters, differences};

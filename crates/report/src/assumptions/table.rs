@@ -62,11 +62,11 @@ pub enum When {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Difference {
-    /// `purpose` or `not modelled`.
+    /// `purpose`, `not modelled`, or `simulation` for what a simulated machine does not have.
     pub kind: String,
     /// Subject.
     pub what: String,
-    /// Behaviour of the control, as far as it is known.
+    /// Behaviour of the control, as far as it is known; of the machine in a row `simulation`.
     pub control: String,
     /// Behaviour of frictcomp.
     pub frictcomp: String,

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::super::assumptions::not_modelled;
 use super::super::strings::to_pretty;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
 use frictcomp_physics::circle::{
@@ -44,6 +45,9 @@ struct Conditions<'a> {
     data: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     saturated_cycles: Option<u64>,
+    /// What the simulation leaves out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_modelled: Option<Vec<&'static str>>,
     /// Why there are no glitches.
     #[serde(skip_serializing_if = "Option::is_none")]
     glitches_up_to: Option<TooFast>,
@@ -234,6 +238,7 @@ pub fn render_json(report: &CircleReport) -> String {
             centre: "commanded",
             data: TREATMENT,
             saturated_cycles: Some(*saturated_cycles),
+            not_modelled: Some(not_modelled([&test.plant.x, &test.plant.y])),
             glitches_up_to: report.too_fast(),
         },
         Subject::Recorded(recording) => Conditions {
@@ -249,6 +254,7 @@ pub fn render_json(report: &CircleReport) -> String {
             centre: "least-squares",
             data: TREATMENT,
             saturated_cycles: None,
+            not_modelled: None,
             glitches_up_to: report.too_fast(),
         },
     };

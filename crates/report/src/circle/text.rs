@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::super::assumptions::{not_modelled, not_modelled_line};
 use super::super::stiction::guideline;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use frictcomp::diagnostic::{Rounded, Shown};
@@ -194,6 +195,10 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
             "the drives reached their largest force in {saturated} cycles of the speed loop"
         ));
     }
+    lines.push(not_modelled_line(&not_modelled([
+        &test.plant.x,
+        &test.plant.y,
+    ])));
     lines
 }
 

@@ -7,6 +7,7 @@ use frictcomp_physics::circle::Extent;
 use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, TunedList};
 use serde::Serialize;
 
+use crate::assumptions::not_modelled_line;
 use crate::visible::visible_line;
 
 /// The plants of all rounds.
@@ -28,6 +29,8 @@ pub struct PlantVerdict {
     pub compared: Vec<ComparedGlitch>,
     /// Recorded glitches that it misses: it is rejected.
     pub rejected: Vec<String>,
+    /// What its simulation leaves out.
+    pub not_modelled: Vec<&'static str>,
 }
 
 /// A fitted parameter in words.
@@ -126,6 +129,7 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
         return;
     };
     push_plant(out, verdict);
+    let _ = writeln!(out, "{}", not_modelled_line(&verdict.not_modelled));
     if !verdict.rejected.is_empty() {
         out.push_str("the plant is rejected, and the lists of before stay:\n");
         for reason in &verdict.rejected {

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::places::record;
 use super::recorder::ContourRecorder;
 use super::records::{reversal_record, rounded};
+use crate::assumptions::not_modelled;
 use frictcomp_physics::contour::{
     ContourLimits, ContourOptions, ContourReversal, ContourSink, ContourSummary, ContourVerdict,
     Deviations, ListSource, ProgramContour,
@@ -124,6 +125,7 @@ pub fn summary_record(
         "cut_short": contour.is_cut_short(),
         "whole": contour.is_whole(),
         "time_not_of_the_machine": rounded(contour.time_not_of_the_machine_s(), 6),
+        "not_modelled": not_modelled(contour.options().axes.iter().map(|axis| &axis.drive)),
         "rests_on": contour.rests_on(),
     })
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::places::Block;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
+use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::glitch::glitch_in_words;
 use crate::visible::visible_line;
 use frictcomp::comp::State;
@@ -74,16 +75,8 @@ pub fn render_text(
     for axis in &contour.options().axes {
         let _ = writeln!(out, "{}", compensation(axis));
     }
-    let backlash = contour
-        .options()
-        .axes
-        .iter()
-        .all(|axis| axis.drive.backlash_m == 0.0);
-    let _ = writeln!(
-        out,
-        "not modelled: cutting forces, errors of the machine's geometry{}",
-        if backlash { ", backlash" } else { "" }
-    );
+    let drives = contour.options().axes.iter().map(|axis| &axis.drive);
+    let _ = writeln!(out, "{}", not_modelled_line(&not_modelled(drives)));
     let unknown = contour.time_not_of_the_machine_s();
     if unknown > 0.0 {
         let _ = writeln!(

@@ -285,6 +285,7 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
         }
         (compared_part(plant, name))
         (glitches.render(predicted))
+        p { "Not modelled: " (plant.not_modelled.join(", ")) "." }
         @if !plant.rejected.is_empty() {
             p { "The plant is rejected, and the lists of before stay:" }
             ul { @for reason in &plant.rejected { li { (reason) } } }

@@ -1,6 +1,7 @@
 /** The contour of the program in the editor, beside it: it follows the cursor, and leads to blocks. */
 import * as path from "node:path";
 import * as vscode from "vscode";
+import { pageShell } from "../pageShell";
 import { isProgram } from "../programs";
 import type { Contour } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
@@ -91,7 +92,11 @@ export class ContourPanel implements vscode.Disposable {
       this.stop.cancel();
       this.panel = undefined;
     });
-    panel.webview.html = this.page(panel.webview);
+    panel.webview.html = pageShell(panel.webview, this.extension, {
+      title: "Contour",
+      styles: ["dist/picture.css", "media/contour.css"],
+      script: "dist/contour.js",
+    });
     return panel;
   }
 
@@ -170,23 +175,5 @@ export class ContourPanel implements vscode.Disposable {
 
   private send(message: ToPage): void {
     void this.panel?.webview.postMessage(message);
-  }
-
-  private page(webview: vscode.Webview): string {
-    const file = (...parts: string[]): string =>
-      webview.asWebviewUri(vscode.Uri.joinPath(this.extension, ...parts)).toString();
-    return `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src ${webview.cspSource}; script-src ${webview.cspSource};">
-<link rel="stylesheet" href="${file("dist", "picture.css")}">
-<link rel="stylesheet" href="${file("media", "contour.css")}">
-<title>Contour</title>
-</head>
-<body>
-<script src="${file("dist", "contour.js")}"></script>
-</body>
-</html>`;
   }
 }

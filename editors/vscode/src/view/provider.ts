@@ -1,6 +1,7 @@
 /** The side view with the compensation of each axis over the lines of the program in the editor. */
 import * as vscode from "vscode";
 import type { Timeline } from "../protocol";
+import { pageShell } from "../pageShell";
 import { isProgram } from "../programs";
 import type { FromPage, ToPage } from "./messages";
 
@@ -52,7 +53,11 @@ export class TimelineView implements vscode.WebviewViewProvider, vscode.Disposab
     view.onDidDispose(() => {
       this.view = undefined;
     });
-    view.webview.html = this.page(view.webview);
+    view.webview.html = pageShell(view.webview, this.extension, {
+      title: "Compensation",
+      styles: ["media/timeline.css"],
+      script: "dist/timeline.js",
+    });
   }
 
   /** Asks for the timeline of the program in the active editor, and shows it. */
@@ -134,22 +139,5 @@ export class TimelineView implements vscode.WebviewViewProvider, vscode.Disposab
 
   private send(message: ToPage): void {
     void this.view?.webview.postMessage(message);
-  }
-
-  private page(webview: vscode.Webview): string {
-    const file = (...parts: string[]): string =>
-      webview.asWebviewUri(vscode.Uri.joinPath(this.extension, ...parts)).toString();
-    return `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src ${webview.cspSource}; script-src ${webview.cspSource};">
-<link rel="stylesheet" href="${file("media", "timeline.css")}">
-<title>Compensation</title>
-</head>
-<body>
-<script src="${file("dist", "timeline.js")}"></script>
-</body>
-</html>`;
   }
 }

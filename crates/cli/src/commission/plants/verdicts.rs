@@ -8,6 +8,7 @@ use frictcomp_host::read_text;
 use frictcomp_recordings::commission::{
     ComparedGlitch, PlantFound, RecordedGlitch, Stage, against_plant,
 };
+use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::commission::{PlantVerdict, Plants};
 use frictcomp_report::value_lists::tuned_on;
 
@@ -87,6 +88,7 @@ impl Fitting<'_> {
             found,
             compared,
             rejected,
+            not_modelled: not_modelled([&self.base.x, &self.base.y]),
         })
     }
 

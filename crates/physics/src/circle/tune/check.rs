@@ -1,13 +1,15 @@
 //! The remaining glitch of a list over the whole range for which it was tuned, not only at the
 //! circles of the search (R5.29).
 
+use std::iter;
+
 use serde::Serialize;
 
 use super::super::crossing::PlaneAxis;
 use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::heights::Heights;
-use super::reversal::AxisAlone;
+use super::reversal::{AxisAlone, phase_at};
 use super::task::Task;
 use crate::simulation::DriveParameters;
 
@@ -17,8 +19,9 @@ pub(super) const CHECKED: usize = 25;
 /// Accelerations that are searched are at most this factor apart.
 const APART: f64 = 1.5;
 
-/// Phases of the reversal of an axis within its CNC cycle.
-const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+/// Places of the reversal of an axis within its CNC cycle, 0 to 1. The glitch jumps where the reversal passes
+/// from one cycle to the next, so that the largest one is at an end.
+const PLACES: [f64; 4] = [0.01, 0.34, 0.67, 0.99];
 
 /// Difference of friction between the directions, as a share.
 const UNEVEN: f64 = 0.1;
@@ -116,24 +119,22 @@ impl Checked {
 #[derive(Debug, Clone, Copy)]
 struct Trial {
     deviating: Deviating,
-    phase: f64,
+    place: f64,
     is_on: bool,
 }
 
 impl Trial {
     /// The reversals of a row. A drive that is the same in both directions reverses alike in both.
     fn all() -> impl Iterator<Item = Self> {
-        let of = |deviating, phase, is_on| Self {
+        let of = |deviating, place, is_on| Self {
             deviating,
-            phase,
+            place,
             is_on,
         };
-        let nominal = PHASES.map(|phase| of(Deviating::Nothing, phase, true));
-        let others = Deviating::ALL[1..].iter().map(move |&it| of(it, 0.0, true));
-        [of(Deviating::Nothing, 0.0, false)]
+        let on = Deviating::ALL
             .into_iter()
-            .chain(nominal)
-            .chain(others)
+            .flat_map(move |deviating| PLACES.map(|place| of(deviating, place, true)));
+        iter::once(of(Deviating::Nothing, PLACES[0], false)).chain(on)
     }
 }
 
@@ -199,7 +200,7 @@ impl Task {
     ) -> Result<Heights, CircleError> {
         let trial = Trial::all().nth(number).unwrap_or(Trial {
             deviating: Deviating::Nothing,
-            phase: 0.0,
+            place: PLACES[0],
             is_on: true,
         });
         let drive = trial.deviating.of(self.drive(axis));
@@ -208,7 +209,7 @@ impl Task {
             drive: &drive,
             model: self.model,
             reading: self.reading,
-            phase: trial.phase,
+            phase: phase_at(trial.place, axis, &circle),
         };
         let glitch = alone.glitch_um(circle, compensation.filter(|_| trial.is_on))?;
         Ok(Heights(vec![glitch]))

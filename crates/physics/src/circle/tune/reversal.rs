@@ -54,6 +54,12 @@ fn reversal(axis: PlaneAxis) -> f64 {
     }
 }
 
+/// The delay in cycles with which the reversal of an axis is at this place within its CNC cycle, 0 to 1.
+pub(super) fn phase_at(place: f64, axis: PlaneAxis, circle: &Circle) -> f64 {
+    let cycles = reversal(axis) / (circle.angular_velocity() * circle.cycle_time_s);
+    (place - cycles).rem_euclid(1.0)
+}
+
 impl AxisAlone<'_> {
     /// The glitch in µm at a reversal, with or without compensation, peak to peak, less the straight
     /// line from one end of the window to the other. The cycles are those of a whole run, so that the

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use frictcomp::diagnostic::Code;
 use frictcomp_recordings::identify::Track;
 
-use super::workspace::root;
+use super::table::agrees;
 use super::{DOUBTS, both, found, said, velocities};
 
 /// A fault that is put into a recording.
@@ -111,15 +111,5 @@ fn every_fault_is_named_first_and_the_document_says_so() {
         });
         let _ = writeln!(table, "| {name} | {} |", cells.join(" | "));
     }
-    let path = root().join("docs/identification.md");
-    let text = std::fs::read_to_string(&path).expect("the document");
-    let (begin, end) = ("<!-- faults -->\n", "<!-- end of faults -->\n");
-    let from = text.find(begin).expect("its beginning") + begin.len();
-    let to = text.find(end).expect("its end");
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        let written = [&text[..from], &table, &text[to..]].concat();
-        std::fs::write(path, written).expect("written");
-    } else {
-        assert_eq!(&text[from..to], table);
-    }
+    agrees("identification.md", "faults", &table);
 }

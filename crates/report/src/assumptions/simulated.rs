@@ -1,0 +1,22 @@
+//! What a simulated machine does not have.
+
+use frictcomp_physics::simulation::DriveParameters;
+
+use super::table::differences;
+
+/// Returns what the simulation of these drives leaves out, the rows `simulation` of the table of differences.
+/// Backlash is among it where no drive has any.
+pub fn not_modelled<'a>(
+    drives: impl IntoIterator<Item = &'a DriveParameters>,
+) -> Vec<&'static str> {
+    let has_backlash = drives.into_iter().any(|it| it.backlash_m > 0.0);
+    let rows = differences().iter().filter(|it| it.kind == "simulation");
+    rows.map(|it| it.what.as_str())
+        .filter(|&what| !(has_backlash && what == "backlash"))
+        .collect()
+}
+
+/// The line that names it.
+pub(crate) fn not_modelled_line(what: &[&str]) -> String {
+    format!("not modelled: {}", what.join(", "))
+}

@@ -60,13 +60,20 @@ impl AxisChannels {
     }
 }
 
-/// What the user knows of the recorded torque.
+/// Which torque was recorded.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct TorqueArgs {
+pub(super) struct TorqueKindArgs {
     /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
     /// the speed controller; by default what the name of the channel tells
     #[arg(long, value_name = "KIND")]
-    torque_kind: Option<TorqueKind>,
+    pub(super) torque_kind: Option<TorqueKind>,
+}
+
+/// What the user knows of the recorded torque.
+#[derive(Debug, Clone, Default, Args)]
+pub(super) struct TorqueArgs {
+    #[command(flatten)]
+    kind: TorqueKindArgs,
     /// Whether friction compensation was on while recording; by default what a channel `comp` tells
     #[arg(long, value_name = "STATE")]
     compensation: Option<Compensation>,
@@ -86,7 +93,7 @@ impl TorqueArgs {
             Compensation::On => Switched::On,
             Compensation::Off => Switched::Off,
         });
-        recorded.stated(self.torque_kind, said)
+        recorded.stated(self.kind.torque_kind, said)
     }
 }
 

@@ -130,16 +130,16 @@ fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
 fn friction(axis: usize, factor: f64) -> String {
     static TRACKS: LazyLock<[plant::Recorded; 2]> = LazyLock::new(|| {
         let folder = planned();
-        [0, 1].map(|axis| constant_speeds(folder.path(), axis))
+        let programs = ["m/01-friction-X.nc", "m/02-friction-Y.nc"];
+        [0, 1].map(|axis| constant_speeds(folder.path(), (programs[axis], axis)))
     });
     torque(&TRACKS[axis], factor)
 }
 
-/// The constant speeds of X or Y as the plan in a folder commands them, recorded on a bench.
-fn constant_speeds(folder: &Path, axis: usize) -> plant::Recorded {
-    let (program, column) = [("m/01-friction-X.nc", 2), ("m/02-friction-Y.nc", 3)][axis];
+/// The constant speeds of X or Y as a program commands them, recorded on a bench.
+fn constant_speeds(folder: &Path, (program, axis): (&str, usize)) -> plant::Recorded {
     let rows = driven(folder, program);
-    let speeds: Vec<f64> = rows.iter().map(|it| it[column]).collect();
+    let speeds: Vec<f64> = rows.iter().map(|it| it[axis + 2]).collect();
     let bench = Bench {
         seed: 7,
         noise_n: 20.0,
@@ -439,6 +439,15 @@ fn one_feed_without_effect(folder: &Path) {
     put(folder, "on3000.csv", &off);
     let (status, text) = run(folder, &[]);
     let words = "at F3000 off and on hardly differ, and at the next feeds they do";
+    assert!(status == Some(1) && text.contains(words), "{text}");
+    std::fs::write(path, whole).expect("written");
+    // Nor at the fastest feed, beside which there are feeds on one side only.
+    let path = folder.join("m/recordings/on5000.csv");
+    let whole = std::fs::read(&path).expect("a recording");
+    let off = circles(folder, "m/69-circle-5000.nc", &deviations(5000.0, None));
+    put(folder, "on5000.csv", &off);
+    let (status, text) = run(folder, &[]);
+    let words = "at F5000 off and on hardly differ, and at the next feeds they do";
     assert!(status == Some(1) && text.contains(words), "{text}");
     std::fs::write(path, whole).expect("written");
 }

@@ -21,9 +21,8 @@ use std::process::{Command, Output};
 
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
 use frictcomp_host::{FileRegistry, Watch, read_value_list, tune};
-use frictcomp_physics::circle::{Aim, Circle, Ranges, Shaping, Task, TooMuchCurrent};
-use frictcomp_physics::current::Reading;
-use frictcomp_physics::simulation::{FrictionModel, plant_list};
+use frictcomp_physics::circle::TooMuchCurrent;
+use frictcomp_physics::simulation::plant_list;
 use layouts::{Comments, Export, Filled, Header, Letters, Signal, Task as Sampled, Times};
 use machine::{Machine, Row};
 use serde_json::Value;
@@ -333,21 +332,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
 
 /// What the lists leave that are tuned with knowledge of the machine.
 fn best_known(machine: &Machine) -> [f64; 2] {
-    let circle = |&feed_mm_per_min: &f64| Circle {
-        feed_mm_per_min,
-        ..Circle::default()
-    };
-    let task = Task {
-        plant: machine.plant.clone(),
-        model: FrictionModel::default(),
-        circles: FEEDS.iter().map(circle).collect(),
-        ranges: Ranges::default(),
-        reading: Reading::default(),
-        points: Points::Whole,
-        shaping: Shaping::Allowed,
-        aim: Aim::Plant,
-    };
-    let tuned = tune(&task, &Watch::default()).expect("circles");
+    let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());
     machine.left_um(&JUDGED, lists)
 }

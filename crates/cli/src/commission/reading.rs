@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::channels::{TorqueArgs, parse_unit};
+use crate::channels::{TorqueKindArgs, parse_unit};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
 use crate::identify::refusal;
@@ -18,8 +18,9 @@ use frictcomp_recordings::commission::{
     CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, NotFollowed, Plan, Program,
     RecordedStrokes, Stage, StrokesFound, actual_elsewhere,
 };
-use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Wanted, identify};
+use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Measured, Wanted, identify};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::visible_line;
 
 /// Channels of the recordings; `%` stands for the name of the axis.
 #[derive(Debug, Clone, Args)]
@@ -49,7 +50,7 @@ pub(super) struct ReadingArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
-    torque_args: TorqueArgs,
+    kind: TorqueKindArgs,
     /// The program of a recording without a signature, by its number: `friction.csv=1`
     #[arg(long, value_name = "FILE=NUMBER", value_parser = parse_role)]
     role: Vec<(String, u16)>,
@@ -74,6 +75,19 @@ impl ReadingArgs {
     pub(super) fn circles_key(&self) -> String {
         let (time, places) = (&self.time, &self.actual_position);
         format!("{time:?} {places:?} {:?} {:?}", self.unit, self.cycle)
+    }
+
+    /// Checks that the recordings whose programs are said are there.
+    pub(super) fn check_roles(&self, paths: &[PathBuf]) -> Result<(), Failure> {
+        let is_there = |file: &str| paths.iter().any(|it| it.ends_with(file));
+        let absent = self.role.iter().find(|(file, _)| !is_there(file));
+        absent.map_or(Ok(()), |(file, _)| {
+            let message = format!(
+                "`--role` names `{}`, and there is no such recording",
+                visible_line(file)
+            );
+            Err(Failure::new(message).with_help("give the name of the file without its folder"))
+        })
     }
 
     /// The number of the program and what its recording tells. What cannot be read is a result, too: the
@@ -238,11 +252,12 @@ impl ReadingArgs {
         // An actual position beside the commanded one is a check, and may be missing here.
         let recording = read_axis(path, &self.followed(&axis.name), cycle)
             .or_else(|_| read_axis(path, &self.selection(&axis.name), cycle))?;
-        let mut measured = self.torque_args.measured(recording.measured);
-        // The program itself switches it.
-        measured.compensation = Some(recorded.wanted());
         let options = IdentifyOptions {
-            measured,
+            measured: Measured {
+                // The program itself switches it.
+                compensation: Some(recorded.wanted()),
+                ..recording.measured.stated(self.kind.torque_kind, None)
+            },
             wanted: Wanted::Points(12),
             ..IdentifyOptions::default()
         };

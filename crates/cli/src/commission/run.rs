@@ -19,7 +19,7 @@ use frictcomp_host::{
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult, Stage,
-    before_after, refuse_strangers,
+    before_after, refuse_strangers, without_effect,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -37,6 +37,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     for path in &paths {
         registry.reads("trace", path);
     }
+    args.reading.check_roles(&paths)?;
     let known = known(&args.folder.join(RESULTS));
     let mut kept = 0;
     let mut results = Vec::new();
@@ -333,13 +334,10 @@ fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -
             ));
         }
     }
-    for three in recorded.windows(3) {
-        if three[1].stands_out(&three[0], &three[2]) {
-            against.push(format!(
-                "at F{} off and on hardly differ, and at the next feeds they do: compensation was the same in both",
-                three[1].feed
-            ));
-        }
+    for feed in without_effect(recorded) {
+        against.push(format!(
+            "at F{feed} off and on hardly differ, and at the next feeds they do: compensation was the same in both"
+        ));
     }
     if !recorded.iter().any(BeforeAfter::shows_an_effect) {
         against.push(

@@ -12,10 +12,10 @@ use super::{
     put, run, said, torque,
 };
 
-/// Five feeds over a decade on a radius of 25 mm; the one in the middle is held out.
-const FEEDS: [f64; 5] = [250.0, 500.0, 800.0, 1400.0, 2500.0];
+/// Five feeds over a decade on a radius of 40 mm; the one in the middle is held out.
+const FEEDS: [f64; 5] = [500.0, 1600.0, 2400.0, 3600.0, 5000.0];
 
-const PLAN: [&str; 13] = planned_at("250,500,800,1400,2500", "25");
+const PLAN: [&str; 13] = planned_at("500,1600,2400,3600,5000", "40");
 
 /// The machine: the friction that is recorded, and a contact and a speed loop that differ from `mid`.
 fn machine(contact: f64) -> Plant {
@@ -43,14 +43,14 @@ fn record(
     for feed in feeds {
         let driven = Driven {
             plant: plant.clone(),
-            radius: 25.0,
+            radius: 40.0,
             feed: *feed,
             lists: on.clone(),
         };
         let program = program(folder, *feed, round);
         let text = circles_of(
             folder,
-            (&program, 25.0),
+            (&program, 40.0),
             (&deviations_of(&driven), Recorder::default()),
         );
         put(folder, &format!("{feed}-in-{round}.csv"), &text);
@@ -107,7 +107,10 @@ fn record_of(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output)))
 }
 
-const PLANT: [&str; 3] = ["--plant", "mid", "--no-shaping"];
+/// What is read: with compensation on the torque has to be the actual one.
+const KIND: [&str; 2] = ["--torque-kind", "actual"];
+
+const PLANT: [&str; 5] = ["--plant", "mid", "--no-shaping", KIND[0], KIND[1]];
 
 /// R16.2, R16.3, R16.7, R16.9: from recordings off and on to the plant of a machine that the command does not see,
 /// and to lists that are tuned on it; a recording of another machine with them rejects the plant.
@@ -115,38 +118,133 @@ const PLANT: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 fn from_circles_to_the_plant_and_its_lists() {
     let folder = planned_with(&PLAN);
     let folder = folder.path();
-    let tuned = tuned_lists(folder, &machine(0.6));
-    record(folder, (3, &FEEDS[4..]), &machine(4.0), Some(&tuned));
-    let (status, text) = run(folder, &PLANT);
-    assert!(
-        status == Some(1)
-            && text.contains("the plant on which they were tuned is rejected: at F2500"),
-        "{text}"
-    );
-}
-
-/// Records stage 1 and round 2, and plans round 3 with the lists that are tuned on the plant of them.
-fn tuned_lists(folder: &Path, own: &Plant) -> [PathBuf; 2] {
-    put(folder, "a.csv", &torque(&constant_speeds(folder, 0), 1.0));
-    put(folder, "b.csv", &torque(&constant_speeds(folder, 1), 1.0));
-    run(folder, &[]);
-    let provisional = lists(folder, "provisional");
-    plan(folder, &provisional);
-    record(folder, (1, &FEEDS), own, None);
-    record(folder, (2, &FEEDS), own, Some(&provisional));
-    let (_, text) = run(folder, &PLANT);
+    let own = machine(0.6);
+    two_rounds(folder, &own);
+    let (status, text) = run(folder, &[&PLANT[..], &["--html", "report.html"]].concat());
     for words in [
-        "plant fitted to circles off and on up to round 2, at F250, F500, F1400, F2500; held out: F800",
+        "plant fitted to circles off and on up to round 2, at F500, F1600, F3600, F5000; held out: F2400",
         "X: tuned list m/lists/X-tuned-",
         "no recording has shown it yet",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
+    assert_eq!(
+        status,
+        Some(0),
+        "every program is recorded, the lists are accepted, and the plant is not rejected: {text}"
+    );
     let found = record_of(folder, &[]);
-    check_plant(&found["plants"][0], own);
+    check_plant(&found["plants"][0], &own);
+    check_tables(folder, &found);
+    a_plant_is_rejected(folder);
+
     let tuned = lists(folder, "tuned");
     plan(folder, &tuned);
-    tuned
+    record(folder, (3, &FEEDS[4..]), &machine(4.0), Some(&tuned));
+    let (status, text) = run(folder, &PLANT);
+    assert!(
+        status == Some(1)
+            && text.contains("the plant on which they were tuned is rejected: at F5000"),
+        "{text}"
+    );
+}
+
+/// Records every program of stage 1 and of round 2.
+fn two_rounds(folder: &Path, own: &Plant) {
+    let friction = |program: &str, axis: usize| {
+        let text = torque(&constant_speeds(folder, (program, axis)), 1.0);
+        put(
+            folder,
+            &program.replace("m/", "").replace(".nc", ".csv"),
+            &text,
+        );
+    };
+    friction("m/01-friction-X.nc", 0);
+    friction("m/02-friction-Y.nc", 1);
+    run(folder, &KIND);
+    let provisional = lists(folder, "provisional");
+    plan(folder, &provisional);
+    friction("m/64-friction-X.nc", 0);
+    friction("m/65-friction-Y.nc", 1);
+    record(folder, (1, &FEEDS), own, None);
+    record(folder, (2, &FEEDS), own, Some(&provisional));
+}
+
+/// R16.5: the report has the figures of ISO 230-4 of each circle, and what the plant was not fitted to, recorded beside
+/// predicted, as the record has them.
+fn check_tables(folder: &Path, found: &Value) {
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let row = |heading: &str, cells: &[String]| {
+        let cells = cells
+            .iter()
+            .map(|it| format!("<td class=\"num\">{it}</td>"));
+        let row = format!("<th scope=\"row\">{heading}</th>");
+        (row, cells.collect::<String>())
+    };
+    let has = |(heading, cells): (String, String)| {
+        let mut rows = page.split("<tr>");
+        rows.any(|it| it.starts_with(&heading) && it.contains(&cells))
+    };
+    let number = |value: &Value| format!("{:.1}", value.as_f64().expect("a number"));
+    let recordings = found["recordings"].as_array().expect("recordings");
+    let circles = recordings
+        .iter()
+        .filter(|it| it["found"]["circles"].is_object());
+    assert_eq!(circles.clone().count(), 2 * FEEDS.len());
+    for circle in circles {
+        let iso = &circle["found"]["circles"]["iso"];
+        let figures = ["g_ccw", "g_cw", "g_b", "h"].map(|key| number(&iso[key]));
+        let [g, g_b, h] = ["g_ccw", "g_b", "h"].map(|key| iso[key].as_f64().expect("a number"));
+        assert!(0.0 < h && h <= g_b && g <= g_b, "{iso}");
+        let program = circle["program"].to_string();
+        assert!(has(row(&program, &figures)), "{program}: {figures:?}");
+    }
+    assert!(page.contains("Figures of ISO 230-4 in µm, recorded; a row for each circle"));
+    assert!(page.contains("Glitches that the plant was not fitted to, recorded beside predicted"));
+    let compared = found["plants"][0]["compared"].as_array().expect("compared");
+    assert_eq!(compared.len(), 4, "one feed, off and on, of two axes");
+    for it in compared {
+        let figures = ["predicted_glitch", "recorded_glitch"].map(|key| number(&it[key]));
+        assert!(
+            has(row(&it["feed"].to_string().replace(".0", ""), &figures)),
+            "{it}"
+        );
+    }
+}
+
+/// R16.9: a held-out feed that the recording misses and a value at the bound of its search reject the plant, each with
+/// exit status 1 where nothing else is open.
+fn a_plant_is_rejected(folder: &Path) {
+    let path = folder.join("m/results.json");
+    let whole = std::fs::read_to_string(&path).expect("results");
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut results: Value = serde_json::from_str(&whole).expect("a record");
+        change(&mut results["plants"][0]);
+        std::fs::write(&path, results.to_string()).expect("written");
+        let (status, text) = run(folder, &[&PLANT[..], &["--html", "report.html"]].concat());
+        assert!(
+            text.contains("the plant is rejected, and the lists of before stay:")
+                && !text.contains("tuned list m/lists"),
+            "{text}"
+        );
+        assert_eq!(status, Some(1), "{text}");
+        let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+        assert!(page.contains("The plant is rejected by the recordings"));
+        text
+    };
+    let missed = with(&|plant| {
+        let glitches = plant["predicted_glitches"]
+            .as_array_mut()
+            .expect("glitches");
+        let mut held_out = glitches.iter_mut().filter(|it| it["feed"] == 2400.0);
+        let glitch = &mut held_out.next().expect("a glitch")["predicted_glitch"];
+        *glitch = (2.0 * glitch.as_f64().expect("a number")).into();
+    });
+    assert!(missed.contains("at F2400"), "{missed}");
+    let bound = with(&|plant| plant["predicted_axes"][1]["speed_gain"]["at_bound"] = true.into());
+    let words = "Kp of Y ends at the bound of its search";
+    assert!(bound.contains(words), "{bound}");
+    std::fs::write(&path, whole).expect("written");
 }
 
 /// R16.2, R16.5, R16.9: tuned lists are accepted by their recordings, with the same plant; a list that changed leaves
@@ -157,7 +255,10 @@ fn tuned_lists_are_accepted_by_their_recordings() {
     let folder = planned_with(&PLAN);
     let folder = folder.path();
     let own = machine(0.6);
-    let tuned = tuned_lists(folder, &own);
+    two_rounds(folder, &own);
+    run(folder, &PLANT);
+    let tuned = lists(folder, "tuned");
+    plan(folder, &tuned);
     record(folder, (3, &FEEDS), &own, Some(&tuned));
     check_accepted(&record_of(folder, &["--html", "report.html"]));
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
@@ -167,7 +268,7 @@ fn tuned_lists_are_accepted_by_their_recordings() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    let (_, text) = run(folder, &[]);
+    let (_, text) = run(folder, &KIND);
     assert!(
         text.contains("the plant on which they were tuned is not fitted now"),
         "{text}"

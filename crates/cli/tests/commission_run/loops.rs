@@ -3,11 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use frictcomp::lists::Points;
 use frictcomp_host::{Watch, tune};
-use frictcomp_physics::circle::{Aim, Circle, Ranges, Shaping, Task};
-use frictcomp_physics::current::Reading;
-use frictcomp_physics::simulation::{DriveParameters, FrictionModel};
+use frictcomp_physics::simulation::DriveParameters;
 use serde_json::Value;
 
 use super::fitted::{list, lists, program};
@@ -219,21 +216,7 @@ fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
 
 /// What the lists leave that are tuned with knowledge of the machine: three searches of up to 3600 lists.
 fn best_known(machine: &Machine) -> [f64; 2] {
-    let circle = |feed_mm_per_min| Circle {
-        feed_mm_per_min,
-        ..Circle::default()
-    };
-    let task = Task {
-        plant: machine.plant.clone(),
-        model: FrictionModel::default(),
-        circles: FEEDS.map(circle).to_vec(),
-        ranges: Ranges::default(),
-        reading: Reading::default(),
-        points: Points::Whole,
-        shaping: Shaping::Allowed,
-        aim: Aim::Plant,
-    };
-    let tuned = tune(&task, &Watch::default()).expect("circles");
+    let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());
     machine.left_um(&JUDGED, lists)
 }

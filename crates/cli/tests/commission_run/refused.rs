@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use super::{
-    FEEDS, PLAN, call, circles, deviations, friction, list_in, planned, provisional, put, run, said,
+    FEEDS, PLAN, call, circles, deviations, driven, friction, list_in, planned, provisional, put,
+    run, said,
 };
 
 /// A recording with other rows under another head.
@@ -18,6 +19,13 @@ fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> St
         writeln!(text, "{}", change(&cells)).expect("text");
     }
     text
+}
+
+/// The same from the end of the strokes on.
+fn without_signature(recording: &str) -> String {
+    let rows = recording.lines().enumerate();
+    let after = rows.filter(|(at, _)| *at == 0 || *at > 18_000);
+    after.map(|(_, it)| it).collect::<Vec<_>>().join("\n")
 }
 
 /// R16.9: recordings that do not fit together make no list, each with its reason.
@@ -38,11 +46,7 @@ fn what_speaks_against_a_list_is_named() {
         &|it| format!("{},{},{},{}", it[0], it[1], it[2], (it[0] * 1e6) as i64 % 7),
         head,
     );
-    let after = good
-        .lines()
-        .enumerate()
-        .filter(|(at, _)| *at == 0 || *at > 18_000);
-    let unsigned = after.map(|(_, it)| it).collect::<Vec<_>>().join("\n");
+    let unsigned = without_signature(&good);
     let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
     // One direction is heavier the faster it goes; friction rises by a third from row to row.
     let heavier = |it: &[f64]| 1.0 + 0.8 * (-it[1] / 50_000.0).clamp(0.0, 1.0);
@@ -78,7 +82,10 @@ fn what_speaks_against_a_list_is_named() {
             vec![("a.csv", &elsewhere)],
             "not used: the actual position does not follow the commanded one",
         ),
-        (vec![("a.csv", &short)], "s before its program, which takes"),
+        (
+            vec![("a.csv", &short)],
+            "s of its program are missing, which takes",
+        ),
         (
             vec![("a.csv", &unsigned)],
             "not used: it has no signature; say `--role a.csv=NUMBER`",
@@ -109,17 +116,64 @@ fn what_speaks_against_a_list_is_named() {
         );
         assert!(!folder.path().join("m/lists").exists(), "{words}");
     }
+}
+
+/// R16.1, R16.2: the program of a recording without a signature is said; a signature counts more, and the recording has
+/// to be there.
+#[test]
+fn a_role_is_said_of_a_recording_without_a_signature() {
+    let good = friction(0, 1.0);
+    let unsigned = without_signature(&good);
     let folder = planned();
     put(folder.path(), "a.csv", &unsigned);
     let (_, text) = run(folder.path(), &["--role", "a.csv=1"]);
     assert!(text.contains("X: provisional list"), "{text}");
     put(folder.path(), "a.csv", &good);
+    let (status, text) = run(folder.path(), &["--role", "b.csv=1"]);
+    assert!(
+        status == Some(2)
+            && text.contains("`--role` names `b.csv`, and there is no such recording"),
+        "{text}"
+    );
     let (_, text) = run(folder.path(), &["--role", "a.csv=2"]);
     assert!(
         text.contains("its strokes are the number 1, and `--role` says 2")
             && text.contains("Y: no list"),
         "{text}"
     );
+}
+
+/// R16.8, R16.9: neither does a recording in which samples are missing, nor one of directions that differ by a part of
+/// the friction, which is no weight.
+#[test]
+fn gaps_and_leaning_friction_make_no_list() {
+    let good = friction(0, 1.0);
+    // Ten seconds in the middle are not there.
+    let half = good.lines().count() / 2;
+    let pierced = good.lines().enumerate();
+    let pierced = pierced.filter(|(at, _)| !(half..half + 10_000).contains(at));
+    let pierced = pierced.map(|(_, it)| it).collect::<Vec<_>>().join("\n");
+    // One direction has a quarter more friction than the mean, the other a quarter less.
+    let leaning = changed(&good, "t,v,x,torque", &|it| {
+        let torque = it[3] * (1.0 + 0.25 * it[1].signum());
+        format!("{},{},{},{torque}", it[0], it[1], it[2])
+    });
+    for (text, words) in [
+        (pierced, "s of its program are missing, which takes"),
+        (
+            leaning,
+            "the directions differ by 25 % of the friction, the more the more friction there is",
+        ),
+    ] {
+        let folder = planned();
+        put(folder.path(), "a.csv", &text);
+        let (status, text) = run(folder.path(), &[]);
+        assert!(
+            status == Some(1) && text.contains(words) && text.contains("X: no list"),
+            "{words}: {text}"
+        );
+        assert!(!folder.path().join("m/lists").exists(), "{words}");
+    }
 }
 
 /// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
@@ -175,6 +229,41 @@ fn without_a_plan_there_is_nothing_to_read() {
     );
 }
 
+/// R16.8: what is the same in both directions, as a weight is, is said and stays out of the list.
+#[test]
+fn a_weight_is_no_part_of_the_list() {
+    let table_of = |recording: &str| {
+        let folder = planned();
+        put(folder.path(), "a.csv", recording);
+        let (_, text) = run(folder.path(), &[]);
+        let list = list_in(&folder.path().join(provisional(folder.path(), "X")));
+        (list.table, text)
+    };
+    let level = friction(0, 1.0);
+    let (expected, _) = table_of(&level);
+    // The bench has 35 of its own.
+    let heavy = changed(&level, "t,v,x,torque", &|it| {
+        format!("{},{},{},{}", it[0], it[1], it[2], it[3] + 300.0)
+    });
+    let (found, text) = table_of(&heavy);
+    assert_eq!(found, expected);
+    assert!(
+        text.contains("the offset of 335") && text.contains("it is no part of the list"),
+        "{text}"
+    );
+}
+
+/// R16.2: what the programs switch is not said on the command line.
+#[test]
+fn the_programs_say_whether_compensation_is_on() {
+    let folder = planned();
+    let (status, text) = run(folder.path(), &["--compensation", "off"]);
+    assert!(
+        status == Some(2) && text.contains("unexpected argument '--compensation'"),
+        "{text}"
+    );
+}
+
 /// R16.9: of a gantry one motor is read, and no list is made of its torque.
 #[test]
 fn a_gantry_gets_no_list_of_one_motor() {
@@ -214,8 +303,8 @@ fn counter_clockwise(recording: &str) -> String {
     kept
 }
 
-/// R16.9: circles of one direction, with exchanged columns, about another centre, too coarse, and copies are not
-/// used; those at another feed count with what was driven, and those that end early say so.
+/// R16.9: circles of one direction or that end early, with exchanged columns, about another centre, too coarse, with
+/// an override that was turned, and copies are not used; those at another feed count with what was driven.
 #[test]
 fn circles_count_with_what_was_driven() {
     let folder = planned();
@@ -236,6 +325,10 @@ fn circles_count_with_what_was_driven() {
         kept.map(|(_, it)| it).collect::<Vec<_>>().join("\n")
     };
     let count = whole.lines().count();
+    // In the standstill between both directions, and in the middle of the first one.
+    let direction_s = 3.0 * TAU * 40.0 / (2000.0 / 60.0);
+    let middle_s = count as f64 / 1000.0 - direction_s - 1.5;
+    let pierced = ((middle_s - direction_s / 2.0) * 1000.0) as usize;
     let exchanged = row(&|it| [it[0], it[2] + 50.0, it[1] - 50.0]);
     let missing = "missing: a recording of 03-circle-2000.nc that can be used";
     for (text, words) in [
@@ -251,6 +344,28 @@ fn circles_count_with_what_was_driven() {
         ),
         (other.clone(), "not used: it is `b.csv` once more"),
         (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
+        (
+            // In the turn that is evaluated, as wide as what a reversal does.
+            rows(&|at| !(pierced..pierced + 60).contains(&at)),
+            "not used: 61 ms without a sample in a turn ccw: what a reversal does may be missing",
+        ),
+        (
+            driven(folder, "m/03-circle-2000.nc")
+                .iter()
+                .enumerate()
+                .fold("t,x,y\n".to_owned(), |text, (at, [x, y, ..])| {
+                    format!("{text}{:.3},{x:.4},{y:.4}\n", at as f64 / 1000.0)
+                }),
+            "not used: it deviates from a circle by 0.1 µm: its positions are commanded ones",
+        ),
+        (
+            rows(&|at| at < count * 4 / 5),
+            "turns cw are in it: it begins late or ends early",
+        ),
+        (
+            row(&|it| [it[0] + (it[0] - middle_s).max(0.0) * 0.1, it[1], it[2]]),
+            "not used: one direction was driven at 1818 mm/min and the other at 2000: the override was turned",
+        ),
     ] {
         put(folder, "b.csv", &other);
         put(folder, "c.csv", &text);
@@ -264,23 +379,13 @@ fn circles_count_with_what_was_driven() {
     let (_, said) = run(folder, &["--role", "c.csv=3"]);
     let words = "not used: it begins clockwise and its program counter-clockwise";
     assert!(said.contains(words) && said.contains(missing), "{said}");
-    for (text, words) in [
-        (
-            row(&|it| [it[0] / 0.9, it[1], it[2]]),
-            "driven at 1800 mm/min in place of 2000: 22.50 mm/s² count",
-        ),
-        (
-            rows(&|at| at < count * 4 / 5),
-            "turns cw are in it: it begins late or ends early",
-        ),
-    ] {
-        put(folder, "c.csv", &text);
-        let (status, said) = run(folder, &[]);
-        assert!(
-            status == Some(1) && said.contains(words) && !said.contains(missing),
-            "{words}: {said}"
-        );
-    }
+    put(folder, "c.csv", &row(&|it| [it[0] / 0.9, it[1], it[2]]));
+    let (status, said) = run(folder, &[]);
+    let words = "driven at 1800 mm/min in place of 2000: 22.50 mm/s² count";
+    assert!(
+        status == Some(1) && said.contains(words) && !said.contains(missing),
+        "{said}"
+    );
 }
 
 /// R16.9: a list that adds too much, that has changed since, that shows no effect, whose friction or feeds are not

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use frictcomp::lists::FrictionList;
+use frictcomp::lists::{FrictionList, Points};
 use frictcomp_physics::circle::{
-    Circle, CircularTest, Comparison, Direction, Job, Method, RadialProfile,
+    Aim, Circle, CircularTest, Comparison, Direction, Job, Method, RadialProfile, Ranges, Shaping,
+    Task,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{DriveParameters, FrictionModel, Plant, Preset};
@@ -116,6 +117,25 @@ impl Machine {
             }
         }
         most
+    }
+
+    /// The search for the best lists at feeds, with knowledge of the machine.
+    pub(crate) fn task(&self, feeds: &[f64]) -> Task {
+        let circle = |&feed_mm_per_min: &f64| Circle {
+            feed_mm_per_min,
+            radius_mm: self.radius_mm,
+            ..Circle::default()
+        };
+        Task {
+            plant: self.plant.clone(),
+            model: FrictionModel::default(),
+            circles: feeds.iter().map(circle).collect(),
+            ranges: Ranges::default(),
+            reading: Reading::default(),
+            points: Points::Whole,
+            shaping: Shaping::Allowed,
+            aim: Aim::Plant,
+        }
     }
 
     /// A recording at a feed: more than a turn in each direction, a row a ms. The friction is a little different

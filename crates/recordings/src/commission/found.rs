@@ -76,18 +76,7 @@ impl FrictionFound {
                 drift.part * 100.0
             ));
         }
-        let uneven = found.pairs.iter().filter_map(|pair| {
-            let apart = (pair.offset? - found.offset).abs() / pair.friction.abs();
-            Some((pair.speed, apart))
-        });
-        let uneven = uneven.max_by(|one, other| one.1.total_cmp(&other.1));
-        if let Some((speed, part)) = uneven.filter(|it| it.1 > EVEN) {
-            against.push(format!(
-                "at {speed:.3} /s the directions differ by {:.0} % of the friction beyond a constant offset: one \
-                 list fits neither",
-                part * 100.0
-            ));
-        }
+        against.extend(uneven(found));
         let least = found
             .pairs
             .iter()
@@ -132,15 +121,15 @@ impl FrictionFound {
                 track.step_s * 1000.0
             ));
         }
-        let ends = track.times_s.first().zip(track.times_s.last());
-        let recorded_s = ends.map_or(0.0, |(first, last)| last - first);
+        let recorded_s = count(track.times_s.len()) * track.step_s;
         let Some((part, planned_s)) = self.override_part.zip(planned_s) else {
             return;
         };
         let planned_s = planned_s / part;
         if recorded_s < WHOLE * planned_s {
             self.against.push(format!(
-                "it ends {:.0} s before its program, which takes {planned_s:.0} s after its strokes",
+                "{:.0} s of its program are missing, which takes {planned_s:.0} s after its strokes: it ends early, or \
+                 has gaps",
                 planned_s - recorded_s
             ));
         }
@@ -207,6 +196,55 @@ impl FrictionFound {
     pub fn is_steady_with(&self, other: &Self) -> bool {
         self.apart_from(other).is_some_and(|part| part <= STEADY)
     }
+}
+
+/// Directions that differ beyond a constant offset, at one speed or as a part of the friction at all of them.
+fn uneven(found: &Identified) -> Option<String> {
+    let beyond = found.pairs.iter().filter_map(|pair| {
+        let apart = (pair.offset? - found.offset).abs() / pair.friction.abs();
+        Some((pair.speed, apart))
+    });
+    let beyond = beyond.max_by(|one, other| one.1.total_cmp(&other.1));
+    if let Some((speed, part)) = beyond.filter(|it| it.1 > EVEN) {
+        return Some(format!(
+            "at {speed:.3} /s the directions differ by {:.0} % of the friction beyond a constant offset: one list fits \
+             neither",
+            part * 100.0
+        ));
+    }
+    let part = growing_offset(found)?.abs();
+    (part > EVEN).then(|| {
+        format!(
+            "the directions differ by {:.0} % of the friction, the more the more friction there is, which no weight \
+             does: one list fits neither",
+            part * 100.0
+        )
+    })
+}
+
+/// The part of the friction by which the offset grows with it; `None` where friction differs too little over the
+/// speeds, or the offset too much from a line, to tell.
+fn growing_offset(found: &Identified) -> Option<f64> {
+    const TIMES: f64 = 3.0;
+    /// Friction differs over the speeds by this part of its mean.
+    const DIFFERS: f64 = 0.25;
+    let pairs = found.pairs.iter();
+    let points: Vec<[f64; 2]> = pairs
+        .filter_map(|it| Some([it.friction, it.offset?]))
+        .collect();
+    let number = count(points.len());
+    let mean = |at: usize| points.iter().map(|it| it[at]).sum::<f64>() / number;
+    let means = [mean(0), mean(1)];
+    let product = |one: usize, other: usize| {
+        let each = points.iter();
+        each.map(|it| (it[one] - means[one]) * (it[other] - means[other]))
+            .sum::<f64>()
+    };
+    let [wide, slope] = [product(0, 0), product(0, 1) / product(0, 0)];
+    let left = product(1, 1) - slope * product(0, 1);
+    let error = (left.max(0.0) / (number - 2.0) / wide).sqrt();
+    let differs = (wide / number).sqrt() > DIFFERS / 2.0 * means[0].abs();
+    (differs && slope.abs() > TIMES * error).then_some(slope)
 }
 
 /// The recorded speeds as a part of the planned ones; `None` where no single part explains them.
@@ -282,7 +320,10 @@ impl CirclesFound {
         }
         against.extend(begins_otherwise(&recording.circles));
         against.extend(recording.circles.iter().find_map(coarse));
-        notes.extend(recording.circles.iter().filter_map(cut_short));
+        against.extend(recording.circles.iter().find_map(gap));
+        against.extend(too_round(recording));
+        against.extend(recording.circles.iter().filter_map(cut_short));
+        against.extend(driven_otherwise(&recording.circles));
         if glitches_um.len() < recording.circles.len() {
             against
                 .push("it is too fast and small for a glitch to be told from the next".to_owned());
@@ -371,6 +412,44 @@ fn coarse(circle: &RecordedCircle) -> Option<String> {
         format!(
             "a sample every {:.1} ms does not show what a reversal does; record every ms",
             step_s * 1000.0
+        )
+    })
+}
+
+/// Samples that are missing in a turn: what a reversal does may be among them.
+fn gap(circle: &RecordedCircle) -> Option<String> {
+    const STEPS: f64 = 5.0;
+    let step_s = circle.turn_s? / count(circle.points);
+    let widest_s = circle.widest_step_s.filter(|it| *it > STEPS * step_s)?;
+    Some(format!(
+        "{:.0} ms without a sample in a turn {}: what a reversal does may be missing",
+        widest_s * 1000.0,
+        circle.direction
+    ))
+}
+
+/// Paths that deviate less from a circle than those of any machine.
+fn too_round(recording: &Recording) -> Option<String> {
+    const LEAST_UM: f64 = 0.3;
+    let figures = [&recording.side.figures.ccw, &recording.side.figures.cw];
+    let rounds = figures.into_iter().flatten().map(|it| it.g_mz_um);
+    let least_um = rounds.min_by(f64::total_cmp)?;
+    (least_um < LEAST_UM).then(|| {
+        format!(
+            "it deviates from a circle by {least_um:.1} µm: its positions are commanded ones, not actual ones"
+        )
+    })
+}
+
+/// Directions at different feeds, of which no single v²/R is left.
+fn driven_otherwise(circles: &[RecordedCircle]) -> Option<String> {
+    let feeds = circles.iter().filter_map(RecordedCircle::feed_mm_per_min);
+    let (slowest, fastest) = feeds.fold((f64::INFINITY, 0.0_f64), |(low, high), it| {
+        (low.min(it), high.max(it))
+    });
+    (fastest > slowest * (1.0 + ON_FEED)).then(|| {
+        format!(
+            "one direction was driven at {slowest:.0} mm/min and the other at {fastest:.0}: the override was turned"
         )
     })
 }

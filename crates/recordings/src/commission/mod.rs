@@ -30,6 +30,8 @@ pub use plant_found::{
 };
 pub use program::{Measurement, PlanStep, Program, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
-pub use results::{BeforeAfter, Found, RecordingResult, before_after, refuse_strangers};
+pub use results::{
+    BeforeAfter, Found, RecordingResult, before_after, refuse_strangers, without_effect,
+};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};

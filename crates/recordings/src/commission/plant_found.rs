@@ -147,13 +147,16 @@ impl PlantAxis {
             simulations: fitted.simulations,
         }
     }
-}
 
-impl PlantAxis {
-    /// Says which parameter ends at the bound of its search, where the range has no width.
+    /// Says which parameter ends at the bound of its search. Damping is left out: it is hardly ever determined.
     fn at_a_bound(&self) -> Option<String> {
-        let found = [("the contact", self.contact), ("Kp", self.speed_gain)];
-        let bound = found.into_iter().find(|(_, it)| it.high <= it.low);
+        let found = [
+            ("the contact", self.contact),
+            ("Kp", self.speed_gain),
+            ("Fc", self.coulomb),
+            ("the delay", self.delay),
+        ];
+        let bound = found.into_iter().find(|(_, it)| it.at_bound);
         bound.map(|(name, _)| {
             format!(
                 "{name} of {} ends at the bound of its search: mass, loops or friction are not those of this machine, \
@@ -345,10 +348,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_prediction_misses_by_a_quarter_and_half_a_um() {
-        // R16.9
-        let found = |predicted_um: f64| PlantFound {
+    fn plant(predicted_um: f64) -> PlantFound {
+        PlantFound {
             key: String::new(),
             round: 2,
             axes: Vec::new(),
@@ -362,7 +363,12 @@ mod tests {
             }],
             lists: Vec::new(),
             toml: String::new(),
-        };
+        }
+    }
+
+    #[test]
+    fn a_prediction_misses_by_a_quarter_and_half_a_um() {
+        // R16.9
         let missed = |predicted: f64, um: f64| {
             let recorded = RecordedGlitch {
                 axis: "X".to_owned(),
@@ -370,12 +376,50 @@ mod tests {
                 list: None,
                 um,
             };
-            found(predicted).compared(vec![recorded])[0]
+            plant(predicted).compared(vec![recorded])[0]
                 .missed()
                 .is_some()
         };
         assert!(!missed(1.4, 1.0) && missed(1.6, 1.0) && missed(0.4, 1.0));
         assert!(!missed(12.4, 10.0) && missed(12.6, 10.0) && missed(7.4, 10.0));
+    }
+
+    #[test]
+    fn a_value_at_the_bound_of_its_search_speaks_against_the_plant() {
+        // R16.9: also where other selections of the reversals give the range a width.
+        let extent = |at_bound| Extent {
+            value: 2.0,
+            low: 1.8,
+            high: 2.1,
+            at_bound,
+        };
+        let axis = |bounds: [bool; 5]| PlantAxis {
+            axis: "X".to_owned(),
+            contact: extent(bounds[0]),
+            speed_gain: extent(bounds[1]),
+            coulomb: extent(bounds[2]),
+            delay: extent(bounds[3]),
+            damping: extent(bounds[4]),
+            left: 0.1,
+            reversals: 40,
+            simulations: 900,
+        };
+        let against = |bounds| {
+            let mut found = plant(1.0);
+            found.axes = vec![axis([false; 5]), axis(bounds)];
+            found.against_fit()
+        };
+        assert!(against([false, false, false, false, true]).is_empty());
+        for (at, name) in ["the contact of X", "Kp of X", "Fc of X", "the delay of X"]
+            .into_iter()
+            .enumerate()
+        {
+            let against = against(std::array::from_fn(|it| it == at));
+            assert!(
+                against.len() == 1 && against[0].starts_with(name),
+                "{against:?}"
+            );
+        }
     }
 
     #[test]

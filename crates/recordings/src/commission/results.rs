@@ -124,13 +124,30 @@ impl BeforeAfter {
         self.on < self.off * (1.0 - LEAST)
     }
 
-    /// Whether off and on are alike here, although compensation takes much away at the next feeds on both sides: it was
-    /// on in both recordings, or in none.
-    pub fn stands_out(&self, slower: &Self, faster: &Self) -> bool {
-        const MUCH: f64 = 0.8;
-        let takes_much = |it: &Self| it.on < it.off * MUCH;
-        !self.shows_an_effect() && takes_much(slower) && takes_much(faster)
+    /// Whether off and on are alike here, although compensation leaves at most a part of what there is without it at
+    /// two feeds next to it: it was on in both recordings, or in none.
+    fn stands_out(&self, next: [&Self; 2], part: f64) -> bool {
+        !self.shows_an_effect() && next.iter().all(|it| it.on < it.off * part)
     }
+}
+
+/// The feeds, slowest first, at which off and on are alike, although at the next feeds they are not. At the slowest one
+/// they may be: there compensation takes little away.
+pub fn without_effect(recorded: &[BeforeAfter]) -> Vec<f64> {
+    const BETWEEN: f64 = 0.8;
+    const FASTEST: f64 = 0.6;
+    let mut alike = Vec::new();
+    for three in recorded.windows(3) {
+        if three[1].stands_out([&three[0], &three[2]], BETWEEN) {
+            alike.push(three[1].feed);
+        }
+    }
+    if let [.., one, other, fastest] = recorded
+        && fastest.stands_out([one, other], FASTEST)
+    {
+        alike.push(fastest.feed);
+    }
+    alike
 }
 
 /// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest

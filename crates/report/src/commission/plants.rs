@@ -94,7 +94,9 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [Parameter; 5] {
     const MS_PER_S: f64 = 1e3;
     let scaled = |name, unit, extent: Extent, factor: f64, digits| {
         let number = |value: f64| Rounded(value * factor, digits).to_string();
-        let value = if extent.is_determined() {
+        let value = if extent.at_bound {
+            "at its bound".to_owned()
+        } else if extent.is_determined() {
             number(extent.value)
         } else {
             format!("at least {}", number(extent.low))

@@ -92,6 +92,10 @@ fn verdict(report: &ResultsReport) -> Markup {
                 ul { @for reason in against { li { (reason) } } }
             }
         }
+        @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.rejected.is_empty()) {
+            p { "The plant is rejected by the recordings, and the lists of before stay:" }
+            ul { @for reason in &plant.rejected { li { (reason) } } }
+        }
         @if !missing.is_empty() {
             p { "Not recorded, or not usable: " (missing.join(", ")) "." }
         }
@@ -286,10 +290,6 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
         (compared_part(plant, name))
         (glitches.render(predicted))
         p { "Not modelled: " (plant.not_modelled.join(", ")) "." }
-        @if !plant.rejected.is_empty() {
-            p { "The plant is rejected, and the lists of before stay:" }
-            ul { @for reason in &plant.rejected { li { (reason) } } }
-        }
         @if let Some(list) = tuned {
             p { "Tuned list " (list.file) ", SHA-256 " code { (list.sha256) } "; no recording has shown it yet." }
             @if !list.against.is_empty() {

@@ -11,6 +11,8 @@ pub struct Extent {
     pub low: f64,
     /// The upper end.
     pub high: f64,
+    /// Whether the value is where its search ends, so that it is no value of the machine.
+    pub at_bound: bool,
 }
 
 /// The ends of a range are within this factor where a value is determined.
@@ -23,6 +25,7 @@ impl Extent {
             value,
             low: value,
             high: value,
+            at_bound: false,
         };
         for other in others {
             extent.low = extent.low.min(other);
@@ -34,9 +37,9 @@ impl Extent {
     /// The same, at least so wide to both sides.
     pub(super) fn widened(self, least: f64) -> Self {
         Self {
-            value: self.value,
             low: self.low.min(self.value - least),
             high: self.high.max(self.value + least),
+            ..self
         }
     }
 

@@ -86,7 +86,10 @@ impl DriveFit {
             let refits = others.iter().map(|it| it.unknowns.0[unknown]);
             let at = |value: f64| of(&best.unknowns.with(unknown, value).of(&self.drive));
             let all = ends.copied().chain(refits).map(at);
-            Extent::over(of(&best.unknowns.of(&self.drive)), all)
+            Extent {
+                at_bound: best.unknowns.is_at_bound(unknown),
+                ..Extent::over(of(&best.unknowns.of(&self.drive)), all)
+            }
         };
         let coulomb = extent(FRICTION, &|it| it.friction.coulomb_n);
         Ok(FittedDrive {

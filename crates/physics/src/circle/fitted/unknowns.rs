@@ -29,6 +29,9 @@ const MOST: [f64; UNKNOWNS] = [0.7, 0.3, 0.1, 0.7, 0.7];
 /// Greatest distance from the first drive.
 const BOUNDS: [f64; UNKNOWNS] = [3.0, 1.2, 0.2, 5.0, 1.4];
 
+/// The part of that distance beyond which an unknown is at its bound.
+const NEXT_TO: f64 = 0.99;
+
 /// The shortest delay in s.
 const LEAST_DELAY_S: f64 = 1e-4;
 
@@ -50,6 +53,11 @@ impl Unknowns {
             let step = step[at].clamp(-MOST[at], MOST[at]);
             (self.0[at] + step).clamp(-BOUNDS[at], BOUNDS[at])
         }))
+    }
+
+    /// Whether an unknown is where its search ends, or next to it.
+    pub(super) fn is_at_bound(self, at: usize) -> bool {
+        self.0[at].abs() > NEXT_TO * BOUNDS[at]
     }
 
     /// The drive.

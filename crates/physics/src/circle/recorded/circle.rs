@@ -34,6 +34,8 @@ pub struct RecordedCircle {
     pub points: usize,
     /// Duration of the turn, where the times are known.
     pub turn_s: Option<f64>,
+    /// The longest time between two of its points, where the times are known.
+    pub widest_step_s: Option<f64>,
     /// The rest of the recording.
     pub left_out: LeftOut,
     pub(in crate::circle) profile: RadialProfile,
@@ -127,6 +129,7 @@ impl RecordedCircle {
         }
         let duration_s = trace.duration_s(turn.start, turn.end - 1);
         let turn_s = duration_s.map(|duration| duration * TAU / run.between(&turn));
+        let widest_step_s = trace.widest_step_s(&turn);
         let commanded = commanded_mm.unwrap_or(fit.radius) / MM_PER_M;
         let about = |centre: [f64; 2]| {
             let mut gatherer = Gatherer::new(commanded, WIDEST_GAP_DEG);
@@ -156,6 +159,7 @@ impl RecordedCircle {
             radius_mm,
             points: turn.len(),
             turn_s,
+            widest_step_s,
             left_out: LeftOut {
                 repeated: 0,
                 before: run.points.start,

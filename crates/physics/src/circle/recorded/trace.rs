@@ -1,5 +1,7 @@
 //! The rows of a recording.
 
+use std::ops::Range;
+
 /// Actual positions of two axes in the order of time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordedTrace {
@@ -35,5 +37,12 @@ impl RecordedTrace {
     pub(super) fn duration_s(&self, from: usize, to: usize) -> Option<f64> {
         let duration = self.times_s.get(to)? - self.times_s.get(from)?;
         (duration.is_finite() && duration > 0.0).then_some(duration)
+    }
+
+    /// The longest time between two of some points, where it is known.
+    pub(super) fn widest_step_s(&self, points: &Range<usize>) -> Option<f64> {
+        let times = self.times_s.get(points.clone())?;
+        let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+        steps.max_by(f64::total_cmp)
     }
 }

@@ -158,3 +158,28 @@ fn an_agreed_contour_has_a_tolerance() {
     assert!(removed.iter().all(|it| !it.contains("N30")), "{text}");
     assert_eq!(bench.status(&["golden", "a.nc", "--plant", "mid"]), Some(2));
 }
+
+#[test]
+fn an_agreed_contour_has_no_figure_where_there_is_none() {
+    // R9.84, R11.26: X turns back at a corner, then on the path on which it came.
+    let corners =
+        "N10 X[COMP ON FRICT]\nN20 G01 X25 Y0 F3000\nN30 X40\nN40 X20 Y30\nN50 X30\nN60 M30\n";
+    let bench = Bench::new(&[("a.nc", corners)]);
+    bench.write("frictcomp.toml", MACHINE);
+    let update = [
+        "golden",
+        "--contour",
+        "--start",
+        "X0,Y-20",
+        "--update",
+        "a.nc",
+    ];
+    assert_eq!(bench.status(&update), Some(0));
+    let agreed = bench.read("a.nc.contour");
+    for words in [
+        "N40 X20 Y30\n           reversals: X without a figure\n",
+        "N50 X30\n           reversals: X along the path\n",
+    ] {
+        assert!(agreed.contains(words), "{agreed}");
+    }
+}

@@ -201,6 +201,7 @@ sent! {
     config::TableForm,
     contour::BlockDeviation,
     contour::BlockDeviations,
+    contour::BlockReversal,
     contour::ContourAxis,
     contour::ContourLimits,
     contour::ContourObstacle,

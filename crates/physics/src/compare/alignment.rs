@@ -139,7 +139,7 @@ mod tests {
             stretches: Vec::new(),
             stretch_mm: 1.0,
             reversals: Vec::new(),
-            more_reversals: (0, 0.0),
+            more_reversals: (0, None),
         };
         texts.iter().zip(1..).map(block).collect()
     }

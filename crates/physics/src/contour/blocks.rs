@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::program::{ContourPoint, ContourSink};
-use super::reversals::ContourReversal;
+use super::reversals::{ContourReversal, GlitchFigure};
 use crate::motion::Movement;
 use frictcomp::timeline::Row;
 
@@ -30,10 +30,21 @@ pub struct BlockDeviation {
     pub stretches: Vec<WorstPlace>,
     /// Length of the stretches, in mm.
     pub stretch_mm: f64,
-    /// The axes that reverse while it is cut, with the glitch in µm, in the order of the path.
-    pub reversals: Vec<(String, f64)>,
-    /// Number of its further reversals, and the largest glitch of those in µm.
-    pub more_reversals: (u64, f64),
+    /// The axes that reverse while it is cut, in the order of the path.
+    pub reversals: Vec<BlockReversal>,
+    /// Number of its further reversals, and the largest glitch of those that have a figure, in µm.
+    pub more_reversals: (u64, Option<f64>),
+}
+
+/// A reversal while a block is cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockReversal {
+    /// Name of the axis.
+    pub axis: String,
+    /// The glitch as programmed in µm; 0 where there is no figure.
+    pub glitch_um: f64,
+    /// Basis of the glitch.
+    pub figure: GlitchFigure,
 }
 
 /// Place of the largest deviation of a block.
@@ -142,7 +153,7 @@ impl ContourSink for BlockDeviations {
             stretches: Vec::new(),
             stretch_mm: 1.0,
             reversals: Vec::new(),
-            more_reversals: (0, 0.0),
+            more_reversals: (0, None),
         });
     }
 
@@ -179,13 +190,19 @@ impl ContourSink for BlockDeviations {
         let Some(block) = block.filter(|_| reversal.movement != Movement::Rapid) else {
             return;
         };
-        let glitch = reversal.glitch_um.programmed;
+        let glitch_um = reversal.glitch_um.programmed;
         if block.reversals.len() < MOST_REVERSALS {
-            block.reversals.push((reversal.axis.clone(), glitch));
+            block.reversals.push(BlockReversal {
+                axis: reversal.axis.clone(),
+                glitch_um,
+                figure: reversal.figure,
+            });
         } else {
             let (count, largest) = &mut block.more_reversals;
             *count += 1;
-            *largest = largest.max(glitch);
+            if reversal.has_figure() {
+                *largest = Some(largest.map_or(glitch_um, |largest| largest.max(glitch_um)));
+            }
         }
     }
 }
@@ -205,7 +222,7 @@ mod tests {
             stretches: Vec::new(),
             stretch_mm: 1.0,
             reversals: Vec::new(),
-            more_reversals: (0, 0.0),
+            more_reversals: (0, None),
         };
         for gone in 0..1000 {
             let found = WorstPlace {

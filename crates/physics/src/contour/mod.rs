@@ -25,7 +25,7 @@ mod run;
 mod verdict;
 
 pub use axes::{MovingAxes, NoContour, parameterise};
-pub use blocks::{BlockDeviation, BlockDeviations, WorstPlace};
+pub use blocks::{BlockDeviation, BlockDeviations, BlockReversal, WorstPlace};
 pub use feed::FeedReached;
 pub use figures::{ContourSummary, Deviations, Due};
 pub use fit::ListFit;

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 use crate::visible::visible_line;
 use frictcomp_physics::contour::{
-    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, PerRun, ProgramContour,
+    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, GlitchFigure, PerRun,
+    ProgramContour,
 };
 
 /// Driven program, and its start.
@@ -102,11 +103,19 @@ fn push_block(out: &mut String, block: &BlockDeviation) {
     let mut glitches: Vec<String> = block
         .reversals
         .iter()
-        .map(|(axis, um)| format!("{} {um:.1} µm", visible_line(axis)))
+        .map(|reversal| {
+            let axis = visible_line(&reversal.axis);
+            match reversal.figure {
+                GlitchFigure::Measured => format!("{axis} {:.1} µm", reversal.glitch_um),
+                GlitchFigure::AlongPath => format!("{axis} along the path"),
+                GlitchFigure::Missing => format!("{axis} without a figure"),
+            }
+        })
         .collect();
-    let (more, largest) = block.more_reversals;
-    if more > 0 {
-        glitches.push(format!("{more} more {largest:.1} µm"));
+    match block.more_reversals {
+        (0, _) => {}
+        (more, Some(largest)) => glitches.push(format!("{more} more {largest:.1} µm")),
+        (more, None) => glitches.push(format!("{more} more without a figure")),
     }
     if !glitches.is_empty() {
         let _ = writeln!(out, "           reversals: {}", glitches.join(", "));

@@ -21,3 +21,33 @@ fn lines_that_are_no_answers_are_named() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// R15.2: the lines to copy name both readings of a question and are no answer, nor are both of them in
+/// one note.
+#[test]
+fn the_lines_to_copy_are_no_answers() {
+    let bench = bench();
+    let before = bench.read("frictcomp.toml");
+    bench.stdout(&["ask", "-o", "ask"]);
+    let said = bench.stdout(&["ask", "--read", "ask/README.txt"]);
+    assert!(
+        said.contains(
+            "R1.9 not decidable\n  axis X on V3.1.3081.05: the note says `after` and `before`"
+        ),
+        "{said}"
+    );
+    assert_eq!(
+        said.matches("; keep the line of what was seen").count(),
+        9,
+        "{said}"
+    );
+    assert_eq!(bench.read("frictcomp.toml"), before);
+
+    let copied = bench.read("ask/README.txt");
+    let line = copied
+        .lines()
+        .find(|line| line.ends_with(" reading before"));
+    bench.write("note.txt", line.expect("a line to copy"));
+    let said = bench.stdout(&["ask", "--read", "note.txt"]);
+    assert!(said.starts_with("R1.9 confirmed: before\n"), "{said}");
+}

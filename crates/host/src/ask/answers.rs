@@ -1,6 +1,6 @@
 //! The answers of a control.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::axis::AskedAxis;
 use super::programs::{TAG, fingerprint};
@@ -46,6 +46,16 @@ impl Answer {
 /// The values of one run, by their words; the last one of a word counts.
 type Values = BTreeMap<String, String>;
 
+/// What one run left, and what its operator wrote down.
+#[derive(Default)]
+struct Run {
+    /// The fingerprint of the program.
+    print: String,
+    values: Values,
+    /// The readings that notes name.
+    noted: BTreeSet<String>,
+}
+
 /// A line that is marked as an answer and cannot be read as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnreadAnswer {
@@ -63,7 +73,7 @@ pub fn read_answers(
     axis: impl Fn(&str) -> AskedAxis,
 ) -> (Vec<Answer>, Vec<UnreadAnswer>) {
     let mut unread = Vec::new();
-    let mut runs: BTreeMap<(Question, String, String), (String, Values)> = BTreeMap::new();
+    let mut runs: BTreeMap<(Question, String, String), Run> = BTreeMap::new();
     for (at, line) in text.lines().enumerate() {
         let mut leave = |reason: String| {
             let line = at + 1;
@@ -84,20 +94,27 @@ pub fn read_answers(
             continue;
         };
         let key = (question, (*name).to_owned(), (*build).to_owned());
-        let (own, values) = runs.entry(key).or_default();
-        (*print).clone_into(own);
-        if *word == "begin" {
-            values.clear();
+        let run = runs.entry(key).or_default();
+        (*print).clone_into(&mut run.print);
+        let value = rest.join(" ");
+        match *word {
+            "reading" => {
+                run.noted.insert(value);
+            }
+            "begin" => (run.values, run.noted) = Default::default(),
+            _ => {
+                run.values.insert((*word).to_owned(), value);
+            }
         }
-        values.insert((*word).to_owned(), rest.join(" "));
     }
-    let answers = runs.into_iter().map(|((question, name, build), (print, values))| {
+    let answers = runs.into_iter().map(|((question, name, build), run)| {
         let asked = fingerprint(question, &axis(&name));
-        let judged = if print == asked {
-            judge(question, &values)
+        let judged = if run.print == asked {
+            judge(question, &run)
         } else {
             Err(format!(
-                "the programs that asked have the fingerprint {print}, those of today {asked}; write them anew"
+                "the programs that asked have the fingerprint {}, those of today {asked}; write them anew",
+                run.print
             ))
         };
         let (verdict, evidence) = match judged {
@@ -118,14 +135,12 @@ pub fn read_answers(
 /// A reading with its evidence, or why there is none.
 type Judged = Result<(Alternative, String), String>;
 
-/// The reading that the values of a question show.
-fn judge(question: Question, values: &Values) -> Judged {
-    if let Some(name) = values.get("reading") {
-        let reading = question.reading(name);
-        let noted = format!("the note says `{name}`");
-        let refused = format!("{noted}, which is no reading of {}", question.facts().rule);
-        return reading.map(|reading| (reading, noted)).ok_or(refused);
+/// The reading that the run of a question shows, or a note on it.
+fn judge(question: Question, run: &Run) -> Judged {
+    if !run.noted.is_empty() {
+        return judge_noted(question, &run.noted);
     }
+    let values = &run.values;
     if question.facts().way != Way::Program {
         return Err("what was seen is not written down yet".to_owned());
     }
@@ -164,6 +179,23 @@ fn judge(question: Question, values: &Values) -> Judged {
             let evidence = format!("switched off, the state is {} afterwards", u8::from(answer));
             Ok((first_if(answer == goes_back), evidence))
         }
+    }
+}
+
+/// The reading that a note names. The lines to copy name both.
+fn judge_noted(question: Question, noted: &BTreeSet<String>) -> Judged {
+    let names: Vec<String> = noted.iter().map(|name| format!("`{name}`")).collect();
+    let said = format!("the note says {}", names.join(" and "));
+    let mut names = noted.iter();
+    let (Some(name), None) = (names.next(), names.next()) else {
+        return Err(format!("{said}; keep the line of what was seen"));
+    };
+    match question.reading(name) {
+        Some(reading) => Ok((reading, said)),
+        None => Err(format!(
+            "{said}, which is no reading of {}",
+            question.facts().rule
+        )),
     }
 }
 

@@ -288,7 +288,8 @@ pub fn readme(axis: &AskedAxis) -> String {
          \u{20}   frictcomp ask --read message.txt\n\n\
          The last program of a question brings the axis back to its state at the start of the control.\n\
          Where a program stopped with an error, run the last one of its question, or restart the control.\n\n\
-         What you see yourself is a line in a text file, which is read in the same way:\n\n",
+         What you see yourself is one line of two below. Copy it into a text file, which is read in the\n\
+         same way:\n\n",
     );
     for question in Question::ALL {
         let facts = question.facts();

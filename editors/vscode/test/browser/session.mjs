@@ -54,6 +54,7 @@ function prepare() {
   fs.mkdirSync(path.join(data, "data/Machine"), { recursive: true });
   write(path.join(data, "data/Machine/settings.json"), { "frictcomp.path": FRICTCOMP });
   fs.cpSync(DEMO, workspace, { recursive: true });
+  fs.writeFileSync(path.join(workspace, "typed.nc"), "");
   theme(THEMES[0]);
 }
 
@@ -178,6 +179,7 @@ async function session(page) {
   await page.locator(".view-line").filter({ hasText: "N55" }).first().click();
   await debug(page);
   await contour(page);
+  await type(page);
 }
 
 /** The question comes late on a busy machine, and is always asked: it is no setting of a workspace. */
@@ -284,6 +286,22 @@ async function contour(page) {
   settings({ "frictcomp.contour.plant": "no-such.toml" });
   await shown.locator(".refused").filter({ hasText: "no-such.toml" }).waitFor();
   await shot(page, "contour-refused");
+}
+
+/** Enter after a word that begins as another one of the text is a line break (R12.11). */
+async function type(page) {
+  await open(page, "typed.nc");
+  await page.locator(".editor-instance .monaco-editor.focused").waitFor();
+  const lines = ["N10 G01 X10 Y20 F1000 M30", "N20 X1", "N30 F100", "N40 M3", "X", "N50 M4", ""];
+  for (const line of lines.slice(0, -1)) {
+    await page.keyboard.type(line);
+    // What an editor offers comes some time after the word.
+    await page.waitForTimeout(1000);
+    await page.keyboard.press("Enter");
+  }
+  await page.keyboard.press("Control+S");
+  await page.locator(".tab.dirty").waitFor({ state: "detached" });
+  assert.equal(fs.readFileSync(path.join(workspace, "typed.nc"), "utf8"), lines.join("\n"));
 }
 
 /** The page of the contour, whichever webview it is in. */

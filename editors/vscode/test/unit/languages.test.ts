@@ -48,10 +48,14 @@ test("languages and their endings are declared before anything runs", () => {
   expect(lists?.extensions).toEqual([".lis"]);
 });
 
-test("what a blank offers is not taken for Enter", () => {
+test("what is offered is not taken for Enter", () => {
   // R12.11
   const defaults = manifest.contributes.configurationDefaults;
-  for (const language of ["[isg-cnc]", "[frictcomp-nc]"] as const) {
-    expect(defaults[language]["editor.suggest.selectionMode"]).toBe("whenQuickSuggestion");
+  for (const language of ["[frictcomp-nc]", "[frictcomp-list]"] as const) {
+    expect(defaults[language]["editor.suggest.selectionMode"]).toBe("never");
+    expect(defaults[language]["editor.wordBasedSuggestions"]).toBe("off");
   }
+  // What ISG's extension offers is chosen as it was, but not after a blank of ours.
+  expect(defaults["[isg-cnc]"]["editor.suggest.selectionMode"]).toBe("whenQuickSuggestion");
+  expect(defaults["[isg-cnc]"]["editor.wordBasedSuggestions"]).toBe("off");
 });

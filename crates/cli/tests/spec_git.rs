@@ -313,7 +313,10 @@ fn what_git_cannot_say_is_an_error() {
         .expect("the tool starts");
     let said = String::from_utf8(output.stderr).expect("text");
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("the command `git` is not there"), "{said}");
+    assert!(
+        said.contains("the command `git`, which is not installed"),
+        "{said}"
+    );
     assert!(refused(&["diff", "a.nc"]).contains("frictcomp diff OLD NEW"));
 }
 

@@ -100,7 +100,7 @@ pub enum HostError {
         message: String,
     },
     /// No command `git`.
-    #[error("the command `git` is not there, which knows the revisions")]
+    #[error("the revisions need the command `git`, which is not installed")]
     NoGit,
     /// A folder in no repository, or in one that git does not trust.
     #[error("`{}` is in no git repository that can be read: {reason}", shown_path(.folder))]

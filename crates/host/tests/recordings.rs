@@ -28,7 +28,7 @@ const FRICTION: &str = concat!(
 /// The time between two rows in s.
 const ROW_S: f64 = 0.004;
 
-/// Speeds in mm/s, each forth and back, upwards, then downwards.
+/// Speeds in mm/s, each back and forth, upwards, then downwards.
 const SPEEDS: [f64; 7] = [0.2, 0.6, 1.8, 5.0, 15.0, 45.0, 120.0];
 
 /// What the control commands, in m/s every 250 µs.

@@ -224,7 +224,7 @@ fn the_drive_gets_whole_numbers_of_16_bit() {
     assert_eq!(outputs(10, [0.0, 3722.0]), (37, -37, 0));
 }
 
-/// A reversal at a constant speed: cycles forth and back, and what each cycle yields.
+/// A reversal at a constant speed: cycles back and forth, and what each cycle yields.
 struct Reversal {
     /// µm/s.
     speed: f64,

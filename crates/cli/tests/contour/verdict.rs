@@ -273,7 +273,7 @@ fn what_was_left_out_does_not_count_as_no_reversal() {
 
 #[test]
 fn a_reversal_along_the_path_is_called_so() {
-    // R11.26: X goes forth and back on its own line, so that nothing of it is normal to the path.
+    // R11.26: X goes back and forth on its own line, so that nothing of it is normal to the path.
     let forth_and_back = "G90 G01 X20 F2000\nN20 G01 X5\nN30 G01 X20\nM30\n";
     for command in ["", "X[COMP OFF FRICT] "] {
         let bench = bench(&format!("{command}{forth_and_back}"), MACHINE);

@@ -21,7 +21,7 @@ pub(super) struct Runs<'a> {
 }
 
 impl Runs<'_> {
-    /// Constant speeds up and then down, each forth and back.
+    /// Constant speeds up and then down, each back and forth.
     pub(super) fn friction(&self, axis: usize, speeds: Vec<f64>) -> Result<Program, PlanError> {
         let room = &self.rooms[axis];
         let mut made = Motions::at(room.low);

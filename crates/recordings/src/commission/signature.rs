@@ -3,7 +3,7 @@
 /// Bits of the number.
 const BITS: u16 = 10;
 
-/// Strokes forth and back: the number, then how many of its bits are set, modulo 4.
+/// Strokes back and forth: the number, then how many of its bits are set, modulo 4.
 const STROKES: usize = 12;
 
 /// The way of a short stroke in mm or degrees; a long one is twice as long.
@@ -77,7 +77,7 @@ pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
     found.collect()
 }
 
-/// The number that strokes forth and back tell.
+/// The number that strokes back and forth tell.
 fn read(window: &[Move]) -> Option<Signature> {
     let mut bits = 0_u16;
     for stroke in window.chunks(2) {

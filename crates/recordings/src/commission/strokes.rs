@@ -6,7 +6,7 @@ use super::at_feed::ON_FEED;
 use super::following::{Following, NotFollowed, Turn};
 use crate::identify::{Track, count};
 
-/// Reversals without a stop at each feed: the ends of four strokes forth and back, without the last one.
+/// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
 const REVERSALS: usize = 7;
 
 /// A feed is one of the program where the fastest of both differ by the same part, within this.

@@ -74,7 +74,7 @@ impl IdentifyError {
                 "move the axis at constant speeds, each for a second or more; of circles the \
                                  friction is found another way"
             }
-            Self::OneDirection => "move at every speed forth and back",
+            Self::OneDirection => "move at every speed back and forth",
             Self::NoFriction { .. } => {
                 "check which channel is the torque of this axis, and its resolution"
             }

@@ -104,7 +104,7 @@ fn few_speeds(found: &Identified, _: &IdentifyOptions) -> Option<TraceFinding> {
         TraceFinding::new(
             Code::Fc514,
             format!("{count}{times} show no friction curve, straight lines are drawn through them"),
-            "record ten or more speeds from 0.1 mm/s up to the fastest feed, each forth and back",
+            "record ten or more speeds from 0.1 mm/s up to the fastest feed, each back and forth",
         )
     })
 }
@@ -170,7 +170,7 @@ fn one_sided(found: &Identified, _: &IdentifyOptions) -> Option<TraceFinding> {
                 "recorded in one direction only, less the offset of the others: {} mm/s",
                 speeds.join(", ")
             ),
-            "move at every speed forth and back",
+            "move at every speed back and forth",
         )
     })
 }

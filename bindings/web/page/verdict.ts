@@ -55,6 +55,9 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
     message.severity === "error" && message.after > 0);
   const stop = failed[0];
   const isWhole = overview.endedBy !== null && !["error", "budget"].includes(overview.endedBy);
+  if (overview.blocks === 0 && failed.length === 0) {
+    say("warning", "There is no block in this program: nothing was run.");
+  }
   if (overview.endedBy === "budget") {
     say("error", "A limit of frictcomp ended the run: what follows was not executed.");
   } else if (!isWhole) {

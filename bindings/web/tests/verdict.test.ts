@@ -30,7 +30,7 @@ describe("the verdict", () => {
     const notGood: Partial<Overview>[] = [
       { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 },
       { remark: "no machine is described" }, { isAssumed: true }, { kept: 5 }, { messagesLeftOut: 1 },
-      { axes: [] }, { infos: 1 },
+      { axes: [] }, { infos: 1 }, { blocks: 0 },
       { axes: [{ ...axis, uncompensated: " off during 155 feed moves, the longest 812 mm" }] },
       { axes: [{ ...axis, startUp: "ineffective", end: "ineffective" }] },
       { axes: [{ ...axis, startUp: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },

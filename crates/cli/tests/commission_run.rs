@@ -28,6 +28,7 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_host::sha256_of;
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, Job, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
@@ -521,6 +522,15 @@ fn check_report(folder: &Path) {
     let results: serde_json::Value = serde_json::from_str(&results).expect("a record");
     for recording in results["recordings"].as_array().expect("recordings") {
         assert!(page.contains(recording["sha256"].as_str().expect("a sum")));
+    }
+    let lists = ["X", "Y"].map(|axis| provisional(folder, axis));
+    let others = ["m/plan-1.json", "m/plan-2.json", "zero.lis"].map(str::to_owned);
+    for file in others.iter().chain(&lists) {
+        let sum = sha256_of(&folder.join(file)).expect("a sum");
+        let row = page
+            .split("<tr>")
+            .find(|it| it.contains(file.as_str()) && it.contains(&sum));
+        assert!(row.is_some(), "{file}");
     }
     let (status, text) = run(folder, &["--html", "r.html", "--before", "Z=zero.lis"]);
     assert!(

@@ -1,5 +1,6 @@
 //! `frictcomp commission`: from measuring programs to a list that is proved.
 
+mod grounds;
 mod plan;
 mod plants;
 mod reading;

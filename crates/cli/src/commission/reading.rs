@@ -77,6 +77,18 @@ impl ReadingArgs {
         format!("{time:?} {places:?} {:?} {:?}", self.unit, self.cycle)
     }
 
+    /// Statements of the user about the recordings.
+    pub(super) fn said(&self) -> Vec<String> {
+        let roles = self.role.iter();
+        let mut said: Vec<String> = roles
+            .map(|(file, number)| format!("{file} is the recording of program {number}"))
+            .collect();
+        if let Some(kind) = self.kind.torque_kind {
+            said.push(format!("the recorded torque is the {} one", kind.as_str()));
+        }
+        said
+    }
+
     /// Checks that the recordings whose programs are said are there.
     pub(super) fn check_roles(&self, paths: &[PathBuf]) -> Result<(), Failure> {
         let is_there = |file: &str| paths.iter().any(|it| it.ends_with(file));

@@ -88,6 +88,8 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     };
     let rounds = rounds(&plans, &results, (&fitted, &registry))?;
     let report = ResultsReport {
+        inputs: args.inputs(&plans)?,
+        said: args.said(),
         plans,
         results,
         kept,

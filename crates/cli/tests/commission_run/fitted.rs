@@ -186,6 +186,12 @@ fn check_tables(folder: &Path, found: &Value) {
         rows.any(|it| it.starts_with(&heading) && it.contains(&cells))
     };
     let number = |value: &Value| format!("{:.1}", value.as_f64().expect("a number"));
+    for words in [
+        "Said, and shown by no recording: the recorded torque is the actual one.",
+        "the force of a drive unit are those of mid.",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
     let recordings = found["recordings"].as_array().expect("recordings");
     let circles = recordings
         .iter()

@@ -578,6 +578,7 @@ sent! {
     report::circle::NamedSide,
     report::circle::Subject,
     report::commission::AxisVerdict,
+    report::commission::InputFile,
     report::commission::PlanFile,
     report::commission::PlanReport,
     report::commission::PlantVerdict,

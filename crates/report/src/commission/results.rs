@@ -43,6 +43,17 @@ pub struct AxisVerdict {
     pub notes: Vec<String>,
 }
 
+/// A file besides the recordings that the results rest on.
+#[derive(Debug, Clone, Serialize)]
+pub struct InputFile {
+    /// Its role: a plan, a plant, the list of an axis.
+    pub what: String,
+    /// The file, as it is shown.
+    pub file: String,
+    /// The SHA-256 of its bytes.
+    pub sha256: String,
+}
+
 /// All that is known of a commissioning.
 #[derive(Debug, Clone)]
 pub struct ResultsReport {
@@ -52,6 +63,10 @@ pub struct ResultsReport {
     pub results: Vec<RecordingResult>,
     /// The number of results that were kept from an earlier run.
     pub kept: usize,
+    /// The files that were read besides the recordings.
+    pub inputs: Vec<InputFile>,
+    /// Statements of the user on which the results rest.
+    pub said: Vec<String>,
     /// The lists.
     pub axes: Vec<AxisVerdict>,
     /// The plants that were fitted to the circles.
@@ -318,6 +333,8 @@ struct Document<'a> {
     schema: u32,
     complete: bool,
     recordings: &'a [RecordingResult],
+    inputs: &'a [InputFile],
+    said: &'a [String],
     missing: Vec<String>,
     axes: &'a [AxisVerdict],
     plants: &'a [PlantVerdict],
@@ -331,6 +348,8 @@ pub fn render_results_json(report: &ResultsReport) -> String {
         schema: Results::SCHEMA,
         complete: report.is_complete(),
         recordings: &report.results,
+        inputs: &report.inputs,
+        said: &report.said,
         missing: report.missing(),
         axes: &report.axes,
         plants: &report.fitted.verdicts,

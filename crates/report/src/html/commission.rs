@@ -15,7 +15,7 @@ use frictcomp_recordings::commission::{CirclesFound, Found, FrictionFound, Measu
 const VERDICT: Part = Part::new("verdict", "Verdict");
 const CIRCLES: Part = Part::new("circles", "Before and after");
 const GROUNDS: Part = Part::new("grounds", "What it rests on");
-const FILES: Part = Part::new("files", "Recordings");
+const FILES: Part = Part::new("files", "Files");
 const AXES: [Part; 2] = [
     Part::new("axis-1", "First axis"),
     Part::new("axis-2", "Second axis"),
@@ -127,11 +127,13 @@ fn iso_figures(report: &ResultsReport) -> Markup {
         return html! {};
     }
     let table = Table {
-        caption: Caption::Shown("Figures of ISO 230-4 in µm, recorded; a row for each circle"),
+        caption: Caption::Shown(
+            "Figures of ISO 230-4 in µm, recorded; a row for each circle, with the feed in mm/min",
+        ),
         columns: &[
             Column::Text("program"),
-            Column::Text("compensation"),
-            Column::Number("feed in mm/min"),
+            Column::Text("list"),
+            Column::Number("feed"),
             Column::Number("G ccw"),
             Column::Number("G cw"),
             Column::Number("G(b)"),
@@ -324,7 +326,7 @@ fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
     html! { @if !plant.compared.is_empty() { (table.render(rows)) } }
 }
 
-/// Renders the assumptions and the lists of stage 2.
+/// Renders the assumptions, and what was said.
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
         ul {
@@ -333,16 +335,38 @@ fn grounds(report: &ResultsReport) -> Markup {
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
             @for reason in &report.fitted.lacking { li { "No plant was fitted: " (reason) "." } }
             li { "Feeds, loads and temperatures that were not recorded are not judged." }
-            @for list in report.plans.iter().flat_map(|it| &it.lists) {
-                li { "List of " (list.axis) " on: " (list.file) ", SHA-256 " code { (list.sha256) } }
-            }
+            @for said in &report.said { li { "Said, and shown by no recording: " (said) "." } }
         }
     }
 }
 
+/// The recordings and all other files that were read, with their SHA-256.
 fn files(report: &ResultsReport) -> Markup {
+    html! {
+        (recordings(report))
+        (inputs(report))
+    }
+}
+
+fn inputs(report: &ResultsReport) -> Markup {
     let table = Table {
-        caption: Caption::Heard("Recordings with their SHA-256"),
+        caption: Caption::Shown("Plans, lists and plants with their SHA-256"),
+        columns: &[
+            Column::Text("file"),
+            Column::Text("is the"),
+            Column::Text("SHA-256"),
+        ],
+    };
+    let rows = report.inputs.iter().map(|it| {
+        let cells = [html! { (it.what) }, html! { code { (it.sha256) } }];
+        Row::new(&it.file, cells.to_vec())
+    });
+    table.render(rows)
+}
+
+fn recordings(report: &ResultsReport) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Recordings with their SHA-256"),
         columns: &[
             Column::Text("file"),
             Column::Text("program"),

@@ -1,0 +1,64 @@
+//! What results rest on besides the recordings: files, and what the user says (R16.5).
+
+use std::path::{Path, PathBuf};
+
+use super::plan::plan_name;
+use super::run_args::RunArgs;
+use crate::failure::{Failure, shown};
+use frictcomp_host::sha256_of;
+use frictcomp_physics::simulation::Preset;
+use frictcomp_report::commission::{InputFile, PlanFile};
+
+impl RunArgs {
+    /// The plans, the lists of stage 2, those of before, and the file of the plant.
+    pub(super) fn inputs(&self, plans: &[PlanFile]) -> Result<Vec<InputFile>, Failure> {
+        let rounds = (1..).take(plans.len() + 1);
+        let paths = rounds.map(|round| self.folder.join(plan_name(round)));
+        let mut read: Vec<(String, PathBuf)> = paths
+            .filter(|path| path.exists())
+            .map(|path| ("plan".to_owned(), path))
+            .collect();
+        let before = self.before.iter().filter_map(|it| it.split_once('='));
+        read.extend(before.map(|(axis, path)| {
+            let what = format!("list of {} before", axis.trim());
+            (what, PathBuf::from(path.trim()))
+        }));
+        if let Some(name) = self
+            .plant
+            .as_ref()
+            .filter(|it| it.parse::<Preset>().is_err())
+        {
+            read.push(("plant as it is known".to_owned(), PathBuf::from(name)));
+        }
+        let input = |(what, path): (String, PathBuf)| {
+            let path: &Path = &path;
+            Ok(InputFile {
+                what,
+                file: shown(path),
+                sha256: sha256_of(path)?,
+            })
+        };
+        let mut inputs = read
+            .into_iter()
+            .map(input)
+            .collect::<Result<Vec<_>, Failure>>()?;
+        // As they were when they were planned; one that changed since is not accepted.
+        inputs.extend(plans.iter().flat_map(|it| &it.lists).map(|it| InputFile {
+            what: format!("list of {} on", it.axis),
+            file: it.file.clone(),
+            sha256: it.sha256.clone(),
+        }));
+        Ok(inputs)
+    }
+
+    /// Statements of the user that no recording shows.
+    pub(super) fn said(&self) -> Vec<String> {
+        let mut said = self.reading.said();
+        if let Some(plant) = &self.plant {
+            said.push(format!(
+                "moved mass, position loop and the force of a drive unit are those of {plant}"
+            ));
+        }
+        said
+    }
+}

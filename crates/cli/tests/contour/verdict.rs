@@ -272,6 +272,21 @@ fn what_was_left_out_does_not_count_as_no_reversal() {
 }
 
 #[test]
+fn a_program_that_cuts_nothing_is_not_judged() {
+    // R11.23: rapid moves have no contour.
+    let bench = bench("G90 G00 X20\nG00 X5\nG00 X20\nM30\n", MACHINE);
+    for limit in ["--fail-above", "--fail-above-due"] {
+        let (status, text, said) = contour(&bench, &[limit, "50"]);
+        assert_eq!(status, Some(1), "{text}");
+        assert!(
+            text.contains("not judged: no feed move is driven"),
+            "{text}"
+        );
+        assert!(said.contains("not judged"), "{said}");
+    }
+}
+
+#[test]
 fn a_reversal_along_the_path_is_called_so() {
     // R11.26: X goes back and forth on its own line, so that nothing of it is normal to the path.
     let forth_and_back = "G90 G01 X20 F2000\nN20 G01 X5\nN30 G01 X20\nM30\n";

@@ -10,6 +10,8 @@ use frictcomp::diagnostic::Code;
 pub enum ContourObstacle {
     /// Nothing was driven.
     NotDriven,
+    /// No feed move was driven.
+    NothingCut,
     /// The number of feed moves that were left out.
     LeftOut(u64),
     /// It ends before the program does.
@@ -24,6 +26,9 @@ impl fmt::Display for ContourObstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotDriven => f.write_str("no motion could be driven"),
+            Self::NothingCut => {
+                f.write_str("no feed move is driven, so that there is no contour to judge")
+            }
             Self::LeftOut(1) => {
                 f.write_str("1 motion is left out, whose start, end or feed is not known")
             }

@@ -249,6 +249,8 @@ impl<S: ContourSink> ProgramContour<S> {
         let mut obstacles = Vec::new();
         if self.machine_time_s() <= 0.0 {
             obstacles.push(ContourObstacle::NotDriven);
+        } else if self.left_out_feed() == 0 && self.deviations().programmed.max_at().is_none() {
+            obstacles.push(ContourObstacle::NothingCut);
         }
         if self.left_out_feed() > 0 {
             obstacles.push(ContourObstacle::LeftOut(self.left_out_feed()));

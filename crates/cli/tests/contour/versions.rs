@@ -95,6 +95,16 @@ fn contours_that_do_not_deviate_more_are_clean() {
     assert!(text.contains("no difference:"), "{text}");
     let (status, text) = diff(&bench, &[&START[..], &["--tolerance", "500"]].concat());
     assert_eq!(status, Some(0), "{text}");
+    // A new version that cuts nothing is not judged, unless the old one cut nothing either.
+    let moves = "G00 X0 Y0\nM30\n";
+    bench.write("new.nc", moves);
+    let (status, text) = diff(&bench, &START);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(text.contains("no feed move is driven"), "{text}");
+    bench.write("old.nc", moves);
+    bench.write("new.nc", &moves.replace("X0", "X10"));
+    let (status, text) = diff(&bench, &START);
+    assert_eq!(status, Some(0), "{text}");
 }
 
 #[test]

@@ -154,10 +154,13 @@ impl ContourComparison {
         self.tolerance_um
     }
 
-    /// Returns the obstacles to a comparison of the whole contours.
+    /// Returns the obstacles to a comparison of the whole contours. Two versions that both cut nothing are alike.
     pub fn obstacles(&self) -> impl Iterator<Item = (Which, ContourObstacle)> {
+        let cuts_nothing = |all: &Vec<_>| all.contains(&ContourObstacle::NothingCut);
+        let neither_cuts = self.obstacles.iter().all(cuts_nothing);
         let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
         both.flat_map(|(which, all)| all.iter().map(move |obstacle| (which, *obstacle)))
+            .filter(move |(_, it)| !(neither_cuts && *it == ContourObstacle::NothingCut))
     }
 
     /// Returns the result of the comparison.

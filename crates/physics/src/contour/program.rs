@@ -235,7 +235,12 @@ impl<S: ContourSink> ProgramContour<S> {
     /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
     /// more often.
     pub fn is_whole(&self) -> bool {
-        let is_beside = |it: &ContourObstacle| matches!(it, ContourObstacle::AssumedLimits(_));
+        let is_beside = |it: &ContourObstacle| {
+            matches!(
+                it,
+                ContourObstacle::AssumedLimits(_) | ContourObstacle::NothingCut
+            )
+        };
         self.left_out() == 0 && self.obstacles().iter().all(is_beside)
     }
 

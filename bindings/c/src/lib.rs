@@ -5,7 +5,9 @@
 //! and the last error at hand, and [`exports`] alone touches pointers.
 
 #[cfg(panic = "abort")]
-compile_error!("a panic must not end the host: build with a profile whose panics unwind, as `release` does");
+compile_error!(
+    "a panic must not end the host: build with a profile whose panics unwind, as `release` does"
+);
 
 mod compensation;
 mod exports;

@@ -41,7 +41,7 @@ def test_a_sequence_is_that_of_the_command(tmp_path: Path) -> None:
     sequence = frictcomp.audit_sequence(iter(programs))
     options = ["audit", "--sequence", str(order)]
     assert sequence.records == records(*options, "--format", "ndjson")
-    assert str(sequence) == command(*options).stdout
+    assert str(sequence) == command(*options, "--width", "1000").stdout
     assert sequence.has_warnings
     table = polars.DataFrame(sequence)
     assert table.columns == sequence.columns and table.height == len(sequence)

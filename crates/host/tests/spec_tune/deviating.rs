@@ -116,6 +116,7 @@ fn what_is_said_of_machines_that_deviate_is_driven_there() {
 
 #[test]
 #[ignore = "minutes with optimization"]
+#[allow(clippy::print_stdout, reason = "what a long test measured")]
 fn tuned_lists_hold_over_the_whole_range_on_machines_that_deviate() {
     // R5.29: the largest of 25 accelerations, printed against driven.
     let mut table = String::from(

@@ -93,11 +93,11 @@ fn compared(task: &Task, tuned: &Tuned, machine: &Machine) -> Vec<[f64; 2]> {
     .collect()
 }
 
-/// Nowhere more is driven than what is said, but for the place of the reversal within its cycle.
+/// Nowhere more is driven than what is said.
 fn holds(compared: &[[f64; 2]], name: &str) {
     for [said, driven] in compared {
         assert!(
-            *driven <= 1.05 * said + 0.1,
+            *driven <= 1.02 * said + 0.01,
             "{name}: {said} said, {driven} driven"
         );
     }

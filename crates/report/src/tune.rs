@@ -53,10 +53,13 @@ fn checked(tuned: &Tuned) -> String {
         .iter()
         .max_by(|one, other| one.glitch_on_um.total_cmp(&other.glitch_on_um));
     let mut out = format!(
-        "checked at {} accelerations and 4 places of the reversal in the CNC cycle: at most {:.3} \u{b5}m, at {:.2} \
+        "checked at {} and 4 places of the reversal in the CNC cycle: at most {:.3} \u{b5}m, at {:.2} \
          mm/s\u{b2}\nthe contact half as stiff {:.3}, twice as stiff {:.3}, friction \u{b1}10 % between the \
          directions {:.3} \u{b5}m\n",
-        tuned.check.len(),
+        match tuned.check.len() {
+            1 => "1 acceleration".to_owned(),
+            count => format!("{count} accelerations"),
+        },
         worst.map_or(0.0, |it| it.glitch_on_um),
         worst.map_or(0.0, |it| it.acceleration_mm_per_s2),
         largest(|it| it.glitch_half_stiff_um),

@@ -11,10 +11,9 @@ use super::painted::painted;
 use super::progress::{OverProgress, clear};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp_host::Replaces;
-use frictcomp_report::{Look, Paint, command_line, fitted, leading, render, visible, wrap};
-
-/// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
-const FALLBACK_WIDTH: usize = 100;
+use frictcomp_report::{
+    DEFAULT_WIDTH, Look, Paint, command_line, fitted, leading, render, visible, wrap,
+};
 
 /// Widths that text can be laid out for.
 pub(super) const WIDTHS: std::ops::RangeInclusive<usize> = 20..=1000;
@@ -128,7 +127,7 @@ impl Console {
         self.width.unwrap_or_else(|| {
             terminal
                 .or_else(columns)
-                .unwrap_or(FALLBACK_WIDTH)
+                .unwrap_or(DEFAULT_WIDTH)
                 .clamp(*WIDTHS.start(), *WIDTHS.end())
         })
     }

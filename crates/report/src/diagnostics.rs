@@ -11,8 +11,8 @@ use frictcomp::text::Place;
 
 use super::visible::{is_command, visible, visible_line};
 
-/// The width of text output that does not go to a terminal.
-pub const DEFAULT_WIDTH: usize = 80;
+/// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
+pub const DEFAULT_WIDTH: usize = 100;
 
 /// Whether text output carries colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -10,6 +10,8 @@
 
 #[path = "commission_run/fitted.rs"]
 mod fitted;
+#[path = "commission_run/gantry.rs"]
+mod gantry;
 #[path = "commission_run/loops.rs"]
 mod loops;
 #[path = "learn/machine.rs"]

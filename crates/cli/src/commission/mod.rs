@@ -1,5 +1,6 @@
 //! `frictcomp commission`: from measuring programs to a list that is proved.
 
+mod friction;
 mod grounds;
 mod plan;
 mod plants;

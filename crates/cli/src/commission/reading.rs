@@ -7,18 +7,16 @@ use clap::Args;
 use crate::channels::{TorqueKindArgs, parse_unit};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
-use crate::identify::refusal;
 use frictcomp_host::{
-    CircleChannels, SignedAt, read_axis, read_circles, read_motion, read_turns, signatures_of,
-    switches_of,
+    CircleChannels, SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of,
 };
 use frictcomp_physics::circle::{Circle, CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, Found, FrictionFound, MeasuredAxis, Measurement, NotFollowed, Plan, Program,
-    RecordedStrokes, Stage, StrokesFound, actual_elsewhere,
+    CirclesFound, Found, MeasuredAxis, Measurement, NotFollowed, Plan, Program, RecordedStrokes,
+    Stage, StrokesFound,
 };
-use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Measured, Wanted, identify};
+use frictcomp_recordings::identify::AxisRecording;
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
@@ -36,7 +34,7 @@ pub(super) struct ReadingArgs {
     velocity: Option<String>,
     /// The channel of the torque: `%.ActTorque`
     #[arg(long, value_name = "CHANNEL")]
-    torque: Option<String>,
+    pub(super) torque: Option<String>,
     /// The channel of the actual positions, of which circles are made: `%.ActPos`; by default `x` and `y`, in
     /// strokes `x_act`
     #[arg(long, value_name = "CHANNEL")]
@@ -48,9 +46,9 @@ pub(super) struct ReadingArgs {
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
     #[command(flatten)]
-    cycle: CycleArgs,
+    pub(super) cycle: CycleArgs,
     #[command(flatten)]
-    kind: TorqueKindArgs,
+    pub(super) kind: TorqueKindArgs,
     /// The program of a recording without a signature, by its number: `friction.csv=1`
     #[arg(long, value_name = "FILE=NUMBER", value_parser = parse_role)]
     role: Vec<(String, u16)>,
@@ -58,11 +56,11 @@ pub(super) struct ReadingArgs {
 
 /// A program that was recorded, with its plan.
 #[derive(Debug, Clone, Copy)]
-struct Recorded<'a> {
-    program: &'a Program,
+pub(super) struct Recorded<'a> {
+    pub(super) program: &'a Program,
     plan: &'a Plan,
     /// The end of its signature in s.
-    from_s: f64,
+    pub(super) from_s: f64,
 }
 
 impl ReadingArgs {
@@ -114,9 +112,9 @@ impl ReadingArgs {
             axis.ok_or_else(|| Failure::new("its axis is not in the plan"))
         };
         let found = match &recorded.program.role {
-            Measurement::Friction { axis: at, speeds } => {
-                axis(*at).and_then(|axis| self.friction(path, recorded, axis, speeds))
-            }
+            Measurement::Friction { axis: at, speeds } => axis(*at)
+                .and_then(|axis| self.friction(path, recorded, axis, speeds))
+                .map(Found::Friction),
             Measurement::Circles { feed, radius } => {
                 self.circles(path, recorded.plan, *feed, *radius)
             }
@@ -252,52 +250,6 @@ impl ReadingArgs {
         })
     }
 
-    /// The friction of an axis in a recorded program.
-    fn friction(
-        &self,
-        path: &Path,
-        recorded: Recorded<'_>,
-        axis: &MeasuredAxis,
-        speeds: &[f64],
-    ) -> Result<Found, Failure> {
-        let cycle = self.cycle.seconds()?;
-        // An actual position beside the commanded one is a check, and may be missing here.
-        let recording = read_axis(path, &self.followed(&axis.name), cycle)
-            .or_else(|_| read_axis(path, &self.selection(&axis.name), cycle))?;
-        let options = IdentifyOptions {
-            measured: Measured {
-                // The program itself switches it.
-                compensation: Some(recorded.wanted()),
-                ..recording.measured.stated(self.kind.torque_kind, None)
-            },
-            wanted: Wanted::Points(12),
-            ..IdentifyOptions::default()
-        };
-        let elsewhere = actual_elsewhere(&recording.track, &recording.following_errors);
-        let track = recording.track.since(recorded.from_s);
-        let found =
-            identify(&track, &options).map_err(|error| refusal(error, &recording.findings))?;
-        let mut friction = FrictionFound::of(&axis.name, &found, speeds);
-        let has_signature = recorded.from_s > 0.0;
-        friction.check_length(
-            &track,
-            has_signature.then(|| recorded.program.time_after_signature_s()),
-        );
-        friction.against.extend(elsewhere.map(|it| it.to_string()));
-        friction.notes.extend(
-            recording
-                .findings
-                .iter()
-                .map(|it| format!("{}: {}", it.code, it.message)),
-        );
-        if let Some(unit) = recording.torque_unit {
-            friction.against.push(format!(
-                "its torque is in {unit}, and a list has drive units"
-            ));
-        }
-        Ok(Found::Friction(friction))
-    }
-
     /// The following error of an axis alone in a recorded program of strokes.
     fn strokes(
         &self,
@@ -389,7 +341,7 @@ impl ReadingArgs {
     }
 
     /// The channels of an axis with its actual position or its following error.
-    fn followed(&self, axis: &str) -> ChannelSelection {
+    pub(super) fn followed(&self, axis: &str) -> ChannelSelection {
         let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
         ChannelSelection {
             actual_position: named(&self.actual_position),
@@ -399,7 +351,7 @@ impl ReadingArgs {
     }
 
     /// The channels of an axis.
-    fn selection(&self, axis: &str) -> ChannelSelection {
+    pub(super) fn selection(&self, axis: &str) -> ChannelSelection {
         let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
         ChannelSelection {
             axis: Some(axis.to_owned()),
@@ -415,7 +367,7 @@ impl ReadingArgs {
 
 impl Recorded<'_> {
     /// The state to which the program switches compensation.
-    fn wanted(self) -> Switched {
+    pub(super) fn wanted(self) -> Switched {
         match self.plan.stage {
             Stage::Off => Switched::Off,
             Stage::On => Switched::On,
@@ -424,7 +376,7 @@ impl Recorded<'_> {
 }
 
 /// A failure with its advice in one sentence.
-fn sentence(failure: &Failure) -> String {
+pub(super) fn sentence(failure: &Failure) -> String {
     match failure.help.first() {
         Some(help) => format!("{}; {help}", failure.message),
         None => failure.message.clone(),

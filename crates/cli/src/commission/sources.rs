@@ -45,13 +45,6 @@ pub(super) fn source_of<'a>(
     Option<(&'a RecordingResult, &'a FrictionFound)>,
     Vec<String>,
 ) {
-    if !axis.followers.is_empty() {
-        let followers = axis.followers.join(", ");
-        let note = format!(
-            "a gantry: the motors of {followers} share the friction, and their torque is not read"
-        );
-        return (None, vec![note]);
-    }
     let frictions = results.iter().filter_map(|it| match &it.found {
         Found::Friction(found) if found.axis == axis.name && found.against.is_empty() => {
             Some((it, found))

@@ -264,22 +264,6 @@ fn the_programs_say_whether_compensation_is_on() {
     );
 }
 
-/// R16.9: of a gantry one motor is read, and no list is made of its torque.
-#[test]
-fn a_gantry_gets_no_list_of_one_motor() {
-    let folder = planned();
-    let path = folder.path().join("m/plan-1.json");
-    let plan = std::fs::read_to_string(&path).expect("a plan");
-    let mut plan: serde_json::Value = serde_json::from_str(&plan).expect("a record");
-    plan["plan"]["axes"][0]["followers"] = serde_json::json!(["X2"]);
-    std::fs::write(&path, plan.to_string()).expect("written");
-    put(folder.path(), "a.csv", &friction(0, 1.0));
-    let (status, text) = run(folder.path(), &[]);
-    let words = "a gantry: the motors of X2 share the friction";
-    assert!(status == Some(1) && text.contains(words), "{text}");
-    assert!(!folder.path().join("m/lists").exists());
-}
-
 /// The rows of a recording of circles up to the first clockwise one.
 fn counter_clockwise(recording: &str) -> String {
     let mut angle = 0.0_f64;

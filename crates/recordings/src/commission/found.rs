@@ -148,6 +148,32 @@ impl FrictionFound {
             .max_by(f64::total_cmp)
     }
 
+    /// Judges whether one list fits all motors of a gantry, of which this is the mean (R16.8).
+    pub fn share(&mut self, motors: &[Self]) {
+        let Some((first, others)) = motors.split_first() else {
+            return;
+        };
+        for motor in motors {
+            let reasons = motor.against.iter().filter(|it| !self.against.contains(it));
+            let named: Vec<String> = reasons.map(|it| format!("{}: {it}", motor.axis)).collect();
+            self.against.extend(named);
+        }
+        for other in others {
+            let pair = format!("the motors of {} and {}", first.axis, other.axis);
+            match first.apart_from(other) {
+                None => self.against.push(format!("{pair} have no speed in common")),
+                Some(part) if part > EVEN => self.against.push(format!(
+                    "{pair} differ by {:.0} % of the friction: one list fits neither",
+                    part * 100.0
+                )),
+                Some(part) => self.notes.push(format!(
+                    "{pair} differ by at most {:.0} % of the friction; the list is that of their mean, and both get it",
+                    part * 100.0
+                )),
+            }
+        }
+    }
+
     /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and how many times the
     /// friction that is; `None` without friction.
     pub fn strongest(&self, list: &FrictionList) -> Option<(f64, f64)> {

@@ -56,10 +56,16 @@ pub fn render_readme(report: &PlanReport) -> String {
         }
     }
     for list in &report.lists {
+        let axis = plan.axes.iter().find(|it| it.name == list.axis);
+        let followers = axis.into_iter().flat_map(|it| &it.followers);
+        let motors: Vec<&str> = std::iter::once(&list.axis)
+            .chain(followers)
+            .map(String::as_str)
+            .collect();
         let _ = writeln!(
             out,
             "  [ ] the list of {} is loaded; SHA-256 {}...",
-            list.axis,
+            motors.join(" and "),
             list.sha256.get(..16).unwrap_or(&list.sha256)
         );
     }

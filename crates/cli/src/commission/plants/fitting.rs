@@ -66,6 +66,12 @@ impl Fitting<'_> {
         };
         let each = PlaneAxis::ALL.into_iter().zip([x, y]);
         each.map(|(plane, axis)| {
+            if !axis.followers.is_empty() {
+                return Err(format!(
+                    "{} is a gantry, and a plant has one motor for each axis",
+                    axis.name
+                ));
+            }
             let (source, _) = source_of(axis, self.plans, self.results);
             let (_, friction) =
                 source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;

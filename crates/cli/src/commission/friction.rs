@@ -1,0 +1,139 @@
+//! The friction of an axis in a recorded program, of a gantry that of all its motors (R16.2, R16.8).
+
+use std::path::Path;
+
+use super::reading::{ReadingArgs, Recorded, sentence};
+use crate::failure::Failure;
+use crate::identify::refusal;
+use frictcomp_host::read_axis;
+use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
+use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Measured, Wanted, identify};
+
+impl ReadingArgs {
+    /// The friction of an axis with these speeds; that of a gantry is the mean of its motors.
+    pub(super) fn friction(
+        &self,
+        path: &Path,
+        recorded: Recorded<'_>,
+        axis: &MeasuredAxis,
+        speeds: &[f64],
+    ) -> Result<FrictionFound, Failure> {
+        let judge =
+            |motor: &str, recording: &AxisRecording| self.judge(recorded, recording, motor, speeds);
+        let mut mean = self.motor(path, &axis.name, &axis.name)?;
+        if axis.followers.is_empty() {
+            return judge(&axis.name, &mean);
+        }
+        let recordings = match self.followers(path, axis, &mean) {
+            Ok(recordings) => recordings,
+            Err(reason) => {
+                let mut found = judge(&axis.name, &mean)?;
+                found.against.push(format!(
+                    "a gantry: the motors of {} share the friction, and {reason}",
+                    axis.followers.join(", ")
+                ));
+                return Ok(found);
+            }
+        };
+        let mut motors = vec![judge(&axis.name, &mean)?];
+        for (motor, recording) in axis.followers.iter().zip(&recordings) {
+            let found = judge(motor, recording)
+                .map_err(|failure| Failure::new(format!("{motor}: {}", sentence(&failure))))?;
+            motors.push(found);
+        }
+        let parts = 1.0 / motors.len() as f64;
+        for (at, torque) in mean.track.torques.iter_mut().enumerate() {
+            let others = recordings.iter().map(|it| it.track.torques[at]);
+            *torque = (*torque + others.sum::<f64>()) * parts;
+        }
+        let mut found = judge(&axis.name, &mean)?;
+        found.share(&motors);
+        Ok(found)
+    }
+
+    /// The recordings of the motors that follow an axis, sample by sample as its own; or why there are none.
+    fn followers(
+        &self,
+        path: &Path,
+        axis: &MeasuredAxis,
+        master: &AxisRecording,
+    ) -> Result<Vec<AxisRecording>, String> {
+        if !self.torque.as_ref().is_some_and(|it| it.contains('%')) {
+            return Err(
+                "their torque is not read: name the channels of all motors, `--torque %.ActTorque`"
+                    .to_owned(),
+            );
+        }
+        let followers = axis.followers.iter();
+        let read = followers.map(|motor| {
+            let recording = self
+                .motor(path, &axis.name, motor)
+                .map_err(|failure| sentence(&failure))?;
+            if recording.track.times_s != master.track.times_s {
+                return Err(format!(
+                    "that of {motor} has other samples than that of {}",
+                    axis.name
+                ));
+            }
+            Ok(recording)
+        });
+        read.collect()
+    }
+
+    /// The motion of an axis with the torque of one motor.
+    fn motor(&self, path: &Path, axis: &str, motor: &str) -> Result<AxisRecording, Failure> {
+        let cycle = self.cycle.seconds()?;
+        let torque = self.selection(motor).torque;
+        let mut with = self.followed(axis);
+        with.torque.clone_from(&torque);
+        let mut without = self.selection(axis);
+        without.torque = torque;
+        // An actual position beside the commanded one is a check, and may be missing here.
+        Ok(read_axis(path, &with, cycle).or_else(|_| read_axis(path, &without, cycle))?)
+    }
+
+    /// The friction in the torque of one motor.
+    fn judge(
+        &self,
+        recorded: Recorded<'_>,
+        recording: &AxisRecording,
+        motor: &str,
+        speeds: &[f64],
+    ) -> Result<FrictionFound, Failure> {
+        let options = IdentifyOptions {
+            measured: Measured {
+                // The program itself switches it.
+                compensation: Some(recorded.wanted()),
+                ..recording
+                    .measured
+                    .clone()
+                    .stated(self.kind.torque_kind, None)
+            },
+            wanted: Wanted::Points(12),
+            ..IdentifyOptions::default()
+        };
+        let elsewhere = actual_elsewhere(&recording.track, &recording.following_errors);
+        let track = recording.track.clone().since(recorded.from_s);
+        let found =
+            identify(&track, &options).map_err(|error| refusal(error, &recording.findings))?;
+        let mut friction = FrictionFound::of(motor, &found, speeds);
+        let has_signature = recorded.from_s > 0.0;
+        friction.check_length(
+            &track,
+            has_signature.then(|| recorded.program.time_after_signature_s()),
+        );
+        friction.against.extend(elsewhere.map(|it| it.to_string()));
+        friction.notes.extend(
+            recording
+                .findings
+                .iter()
+                .map(|it| format!("{}: {}", it.code, it.message)),
+        );
+        if let Some(unit) = &recording.torque_unit {
+            friction.against.push(format!(
+                "its torque is in {unit}, and a list has drive units"
+            ));
+        }
+        Ok(friction)
+    }
+}

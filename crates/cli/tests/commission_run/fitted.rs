@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use frictcomp::lists::FrictionList;
 use frictcomp_host::{FileRegistry, read_value_list};
 use frictcomp_physics::simulation::{Plant, Preset};
+use frictcomp_report::svg::STYLE;
 use serde_json::Value;
 
 use super::{
@@ -157,6 +158,7 @@ fn from_circles_to_the_plant_and_its_lists() {
     let found = record_of(folder, &[]);
     check_plant(&found["plants"][0], &own);
     check_tables(folder, &found);
+    check_pictures(folder);
     a_plant_is_rejected(folder);
 
     let tuned = lists(folder, "tuned");
@@ -239,6 +241,35 @@ fn check_tables(folder: &Path, found: &Value) {
         assert!(
             has(row(&it["feed"].to_string().replace(".0", ""), &figures)),
             "{it}"
+        );
+    }
+}
+
+/// R16.5: the pictures in the documents are those of the report; `UPDATE_DOCS=1` takes them out of it again.
+fn check_pictures(folder: &Path) {
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let pictures = page.split("<svg ").skip(1);
+    let pictures: Vec<&str> = pictures
+        .filter_map(|it| it.split("</svg>").next())
+        .collect();
+    for (title, file) in [("Largest glitch", "glitches"), ("Friction", "friction")] {
+        let picture = pictures
+            .iter()
+            .find(|it| it.contains(&format!("-title\">{title}")));
+        let picture = picture.unwrap_or_else(|| panic!("a picture of {title}"));
+        let (head, body) = picture.split_once("</desc>\n").expect("a description");
+        let drawn = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" {head}</desc>\n<style>\n{STYLE}</style>\n{body}</svg>\n"
+        );
+        let kept = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join(format!("../../docs/commissioning-{file}.svg"));
+        if std::env::var_os("UPDATE_DOCS").is_some() {
+            std::fs::write(&kept, &drawn).expect("written");
+        }
+        let kept = std::fs::read_to_string(kept).expect("a picture");
+        assert!(
+            kept == drawn,
+            "docs/commissioning-{file}.svg is no longer what the report draws"
         );
     }
 }

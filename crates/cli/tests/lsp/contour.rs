@@ -89,8 +89,14 @@ fn reversals_lead_to_their_blocks_the_worst_first() {
         "{words}"
     );
     let figures = contour["figures"].as_str().expect("figures");
+    let words = figures.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        figures.contains("plant mid") && figures.contains("without compensation"),
+        words.contains("plant mid") && words.contains("without compensation"),
+        "{figures}"
+    );
+    let prose = figures.split("worst reversals").next().unwrap_or_default();
+    assert!(
+        prose.lines().all(|it| it.chars().count() <= 100),
         "{figures}"
     );
 }

@@ -42,6 +42,14 @@ impl Failure {
         self
     }
 
+    /// The failure with its first advice in one sentence.
+    pub(super) fn sentence(&self) -> String {
+        match self.help.first() {
+            Some(help) => format!("{}; {help}", self.message),
+            None => self.message.clone(),
+        }
+    }
+
     /// A file that cannot be written.
     pub(super) fn writing(path: &Path, error: io::Error) -> Self {
         HostError::write(path, error).into()

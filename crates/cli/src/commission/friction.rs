@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
-use super::reading::{ReadingArgs, Recorded, sentence};
+use super::channels::ReadingArgs;
+use super::recorded::Recorded;
 use crate::failure::Failure;
 use crate::identify::refusal;
 use frictcomp_host::read_axis;
 use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
-use frictcomp_recordings::identify::{AxisRecording, IdentifyOptions, Measured, Wanted, identify};
+use frictcomp_recordings::identify::{
+    AxisRecording, IdentifyOptions, Measured, Track, Wanted, identify,
+};
 
 impl ReadingArgs {
     /// The friction of an axis with these speeds; that of a gantry is the mean of its motors.
@@ -38,14 +41,11 @@ impl ReadingArgs {
         let mut motors = vec![judge(&axis.name, &mean)?];
         for (motor, recording) in axis.followers.iter().zip(&recordings) {
             let found = judge(motor, recording)
-                .map_err(|failure| Failure::new(format!("{motor}: {}", sentence(&failure))))?;
+                .map_err(|failure| Failure::new(format!("{motor}: {}", failure.sentence())))?;
             motors.push(found);
         }
-        let parts = 1.0 / motors.len() as f64;
-        for (at, torque) in mean.track.torques.iter_mut().enumerate() {
-            let others = recordings.iter().map(|it| it.track.torques[at]);
-            *torque = (*torque + others.sum::<f64>()) * parts;
-        }
+        let others: Vec<&Track> = recordings.iter().map(|it| &it.track).collect();
+        mean.track.average_torque(&others);
         let mut found = judge(&axis.name, &mean)?;
         found.share(&motors);
         Ok(found)
@@ -68,7 +68,7 @@ impl ReadingArgs {
         let read = followers.map(|motor| {
             let recording = self
                 .motor(path, &axis.name, motor)
-                .map_err(|failure| sentence(&failure))?;
+                .map_err(|failure| failure.sentence())?;
             if recording.track.times_s != master.track.times_s {
                 return Err(format!(
                     "that of {motor} has other samples than that of {}",
@@ -104,10 +104,7 @@ impl ReadingArgs {
             measured: Measured {
                 // The program itself switches it.
                 compensation: Some(recorded.wanted()),
-                ..recording
-                    .measured
-                    .clone()
-                    .stated(self.kind.torque_kind, None)
+                ..recording.measured.stated(self.kind.torque_kind, None)
             },
             wanted: Wanted::Points(12),
             ..IdentifyOptions::default()

@@ -1,10 +1,12 @@
 //! `frictcomp commission`: from measuring programs to a list that is proved.
 
+mod channels;
 mod friction;
 mod grounds;
 mod plan;
 mod plants;
 mod reading;
+mod recorded;
 mod run;
 mod run_args;
 mod sources;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::reading::ReadingArgs;
+use super::channels::ReadingArgs;
 use crate::result::Format;
 use frictcomp::comp::CncBuild;
 

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::statistics::count;
+
 /// Samples of one axis at common, rising times.
 #[derive(Debug, Clone, Default)]
 pub struct Track {
@@ -18,6 +20,15 @@ pub struct Track {
 }
 
 impl Track {
+    /// Replaces the torque by the mean of that of several motors that drive the axis, each recorded at the same times.
+    pub fn average_torque(&mut self, others: &[&Self]) {
+        let motors = count(1 + others.len());
+        for (at, torque) in self.torques.iter_mut().enumerate() {
+            let more = others.iter().filter_map(|it| it.torques.get(at));
+            *torque = (*torque + more.sum::<f64>()) / motors;
+        }
+    }
+
     /// The samples from a time in s on.
     #[must_use]
     pub fn since(mut self, time_s: f64) -> Self {

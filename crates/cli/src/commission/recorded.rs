@@ -1,0 +1,23 @@
+//! A program that was recorded.
+
+use frictcomp_physics::current::Switched;
+use frictcomp_recordings::commission::{Plan, Program, Stage};
+
+/// A program that was recorded, with its plan.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Recorded<'a> {
+    pub(super) program: &'a Program,
+    pub(super) plan: &'a Plan,
+    /// The end of its signature in s.
+    pub(super) from_s: f64,
+}
+
+impl Recorded<'_> {
+    /// The state to which the program switches compensation.
+    pub(super) fn wanted(self) -> Switched {
+        match self.plan.stage {
+            Stage::Off => Switched::Off,
+            Stage::On => Switched::On,
+        }
+    }
+}

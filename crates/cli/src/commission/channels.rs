@@ -65,6 +65,15 @@ impl ReadingArgs {
         let mut said: Vec<String> = roles
             .map(|(file, number)| format!("{file} is the recording of program {number}"))
             .collect();
+        let units = self.unit.iter();
+        said.extend(units.map(|(channel, unit)| {
+            let own = unit.quantity.own_unit();
+            format!(
+                "one unit of `{}` is {} {own}",
+                visible_line(channel),
+                unit.factor
+            )
+        }));
         if let Some(kind) = self.kind.torque_kind {
             said.push(format!("the recorded torque is the {} one", kind.as_str()));
         }

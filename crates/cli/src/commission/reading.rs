@@ -38,24 +38,23 @@ impl ReadingArgs {
             }
         };
         let mut found = found.unwrap_or_else(|failure| Found::Refused(failure.sentence()));
-        match self.switched_otherwise(path, recorded, &found) {
-            Ok(None) => {}
-            Ok(Some(reason)) => found.refuse(reason),
-            Err(failure) => found.refuse(failure.sentence()),
+        if let Err(failure) = self.compare_states(path, recorded, &mut found) {
+            found.refuse(failure.sentence());
         }
         (Some(recorded.program.number), found)
     }
 
-    /// Says where the recorded state of the compensation is not the one of the program, from the end of its
-    /// signature to shortly before its own end: what was before and after is switched back there.
-    fn switched_otherwise(
+    /// Says whether the recorded state of the compensation, where there is one, is that of the program, from the
+    /// end of its signature to shortly before its own end: what was before and after is switched back there.
+    fn compare_states(
         &self,
         path: &Path,
         recorded: Recorded<'_>,
-        found: &Found,
-    ) -> Result<Option<String>, Failure> {
+        found: &mut Found,
+    ) -> Result<(), Failure> {
         const MEASURED: f64 = 0.9;
         let wanted = recorded.wanted();
+        let state = if wanted == Switched::On { "on" } else { "off" };
         let driven = found.driven_part().unwrap_or(1.0).max(1.0);
         let to_s = recorded.from_s + MEASURED * recorded.program.time_after_signature_s() / driven;
         let axes = match &recorded.program.role {
@@ -71,17 +70,22 @@ impl ReadingArgs {
                 .iter()
                 .filter(|it| it.0 > recorded.from_s && it.0 < to_s);
             let begin = switches.iter().rfind(|it| it.0 <= recorded.from_s);
-            let Some(other) = begin.into_iter().chain(within).find(|it| it.1 != wanted) else {
-                continue;
-            };
-            let state = if wanted == Switched::On { "on" } else { "off" };
-            return Ok(Some(format!(
-                "its program has compensation of {} {state}, and the recording says otherwise at {:.3} s",
-                axis.name,
-                other.0.max(recorded.from_s)
-            )));
+            if let Some(other) = begin.into_iter().chain(within).find(|it| it.1 != wanted) {
+                found.refuse(format!(
+                    "its program has compensation of {} {state}, and the recording says otherwise at {:.3} s",
+                    axis.name,
+                    other.0.max(recorded.from_s)
+                ));
+                return Ok(());
+            }
+            if begin.is_some() {
+                found.note(format!(
+                    "compensation of {} is recorded, and {state}",
+                    axis.name
+                ));
+            }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// The program of a recording, by its signature or by what the user says.

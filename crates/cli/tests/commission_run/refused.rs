@@ -118,6 +118,33 @@ fn what_speaks_against_a_list_is_named() {
     }
 }
 
+/// R16.5: a recorded state that is that of the program is named, and so is a unit that only the user says.
+#[test]
+fn what_is_recorded_and_what_is_said_are_told_apart() {
+    let recording = changed(&friction(0, 1.0), "t,v,x,torque,comp", &|it| {
+        format!("{},{},{},{},0", it[0], it[1] / 1000.0, it[2], it[3])
+    });
+    let folder = planned();
+    put(folder.path(), "a.csv", &recording);
+    let unit = ["--unit", "v=mm/s", "--html", "report.html"];
+    let (_, text) = run(folder.path(), &unit);
+    let shown = "compensation of X is recorded, and off";
+    assert!(
+        text.contains(shown) && text.contains("X: provisional list"),
+        "{text}"
+    );
+    let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a report");
+    for words in [
+        shown,
+        "Said, and shown by no recording: one unit of `v` is 1000 µm/s or 0.001°/s.",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    put(folder.path(), "a.csv", &friction(0, 1.0));
+    let (_, text) = run(folder.path(), &[]);
+    assert!(!text.contains("is recorded, and off"), "{text}");
+}
+
 /// R16.1, R16.2: the program of a recording without a signature is said; a signature counts more, and the recording has
 /// to be there.
 #[test]

@@ -80,6 +80,16 @@ impl Found {
         }
     }
 
+    /// Adds a remark.
+    pub fn note(&mut self, remark: String) {
+        match self {
+            Self::Friction(found) => found.notes.push(remark),
+            Self::Circles(found) => found.notes.push(remark),
+            Self::Strokes(found) => found.notes.push(remark),
+            Self::Refused(_) => {}
+        }
+    }
+
     /// What reversals show at each feed.
     fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {

@@ -330,7 +330,7 @@ fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
         ul {
-            li { "The programs switch compensation themselves; a recording of its state was compared where there is one." }
+            li { "The programs switch compensation themselves; a recording of its state was compared where there is one, and is named beside the recording." }
             li { "That the lists of stage 2 were loaded is what the operator confirmed; no recording shows it." }
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
             @for reason in &report.fitted.lacking { li { "No plant was fitted: " (reason) "." } }

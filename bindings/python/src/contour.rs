@@ -28,7 +28,7 @@ use crate::pickled::{self, Reduced};
 use crate::planner::planner;
 use crate::program::Programs;
 use crate::several::Several;
-use crate::start::positions;
+use crate::start::{Places, positions};
 use crate::words::meant;
 use crate::work::{Stop, interruptible};
 
@@ -68,7 +68,7 @@ struct Driven {
 /// The path is driven three times: with friction compensation as the program switches it, with all of
 /// it on, and with all of it off. ``plane`` is the view of the picture, ``"XY"`` or two names.
 /// ``value_list`` gives axes other lists than those of the machine, ``{"X": "comp_x.lis"}``. ``start``
-/// says where axes stand at first, ``[("X", 0.0)]``, in mm or degrees.
+/// says where axes stand at first, ``{"X": 0.0}``, in mm or degrees.
 #[pyfunction]
 #[pyo3(signature = (program, *, machine=None, plane=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, start=None, max_cycles=None, limits=None))]
 // Each is an argument of its own for Python.
@@ -81,7 +81,7 @@ pub(crate) fn contour(
     model: Option<&str>,
     value_list: Option<BTreeMap<String, PathBuf>>,
     cycle_time_ms: Option<f64>,
-    start: Option<Several<(String, f64)>>,
+    start: Option<Places>,
     max_cycles: Option<u64>,
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyContour> {
@@ -94,7 +94,7 @@ pub(crate) fn contour(
         model: meant(model)?,
         value_lists: value_list.unwrap_or_default(),
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
-        start: start.map_or_else(Vec::new, |Several(places)| places),
+        start: start.map_or_else(Vec::new, |Places(places)| places),
         max_cycles: max_cycles.map(|cycles| cycles.max(1)),
         run: limits::options(limits),
     };

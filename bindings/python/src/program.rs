@@ -9,7 +9,7 @@ use frictcomp_host::decode;
 use frictcomp_host::{Disk, HostError, Input, Machines, OpenText, find_programs};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyString};
+use pyo3::types::{PyBytes, PyFrozenSet, PySet, PyString};
 
 use crate::failure::Failure;
 
@@ -80,6 +80,16 @@ impl Programs {
         });
         let disk = Disk::with_open(texts);
         Ok(Self { inputs, disk })
+    }
+
+    /// Programs that run in the order in which they are given.
+    pub(crate) fn in_order(given: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if given.is_instance_of::<PySet>() || given.is_instance_of::<PyFrozenSet>() {
+            return Err(PyTypeError::new_err(
+                "a set has no order, and each program runs in the state that the one before it leaves: give a list",
+            ));
+        }
+        Self::of(given)
     }
 
     /// Exactly one program.

@@ -19,7 +19,7 @@ use crate::state::{self, Start};
 use crate::timeline::{PyTimeline, Recorded, Recorder, Shown};
 use crate::work::{Stop, interruptible};
 
-/// Runs programs one after the other in one session of the control.
+/// Runs programs one after the other, as they are given, in one session of the control; a set has no order.
 ///
 /// A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
 /// the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
@@ -39,7 +39,7 @@ pub(crate) fn run(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyTimeline> {
     let job = Job {
-        programs: Programs::of(program)?,
+        programs: Programs::in_order(program)?,
         machine: machine_options(machine)?,
         start: Start::of(state)?,
         run: limits::options(limits).with_stop(if keep_going {

@@ -48,7 +48,7 @@ pub(crate) fn audit_sequence(
 ) -> PyResult<PyAuditSequence> {
     let py = programs.py();
     let job = Job {
-        programs: Programs::of(programs)?,
+        programs: Programs::in_order(programs)?,
         machine: machine_options(machine)?,
         options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
     };

@@ -1,8 +1,30 @@
 //! Where axes stand at first.
 
 use frictcomp_host::LoadedMachine;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::failure::Failure;
+use crate::several::Several;
+
+/// Positions of axes by their names: a mapping, or pairs.
+pub(crate) struct Places(pub(crate) Vec<(String, f64)>);
+
+impl<'py> FromPyObject<'_, 'py> for Places {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let pairs = match given.cast::<PyDict>() {
+            Ok(mapping) => mapping.items().extract::<Several<(String, f64)>>(),
+            Err(_) => given.extract(),
+        };
+        let Several(places) = pairs.map_err(|_| {
+            PyTypeError::new_err("`start` has names of axes with their positions, `{\"X\": 0.0}`")
+        })?;
+        Ok(Self(places))
+    }
+}
 
 /// The places that were given, of axes of the machine, in mm or degrees.
 pub(crate) fn positions(

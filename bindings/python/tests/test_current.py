@@ -57,6 +57,17 @@ def test_arrays_outlive_their_currents() -> None:
     assert numpy.array_equal(kept, copied)
 
 
+def test_places_are_a_mapping_or_pairs() -> None:
+    # R13.13
+    start = {"X": 1.0}
+    mapped = frictcomp.current(REVERSAL, ["X"], start=start)["X"]
+    paired = frictcomp.current(REVERSAL, ["X"], start=list(start.items()))["X"]
+    assert numpy.array_equal(mapped.current, paired.current)
+    for wrong in ("X1", ["X"], {"X": "one"}, 1.0):
+        with pytest.raises(TypeError, match="names of axes with their positions"):
+            frictcomp.current(REVERSAL, ["X"], start=wrong)  # type: ignore[arg-type]
+
+
 def test_what_cannot_be_computed_is_an_error() -> None:
     with pytest.raises(frictcomp.Error, match="no axis `QQ`"):
         frictcomp.current(REVERSAL, ["QQ"])

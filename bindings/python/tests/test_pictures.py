@@ -67,6 +67,8 @@ def test_a_notebook_shows_the_states_of_a_timeline_as_bars() -> None:
     assert several._repr_html_().count("<svg") == 2
     # The second program finds what the first one left.
     assert "X inactive at program start" in bars(several.svg(2))
+    with pytest.raises(ValueError, match="no program -1"):
+        timeline.svg(-1)
     with pytest.raises(ValueError, match="no program 3"):
         several.svg(3)
 

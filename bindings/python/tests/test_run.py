@@ -241,6 +241,16 @@ def test_programs_run_one_after_the_other() -> None:
     assert timeline.programs[1].start["X"] == "inactive"
 
 
+def test_a_set_of_programs_has_no_order() -> None:
+    # R13.13
+    files = {FRICTION, "programs/demo/next.nc"}
+    for ordered in (frictcomp.run, frictcomp.audit_sequence):
+        for unordered in (files, frozenset(files)):
+            with pytest.raises(TypeError, match="a set has no order"):
+                ordered(unordered)
+    assert len(frictcomp.check(files)) == len(frictcomp.check(sorted(files)))
+
+
 def test_positions_are_missing_where_they_are_not_known() -> None:
     text = frictcomp.Text("N10 G90 X1.5\nN20 G91 Y1\nN30 M30\n")
     timeline = frictcomp.run(text, machine=frictcomp.Machine(enable=["X"]), positions=True)

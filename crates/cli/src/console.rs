@@ -12,7 +12,7 @@ use super::progress::{OverProgress, clear};
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp_host::Replaces;
 use frictcomp_report::{
-    DEFAULT_WIDTH, Look, Paint, command_line, fitted, leading, render, visible, wrap,
+    FALLBACK_WIDTH, Look, Paint, command_line, fitted, leading, render, visible, wrap,
 };
 
 /// Widths that text can be laid out for.
@@ -127,7 +127,7 @@ impl Console {
         self.width.unwrap_or_else(|| {
             terminal
                 .or_else(columns)
-                .unwrap_or(DEFAULT_WIDTH)
+                .unwrap_or(FALLBACK_WIDTH)
                 .clamp(*WIDTHS.start(), *WIDTHS.end())
         })
     }

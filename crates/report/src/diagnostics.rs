@@ -12,7 +12,10 @@ use frictcomp::text::Place;
 use super::visible::{is_command, visible, visible_line};
 
 /// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
-pub const DEFAULT_WIDTH: usize = 100;
+pub const FALLBACK_WIDTH: usize = 100;
+
+/// The width of agreed timelines, which is the same for everybody.
+const AGREED_WIDTH: usize = 80;
 
 /// Whether text output carries colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,7 +41,7 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             paint: Paint::Plain,
-            width: DEFAULT_WIDTH,
+            width: AGREED_WIDTH,
         }
     }
 }

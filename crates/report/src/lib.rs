@@ -61,7 +61,7 @@ mod wording;
 
 pub use csv::{Csv, Positions};
 pub use diagnostics::wrap;
-pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
+pub use diagnostics::{FALLBACK_WIDTH, Look, Paint, fitted, render};
 pub use feed_moves::feed_moves_text;
 pub use json::Json;
 pub use limits::assumed_limits;

@@ -530,7 +530,7 @@ def run(
     positions: bool = False,
     limits: Limits | None = None,
 ) -> Timeline:
-    """Runs programs one after the other in one session of the control.
+    """Runs programs one after the other, as they are given, in one session of the control; a set has no order.
 
     A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
     the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
@@ -579,14 +579,14 @@ def current(
     value_list: _Path | None = None,
     cycle_time_ms: float | None = None,
     reading: str | None = None,
-    start: Iterable[tuple[str, float]] | None = None,
+    start: Mapping[str, float] | Iterable[tuple[str, float]] | None = None,
     max_cycles: int = 3_600_000,
     limits: Limits | None = None,
 ) -> Currents:
     """The additive current of axes over the path of a program, as NumPy arrays.
 
     ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
-    ``[("X", 0.0)]``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
+    ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
     ``max_cycles``, which a message says.
     """
 
@@ -621,7 +621,7 @@ def contour(
     model: str | None = None,
     value_list: Mapping[str, _Path] | None = None,
     cycle_time_ms: float | None = None,
-    start: Iterable[tuple[str, float]] | None = None,
+    start: Mapping[str, float] | Iterable[tuple[str, float]] | None = None,
     max_cycles: int | None = None,
     limits: Limits | None = None,
 ) -> Contour:
@@ -630,7 +630,7 @@ def contour(
     The path is driven three times: with friction compensation as the program switches it, with all of
     it on, and with all of it off. ``plane`` is the view of the picture, ``"XY"`` or two names.
     ``value_list`` gives axes other lists than those of the machine, ``{"X": "comp_x.lis"}``. ``start``
-    says where axes stand at first, ``[("X", 0.0)]``, in mm or degrees.
+    says where axes stand at first, ``{"X": 0.0}``, in mm or degrees.
     """
 
 def circle(

@@ -28,7 +28,7 @@ use crate::messages::Said;
 use crate::planner::planner;
 use crate::program::Programs;
 use crate::several::Several;
-use crate::start::positions;
+use crate::start::{Places, positions};
 use crate::words::meant;
 use crate::work::{Stop, interruptible};
 
@@ -74,7 +74,7 @@ struct Computed {
 /// The additive current of axes over the path of a program, as NumPy arrays.
 ///
 /// ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
-/// ``[("X", 0.0)]``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
+/// ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
 /// ``max_cycles``, which a message says.
 #[pyfunction]
 #[pyo3(signature = (program, axes, *, machine=None, value_list=None, cycle_time_ms=None, reading=None, start=None, max_cycles=3_600_000, limits=None))]
@@ -87,7 +87,7 @@ pub(crate) fn current(
     value_list: Option<PathBuf>,
     cycle_time_ms: Option<f64>,
     reading: Option<&str>,
-    start: Option<Several<(String, f64)>>,
+    start: Option<Places>,
     max_cycles: u64,
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyCurrents> {
@@ -100,7 +100,7 @@ pub(crate) fn current(
         value_list,
         cycle_s: cycle_time_ms.map(|ms| ms / 1000.0),
         reading: meant(reading)?,
-        start: start.map_or_else(Vec::new, |Several(places)| places),
+        start: start.map_or_else(Vec::new, |Places(places)| places),
         max_cycles: max_cycles.max(1),
         run: limits::options(limits),
     };

@@ -205,9 +205,9 @@ impl PyTimeline {
     ///
     /// ``program`` is its number in the session, from 1.
     #[pyo3(signature = (program=1))]
-    fn svg(&self, program: u32) -> PyResult<String> {
+    fn svg(&self, program: i64) -> PyResult<String> {
         let found = self.recorded.programs.iter();
-        let found = found.clone().find(|run| run.program == program);
+        let found = found.clone().find(|run| i64::from(run.program) == program);
         let run = found.ok_or_else(|| {
             let count = self.recorded.programs.len();
             refused(format!("there is no program {program}: {count} were run"))

@@ -25,7 +25,7 @@ use frictcomp_physics::simulation::{FrictionModel, Preset};
 use frictcomp_report::contour::{ContourRecorder, ContourSubject, render_text};
 use frictcomp_report::pictures::{ContourPicture, FollowedContour};
 use frictcomp_report::svg::Frame;
-use frictcomp_report::{DEFAULT_WIDTH, fitted};
+use frictcomp_report::{FALLBACK_WIDTH, fitted};
 
 /// Cycles of the control that are driven while one types: half an hour of cycles of 1 ms.
 const MOST_CYCLES: u64 = 2_000_000;
@@ -126,7 +126,7 @@ pub(super) fn contour(view: &View, params: &ContourParams) -> Result<Contour, Re
     let has_moved = driven.machine_time_s() > 0.0;
     let heading = subject.heading(&driven);
     let picture = driven.sink().take_picture().filter(|_| has_moved);
-    let figures = fitted(&render_text(&mut driven, &subject), DEFAULT_WIDTH);
+    let figures = fitted(&render_text(&mut driven, &subject), FALLBACK_WIDTH);
     let shown = picture.map(|picture| picture.followed(&heading));
     Ok(Contour::of(view, shown, (figures, remarks)))
 }

@@ -9,7 +9,7 @@ import os from "node:os";
 import path from "node:path";
 import { chromium } from "playwright-core";
 
-const { FRICTCOMP, BROWSER, SERVER, BESIDE, ISG_EXTENSION, SCREENSHOTS } = process.env;
+const { FRICTCOMP, BROWSER, SERVER, BESIDE, ISG_EXTENSION, SCREENSHOTS, VSIX } = process.env;
 const HERE = path.resolve(import.meta.dirname, "../..");
 const DEMO = path.resolve(HERE, "../../programs/demo");
 const THEMES = ["Default Dark Modern", "Default Light Modern", "Default High Contrast"];
@@ -46,13 +46,13 @@ try {
 
 function prepare() {
   fs.mkdirSync(extensions, { recursive: true });
-  execFileSync("unzip", ["-q", path.join(HERE, "dist/frictcomp.vsix"), "extension/*", "-d", root]);
+  execFileSync("unzip", ["-q", VSIX ?? path.join(HERE, "dist/frictcomp.vsix"), "extension/*", "-d", root]);
   fs.renameSync(path.join(root, "extension"), path.join(extensions, "frictcomp.frictcomp-0.1.0"));
   if (BESIDE === "isg") {
     standIn();
   }
   fs.mkdirSync(path.join(data, "data/Machine"), { recursive: true });
-  write(path.join(data, "data/Machine/settings.json"), { "frictcomp.path": FRICTCOMP });
+  write(path.join(data, "data/Machine/settings.json"), VSIX ? {} : { "frictcomp.path": FRICTCOMP });
   fs.cpSync(DEMO, workspace, { recursive: true });
   fs.writeFileSync(path.join(workspace, "typed.nc"), "");
   theme(THEMES[0]);

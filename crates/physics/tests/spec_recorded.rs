@@ -428,6 +428,47 @@ fn recordings_as_machines_make_them_are_read() {
     }
 }
 
+/// R5.26: of several turns the best one is evaluated, and a worse one is named; noise is none.
+#[test]
+fn a_worse_turn_is_named() {
+    let of = |heights: [f64; 3]| {
+        let recorder = Recorder {
+            noise: Noise::of_um(0.5),
+            ..Recorder::new(50.0)
+        };
+        let drive = |recorder: Recorder, height: f64| {
+            recorder.turns(Direction::Cw, 1.0, &|direction, angle| {
+                friction(height, 2.0, direction, angle)
+            })
+        };
+        let trace = heights.into_iter().fold(recorder, drive).trace();
+        let found = RecordedCircle::find(&trace, None).expect("a circle");
+        found[0].whole_turns().expect("whole turns")
+    };
+    let even = of([6.0, 6.0, 6.0]);
+    assert_eq!((even.count, even.worse), (3, None));
+    assert_eq!(of([6.0, 6.0, 7.0]).worse, None, "less than a quarter more");
+    for heights in [[6.0, 6.0, 12.0], [12.0, 6.0, 6.0]] {
+        let worse = of(heights).worse.expect("a worse turn");
+        close(worse.height_um, 12.0, 1.0);
+        close(worse.evaluated_um, 6.0, 0.6);
+        let words = worse.to_string();
+        assert!(words.contains(" one turn cw leaves 1"), "{words}");
+    }
+}
+
+/// R5.26: one turn, or two of which the ends are an eighth each, are nothing to compare.
+#[test]
+fn fewer_turns_are_not_compared() {
+    let peaks = |direction, angle| friction(6.0, 2.0, direction, angle);
+    for (turns, count) in [(1.1, None), (1.3, None), (1.6, Some(2)), (2.2, Some(2))] {
+        let recorder = Recorder::new(50.0).turns(Direction::Ccw, turns, &peaks);
+        let found = RecordedCircle::find(&recorder.trace(), None).expect("a circle");
+        let found = found[0].whole_turns().map(|it| it.count);
+        assert_eq!(found, count, "{turns}");
+    }
+}
+
 #[test]
 fn a_fast_recording_has_no_figures_at_its_crossings() {
     // R5.22: radius 5 mm at 1000 mm/min turns 57° in 0.3 s.

@@ -341,6 +341,18 @@ fn circles_count_with_what_was_driven() {
     let middle_s = count as f64 / 1000.0 - direction_s - 1.5;
     let pierced = ((middle_s - direction_s / 2.0) * 1000.0) as usize;
     let exchanged = row(&|it| [it[0], it[2] + 50.0, it[1] - 50.0]);
+    // In the last turn the crossings leave three times what they do in the others.
+    let worse = row(&|it| {
+        let before_s = (middle_s - it[0]) / (direction_s / 3.0);
+        let (x, y) = (it[1] - 50.0, it[2]);
+        let radius = x.hypot(y);
+        let scale = if (0.3..0.9).contains(&before_s) {
+            (40.0 + 3.0 * (radius - 40.0)) / radius
+        } else {
+            1.0
+        };
+        [it[0], 50.0 + scale * x, scale * y]
+    });
     let missing = "missing: a recording of 03-circle-2000.nc that can be used";
     for (text, words) in [
         (counter_clockwise(&whole), "one direction is missing"),
@@ -355,6 +367,7 @@ fn circles_count_with_what_was_driven() {
         ),
         (other.clone(), "not used: it is `b.csv` once more"),
         (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
+        (worse, "not used: its turns are not alike: at "),
         (
             // In the turn that is evaluated, as wide as what a reversal does.
             rows(&|at| !(pierced..pierced + 60).contains(&at)),

@@ -7,13 +7,20 @@ use frictcomp_physics::circle::{LearnedRound, LearningProgress, RecordedCircle, 
 use frictcomp_recordings::commission::{LearnedCircles, RecordedTurn};
 
 /// A recorded circle about a centre with a bulge of so many µm after each crossing.
-fn circle(feed: f64, bulge_um: f64, (centre, seed): (f64, u64)) -> Vec<Row> {
+fn circle(feed: f64, bulge_um: f64, place: (f64, u64)) -> Vec<Row> {
+    turns(feed, &[bulge_um], place)
+}
+
+/// The same with the bulges of each turn, and a fifth of a turn more.
+fn turns(feed: f64, bulges_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row> {
     let mut random = fastrand::Rng::with_seed(seed);
     let turning = feed / 60.0 / 40.0;
-    let count = (1.2 * TAU / turning * 1000.0) as usize;
+    let count = ((bulges_um.len() as f64 + 0.2) * TAU / turning * 1000.0) as usize;
     let row = |at: usize| {
-        let angle = turning * at as f64 / 1000.0 - 0.5;
+        let way = turning * at as f64 / 1000.0;
+        let angle = way - 0.5;
         let after = angle.rem_euclid(TAU / 4.0) / turning;
+        let bulge_um = bulges_um[((way / TAU) as usize).min(bulges_um.len() - 1)];
         let bulge = 1e-3 * bulge_um * (-(after / 0.03 - 1.0).powi(2)).exp();
         let radius = 40.0 + bulge + 3e-4 * (random.f64() - 0.5);
         let [x, y] = [radius * angle.cos(), radius * angle.sin()];
@@ -100,7 +107,7 @@ fn recordings_that_are_no_round_are_refused() {
     // R16.4: a missing second recording, too few feeds, no positions, another axis, another list, two machines, no
     // times, a copy.
     type Wrong = (&'static str, fn(&Bench), &'static [&'static str]);
-    let wrong: [Wrong; 9] = [
+    let wrong: [Wrong; 10] = [
         (
             "one recording",
             |bench| std::fs::remove_file(bench.path(&take_of(2100.0, 1))).expect("removed"),
@@ -154,6 +161,18 @@ fn recordings_that_are_no_round_are_refused() {
                 bench.put(&take_of(1600.0, 1), &plain(&rows));
             },
             &["at F1600 X", "one recording leaves", "another machine"],
+        ),
+        (
+            "a worse turn",
+            |bench| {
+                let rows = turns(1600.0, &[5.0, 5.0, 11.0], (0.0, 3));
+                bench.put(&take_of(1600.0, 1), &plain(&rows));
+            },
+            &[
+                "F1600-1.csv` are not alike: at ",
+                "one turn ccw leaves 1",
+                "and the evaluated one ",
+            ],
         ),
         (
             "no times",

@@ -133,6 +133,8 @@ sent! {
     circle::TunedAxis,
     circle::UnknownPathCentre,
     circle::Waveform,
+    circle::WholeTurns,
+    circle::WorseTurn,
     commission::BeforeAfter,
     commission::CirclesFound,
     commission::ComparedGlitch,

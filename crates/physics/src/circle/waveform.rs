@@ -1,9 +1,9 @@
 //! The deviation of one axis over the time since its reversal.
 
-use super::crossing::{Crossing, PlaneAxis};
+use super::crossing::PlaneAxis;
+use super::direction::Direction;
 use super::glitch::straightened;
-use super::profile::PER_DEGREE;
-use super::recorded::RecordedCircle;
+use super::profile::{PER_DEGREE, RadialProfile};
 
 /// Interval of the samples in s.
 const STEP_S: f64 = 0.002;
@@ -28,17 +28,29 @@ pub struct Waveform {
 impl Waveform {
     /// The reversals of an axis on a recorded turn, where it is largest and where it is smallest; `None` where
     /// the turn has no glitches or no times.
-    pub(in crate::circle) fn recorded(axis: PlaneAxis, turn: &RecordedCircle) -> Option<[Self; 2]> {
-        let angles_per_s = 360.0 / turn.turn_s? * f64::from(PER_DEGREE);
-        let paths = straightened(&turn.profile, turn.direction)?;
-        let of_axis = Crossing::ALL.into_iter().zip(paths);
-        let mut of_axis = of_axis.filter(|(crossing, _)| crossing.axis() == axis);
-        let mut next = || {
-            let (_, path) = of_axis.next()?;
+    pub(in crate::circle) fn reversals(
+        axis: PlaneAxis,
+        turn: &RadialProfile,
+        direction: Direction,
+    ) -> Option<[Self; 2]> {
+        let [x_plus, y_plus, x_minus, y_minus] = Self::at_crossings(turn, direction)?;
+        Some(match axis {
+            PlaneAxis::X => [x_plus, x_minus],
+            PlaneAxis::Y => [y_plus, y_minus],
+        })
+    }
+
+    /// The reversals at the four crossings of a recorded turn; `None` where it has no glitches or no times.
+    pub(in crate::circle) fn at_crossings(
+        profile: &RadialProfile,
+        direction: Direction,
+    ) -> Option<[Self; 4]> {
+        let angles_per_s = 360.0 / profile.turn_s()? * f64::from(PER_DEGREE);
+        let paths = straightened(profile, direction)?;
+        Some(paths.map(|path| {
             let in_time = path.iter().map(|&(way, it)| (way / angles_per_s, it));
-            Some(Self::sampled(&in_time.collect::<Vec<_>>()))
-        };
-        Some([next()?, next()?])
+            Self::sampled(&in_time.collect::<Vec<_>>())
+        }))
     }
 
     /// Samples points, ascending times since the reversal in s with deviations in m: each sample is the mean over

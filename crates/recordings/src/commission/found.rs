@@ -349,6 +349,7 @@ impl CirclesFound {
         against.extend(recording.circles.iter().find_map(gap));
         against.extend(too_round(recording));
         against.extend(recording.circles.iter().filter_map(cut_short));
+        against.extend(recording.circles.iter().filter_map(worse_turn));
         against.extend(driven_otherwise(&recording.circles));
         if glitches_um.len() < recording.circles.len() {
             against
@@ -491,6 +492,12 @@ fn cut_short(circle: &RecordedCircle) -> Option<String> {
             circle.direction
         )
     })
+}
+
+/// A turn that leaves more than the one from which everything is concluded.
+fn worse_turn(circle: &RecordedCircle) -> Option<String> {
+    let worse = circle.whole_turns()?.worse?;
+    Some(format!("its turns are not alike: {worse}"))
 }
 
 fn centre_of(circles: &[RecordedCircle]) -> [f64; 2] {

@@ -9,6 +9,7 @@ use frictcomp::diagnostic::{Rounded, Shown};
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, DiagnosisGrounds, Direction, Figures, Finding,
     FoundAt, LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
+    WholeTurns,
 };
 use frictcomp_physics::stiction::StictionParameters;
 
@@ -302,6 +303,7 @@ fn recorded_conditions(recording: &Recording) -> Vec<String> {
             2.0 * circle.radius_mm
         ));
         lines.push(left_out(circle));
+        lines.extend(circle.whole_turns().map(other_turns));
     }
     lines.push(format!("centre: least squares, for each path; {TREATMENT}"));
     lines
@@ -319,6 +321,17 @@ fn left_out(circle: &RecordedCircle) -> String {
         "  taken from {along_deg:.0}\u{b0} along the circle; left out: {before} points before it, \
          {after} after it, {repeated} repeated rows"
     )
+}
+
+/// What the other turns leave, in words (R5.26).
+fn other_turns(turns: WholeTurns) -> String {
+    match turns.worse {
+        Some(worse) => format!("  not every turn is like the evaluated one: {worse}"),
+        None => format!(
+            "  of {} whole turns none leaves more at a crossing than the evaluated one, by a quarter or 0.5 µm",
+            turns.count
+        ),
+    }
 }
 
 fn header(out: &mut String, columns: &[Column<'_>]) {

@@ -12,7 +12,9 @@ use frictcomp::lists::FrictionList;
 /// The recorded glitch of an axis in µm: that of the mean of its reversals, each a mean over 8 ms; `None` where
 /// the turns have no glitches or no times.
 pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<f64> {
-    let reversals = turns.iter().map(|it| Waveform::recorded(axis, it));
+    let reversals = turns
+        .iter()
+        .map(|it| Waveform::reversals(axis, &it.profile, it.direction));
     let reversals: Vec<[Waveform; 2]> = reversals.collect::<Option<_>>()?;
     let all: Vec<&Waveform> = reversals.iter().flatten().collect();
     (!all.is_empty()).then(|| Waveform::mean(&all).height_um())

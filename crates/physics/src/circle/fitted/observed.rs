@@ -39,7 +39,9 @@ impl ObservedCircle {
         (circle, list): (Circle, Option<FrictionList>),
         turns: &[RecordedCircle],
     ) -> Option<Self> {
-        let reversals = turns.iter().map(|it| Waveform::recorded(axis, it));
+        let reversals = turns
+            .iter()
+            .map(|it| Waveform::reversals(axis, &it.profile, it.direction));
         let reversals: Vec<[Waveform; 2]> = reversals.collect::<Option<_>>()?;
         (!reversals.is_empty()).then(|| Self {
             circle,

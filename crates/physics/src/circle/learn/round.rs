@@ -106,7 +106,8 @@ impl RecordedTwice {
 fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<Reversals> {
     let mut found: [Vec<Waveform>; 2] = [Vec::new(), Vec::new()];
     for turn in turns {
-        for (waveforms, of_turn) in found.iter_mut().zip(Waveform::recorded(axis, turn)?) {
+        let reversals = Waveform::reversals(axis, &turn.profile, turn.direction)?;
+        for (waveforms, of_turn) in found.iter_mut().zip(reversals) {
             waveforms.push(of_turn);
         }
     }

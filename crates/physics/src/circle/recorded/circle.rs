@@ -39,6 +39,8 @@ pub struct RecordedCircle {
     /// The rest of the recording.
     pub left_out: LeftOut,
     pub(in crate::circle) profile: RadialProfile,
+    /// The points of each whole turn about its own centre, in m.
+    pub(super) turns_m: Vec<Vec<[f64; 2]>>,
 }
 
 /// The rest of a recording besides the evaluated turn.
@@ -120,10 +122,11 @@ impl RecordedCircle {
             });
         }
         let drift = drift(run, &fit, points);
-        let turned = match &drift {
-            Some(drift) => drift.removed(&points[turn.clone()], run.angles_of(&turn)),
+        let still = |turn: &Range<usize>| match &drift {
+            Some(drift) => drift.removed(&points[turn.clone()], run.angles_of(turn)),
             None => points[turn.clone()].to_vec(),
         };
+        let turned = still(&turn);
         if drift.is_some() {
             fit = Fit::of(&turned)?;
         }
@@ -153,8 +156,10 @@ impl RecordedCircle {
                 centre_mm: centre,
             });
         }
+        let turns_m = run.turns().into_iter().map(|turn| centred(still(&turn)));
         Ok(Self {
             direction: run.direction,
+            turns_m: turns_m.collect::<Result<_, _>>()?,
             centre_mm: centre,
             radius_mm,
             points: turn.len(),
@@ -192,6 +197,15 @@ impl RecordedCircle {
     pub fn feed_mm_per_min(&self) -> Option<f64> {
         Some(TAU * self.radius_mm / self.turn_s? * 60.0)
     }
+}
+
+/// Points in mm about their own centre, in m.
+fn centred(mut points: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, RecordedError> {
+    let Fit { centre, .. } = Fit::of(&points)?;
+    for point in &mut points {
+        *point = [0, 1].map(|at| (point[at] - centre[at]) / MM_PER_M);
+    }
+    Ok(points)
 }
 
 /// Why no direction has a full turn.

@@ -17,6 +17,9 @@ const LACKING: f64 = TAU / 360.0;
 /// A turn that deviates so much more than the best one, as a part, is as good.
 const AS_GOOD: f64 = 1.05;
 
+/// The ends of a path that an axis may still speed up or slow down on, in radians.
+const RUN_IN: f64 = TAU / 8.0;
+
 /// Deviations below this make no difference between turns, in mm.
 const ROUND_MM: f64 = 1e-6;
 
@@ -153,6 +156,26 @@ impl Run {
         });
         let (_, turn) = best?;
         Some(self.points.start + turn.start..self.points.start + turn.end)
+    }
+
+    /// The whole turns without a gap between the ends of the run, evenly spread; the next one may begin before
+    /// one ends.
+    pub(super) fn turns(&self) -> Vec<Range<usize>> {
+        let room = self.covered() - 2.0 * RUN_IN - TAU;
+        if room < RUN_IN {
+            return Vec::new();
+        }
+        let step = room / (room / TAU).ceil();
+        let mut begin = RUN_IN;
+        let mut turns = Vec::new();
+        self.each_turn(|turn| {
+            // The last step ends where the room does, but for what sums round off.
+            if begin <= RUN_IN + room + step / 2.0 && self.angles[turn.start] >= begin {
+                begin += step;
+                turns.push(self.points.start + turn.start..self.points.start + turn.end);
+            }
+        });
+        turns
     }
 
     /// Every full turn without a gap, as points of the run.

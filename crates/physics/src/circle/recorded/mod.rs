@@ -2,7 +2,8 @@
 //!
 //! A recording holds more than the circle: the way to it and from it, standstill, several turns,
 //! both directions. [`search`] finds the circle that most of the way lies on, whatever else there
-//! is; [`cut`] finds the turns on it, and [`circle`] evaluates them.
+//! is; [`cut`] finds the turns on it, and [`circle`] evaluates one of them; [`turns`] compares it
+//! with the others.
 
 mod circle;
 mod cut;
@@ -13,9 +14,11 @@ mod limits;
 mod recording;
 mod search;
 mod trace;
+mod turns;
 
 pub use circle::{LeftOut, RecordedCircle};
 pub use error::RecordedError;
 pub use limits::MIN_POINTS;
 pub use recording::{CommandedCircle, Recording};
 pub use trace::RecordedTrace;
+pub use turns::{WholeTurns, WorseTurn};

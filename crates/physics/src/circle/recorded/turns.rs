@@ -1,0 +1,97 @@
+//! The whole turns of a recorded circle beside the evaluated one (R5.26).
+
+use std::fmt;
+
+use super::circle::RecordedCircle;
+use super::limits::WIDEST_GAP_DEG;
+use crate::circle::crossing::Crossing;
+use crate::circle::direction::Direction;
+use crate::circle::profile::{Gatherer, RadialProfile};
+use crate::circle::waveform::Waveform;
+
+/// A turn is worse than another one from this part of its glitch on …
+const WORSE: f64 = 0.25;
+
+/// … and from this on, in µm.
+const WORSE_UM: f64 = 0.5;
+
+/// The whole turns of a recorded circle: at least two, without its first and last eighth of a turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WholeTurns {
+    /// Their number.
+    pub count: usize,
+    /// The one that leaves most, where one leaves more than the evaluated turn: by a quarter, by 0.5 µm and by
+    /// the noise of a sample.
+    pub worse: Option<WorseTurn>,
+}
+
+/// A turn that leaves more at a crossing than the evaluated one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorseTurn {
+    /// Its direction of travel.
+    pub direction: Direction,
+    /// The crossing.
+    pub crossing: Crossing,
+    /// The glitch there, as means over 8 ms.
+    pub height_um: f64,
+    /// That of the evaluated turn.
+    pub evaluated_um: f64,
+}
+
+impl fmt::Display for WorseTurn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "at {} one turn {} leaves {:.1} \u{b5}m, and the evaluated one {:.1} \u{b5}m",
+            self.crossing, self.direction, self.height_um, self.evaluated_um
+        )
+    }
+}
+
+impl RecordedCircle {
+    /// Compares the whole turns with the evaluated one, as means over 8 ms at each crossing. `None` where there
+    /// are no two, or no glitches and times to compare.
+    pub fn whole_turns(&self) -> Option<WholeTurns> {
+        let noise_um = self.profile.quality().map_or(0.0, |it| it.noise_um);
+        let evaluated = heights_um(&self.profile, self.direction)?;
+        let mut worse: Option<WorseTurn> = None;
+        let mut count = 0;
+        for points in &self.turns_m {
+            let Some(heights) = self.of_turn(points) else {
+                continue;
+            };
+            count += 1;
+            for (crossing, (height_um, evaluated_um)) in Crossing::ALL
+                .into_iter()
+                .zip(heights.into_iter().zip(evaluated))
+            {
+                let least = (WORSE * evaluated_um).max(WORSE_UM).max(noise_um);
+                let is_worst = worse.is_none_or(|it| height_um > it.height_um);
+                if height_um > evaluated_um + least && is_worst {
+                    worse = Some(WorseTurn {
+                        direction: self.direction,
+                        crossing,
+                        height_um,
+                        evaluated_um,
+                    });
+                }
+            }
+        }
+        (count > 1).then_some(WholeTurns { count, worse })
+    }
+
+    /// The glitches of a turn in µm; `None` where it has gaps.
+    fn of_turn(&self, points: &[[f64; 2]]) -> Option<[f64; 4]> {
+        let mut gatherer = Gatherer::new(self.radius_mm / 1000.0, WIDEST_GAP_DEG);
+        for [x, y] in points {
+            gatherer.take(*x, *y);
+        }
+        let profile = gatherer.finish(self.turn_s).ok()?;
+        heights_um(&profile, self.direction)
+    }
+}
+
+fn heights_um(profile: &RadialProfile, direction: Direction) -> Option<[f64; 4]> {
+    let crossings = Waveform::at_crossings(profile, direction)?;
+    Some(crossings.map(|it| it.height_um()))
+}

@@ -33,11 +33,10 @@ pub fn render_text(report: &VerifyReport) -> String {
         visible_line(&report.trace),
         visible_line(&report.list)
     );
-    let verdict = verified.verdict();
-    if verdict.is_empty() {
+    if verified.fits() {
         out.push_str("the list fits the recorded torque\n");
     }
-    for line in verdict {
+    for line in verified.verdict() {
         let _ = writeln!(out, "{line}");
     }
     let _ = writeln!(out, "{}", verified.timing.sentence());

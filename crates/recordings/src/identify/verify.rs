@@ -390,6 +390,11 @@ fn regress(
 }
 
 impl Verified {
+    /// Whether the list fits the recorded torque: it has no fault, and no other list acted.
+    pub fn fits(&self) -> bool {
+        self.verdict().is_empty() && !matches!(self.timing, Timing::Other(_))
+    }
+
     /// Returns the faults of the list, each a sentence.
     pub fn verdict(&self) -> Vec<String> {
         /// A list within this part is right.

@@ -54,7 +54,7 @@ pub(crate) fn excess(
         if within > measured || within >= ENOUGH {
             return None;
         }
-        if measured >= ENOUGH && least > CLEARLY * bound {
+        if measured >= 2 * ENOUGH && least > CLEARLY * bound {
             break;
         }
     }

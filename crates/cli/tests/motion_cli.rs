@@ -388,3 +388,44 @@ fn channels_of_several_rates_are_resampled_or_refused() {
     assert_eq!(velocities, ["0", "1000", "2000", "3000", "4000"], "{said}");
     assert!(said.contains("by interpolation"), "{said}");
 }
+
+/// R6.20, R9.26: a list that does not fit the recorded torque ends `verify` with status 1.
+#[test]
+fn a_list_that_does_not_fit_has_its_status() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = "X[COMP ON FRICT]\nG01 X0 F300\nX20\nX0\nX20 F1000\nX0\nX20 F3000\nX0\nM30\n";
+    std::fs::write(folder.path().join("v.nc"), program).expect("a program");
+    let list = root().join("programs/demo/lists/comp_x.lis");
+    std::fs::copy(list, folder.path().join("v.lis")).expect("a list");
+    let arguments = "v.nc --isolated --enable X --axis X --value-list v.lis --cycle-time-ms 1";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
+    let driven = rows(&current(folder.path(), &arguments));
+    for (factor, expected, words) in [
+        (1.0, 0, "the list fits the recorded torque"),
+        (0.8, 1, "the list is 25 % high from"),
+        (-1.0, 1, "the sign of the list is inverted"),
+    ] {
+        let recorded = driven[1..].iter().map(|row| {
+            let torque = factor * number(&row[5]);
+            format!("{},{},{torque}", row[0], row[2])
+        });
+        let recorded: Vec<String> = recorded.collect();
+        let recording = format!("t,v,torque\n{}\n", recorded.join("\n"));
+        std::fs::write(folder.path().join("t.csv"), recording).expect("a recording");
+        let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+            .current_dir(folder.path())
+            .args([
+                "verify",
+                "t.csv",
+                "--value-list",
+                "v.lis",
+                "--cycle-time-ms",
+                "1",
+            ])
+            .output()
+            .expect("the command");
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(expected), "{factor}: {text}");
+        assert!(text.contains(words), "{factor}: {text}");
+    }
+}

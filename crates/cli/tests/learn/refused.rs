@@ -12,15 +12,15 @@ fn circle(feed: f64, bulge_um: f64, place: (f64, u64)) -> Vec<Row> {
 }
 
 /// The same with the bulges of each turn, and a fifth of a turn more.
-fn turns(feed: f64, bulges_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row> {
+fn turns(feed: f64, of_turns_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row> {
     let mut random = fastrand::Rng::with_seed(seed);
     let turning = feed / 60.0 / 40.0;
-    let count = ((bulges_um.len() as f64 + 0.2) * TAU / turning * 1000.0) as usize;
+    let count = ((of_turns_um.len() as f64 + 0.2) * TAU / turning * 1000.0) as usize;
     let row = |at: usize| {
         let way = turning * at as f64 / 1000.0;
         let angle = way - 0.5;
         let after = angle.rem_euclid(TAU / 4.0) / turning;
-        let bulge_um = bulges_um[((way / TAU) as usize).min(bulges_um.len() - 1)];
+        let bulge_um = of_turns_um[((way / TAU) as usize).min(of_turns_um.len() - 1)];
         let bulge = 1e-3 * bulge_um * (-(after / 0.03 - 1.0).powi(2)).exp();
         let radius = 40.0 + bulge + 3e-4 * (random.f64() - 0.5);
         let [x, y] = [radius * angle.cos(), radius * angle.sin()];

@@ -56,6 +56,46 @@ fn the_document_has_the_promised_keys() {
     assert!(document["on"]["glitch_max"].as_f64() < document["off"]["glitch_max"].as_f64());
 }
 
+/// R5.26: three turns of which the last one leaves more; two turns that are alike.
+#[test]
+fn a_worse_turn_of_a_recording_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("turns.csv");
+    let of = |turns: u32, last_um: f64| {
+        let turning = 2000.0 / 60.0 / 50.0;
+        let mut text = String::from("t,x,y\n");
+        for at in 0..turns * 10_000 {
+            let time = f64::from(at) / 1000.0;
+            let angle = turning * time;
+            let after = angle.rem_euclid(std::f64::consts::FRAC_PI_2) / turning;
+            let is_last = at >= (turns - 1) * 10_000;
+            let bulge_um = if is_last { last_um } else { 5.0 };
+            let bulge = 1e-3 * bulge_um * (-(after / 0.03 - 1.0).powi(2)).exp();
+            let [x, y] = [angle.cos(), angle.sin()].map(|it| (50.0 + bulge) * it);
+            writeln!(text, "{time:.3},{x:.5},{y:.5}").expect("text");
+        }
+        fs::write(&path, text).expect("a recording");
+        let arguments = ["circle", "--trace", path.to_str().expect("a name")];
+        let text = String::from_utf8(tool(&arguments).stdout).expect("text");
+        let document = json(&[&arguments[..], &["--format=json"]].concat());
+        (text, document["worse_turns"].clone())
+    };
+    let (text, worse) = of(3, 11.0);
+    assert!(
+        text.contains("not every turn is like the evaluated one: at "),
+        "{text}"
+    );
+    assert_eq!(worse[0]["direction"], "ccw");
+    let [height, evaluated] = ["height", "evaluated"].map(|key| worse[0][key].as_f64());
+    assert!(height > Some(10.0) && evaluated < Some(6.0), "{worse}");
+    let (text, worse) = of(2, 5.0);
+    assert!(
+        text.contains("of 2 whole turns none leaves more at a crossing"),
+        "{text}"
+    );
+    assert_eq!(worse, Value::Null);
+}
+
 #[test]
 fn a_circle_that_is_too_fast_says_what_is_not() {
     // R5.22

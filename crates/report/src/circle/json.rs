@@ -7,6 +7,7 @@ use super::super::strings::to_pretty;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Glitch, Method, PathCentre, PathFigures,
+    Recording, WorseTurn,
 };
 use frictcomp_physics::stiction::StictionParameters;
 
@@ -51,6 +52,9 @@ struct Conditions<'a> {
     /// Why there are no glitches.
     #[serde(skip_serializing_if = "Option::is_none")]
     glitches_up_to: Option<TooFast>,
+    /// Turns of a recording that leave more than the evaluated ones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    worse_turns: Vec<WorseTurn>,
 }
 
 #[derive(Serialize)]
@@ -240,6 +244,7 @@ pub fn render_json(report: &CircleReport) -> String {
             saturated_cycles: Some(*saturated_cycles),
             not_modelled: Some(not_modelled([&test.plant.x, &test.plant.y])),
             glitches_up_to: report.too_fast(),
+            worse_turns: Vec::new(),
         },
         Subject::Recorded(recording) => Conditions {
             source: "recorded",
@@ -256,6 +261,7 @@ pub fn render_json(report: &CircleReport) -> String {
             saturated_cycles: None,
             not_modelled: None,
             glitches_up_to: report.too_fast(),
+            worse_turns: worse_turns(recording),
         },
     };
     let document = Document {
@@ -268,4 +274,11 @@ pub fn render_json(report: &CircleReport) -> String {
     let mut text = to_pretty(&document);
     text.push('\n');
     text
+}
+
+fn worse_turns(recording: &Recording) -> Vec<WorseTurn> {
+    let circles = recording.circles.iter();
+    circles
+        .filter_map(|circle| circle.whole_turns()?.worse)
+        .collect()
 }

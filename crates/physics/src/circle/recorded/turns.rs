@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use super::circle::RecordedCircle;
 use super::limits::WIDEST_GAP_DEG;
 use crate::circle::crossing::Crossing;
@@ -26,15 +28,17 @@ pub struct WholeTurns {
 }
 
 /// A turn that leaves more at a crossing than the evaluated one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WorseTurn {
     /// Its direction of travel.
     pub direction: Direction,
     /// The crossing.
     pub crossing: Crossing,
     /// The glitch there, as means over 8 ms.
+    #[serde(rename = "height")]
     pub height_um: f64,
     /// That of the evaluated turn.
+    #[serde(rename = "evaluated")]
     pub evaluated_um: f64,
 }
 

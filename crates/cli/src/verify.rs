@@ -25,7 +25,8 @@ use frictcomp_report::verify::{VerifyReport, render_json, render_text};
 /// The prediction is the additive current that the control computes from the list. Says at which
 /// speeds the list is too low or too high, whether its sign is inverted, and, where the following error
 /// was recorded, whether it acted and whether it comes early or late at reversals. The channels are
-/// named as for `identify`. The exit status is 1 where the list does not fit. Record without compensation, or record the torque that the drive measures.
+/// named as for `identify`. The exit status is 1 where the list does not fit. Record without
+/// compensation, or record the torque that the drive measures.
 #[derive(Debug, Args)]
 pub(super) struct VerifyArgs {
     /// The recorded trace

@@ -428,7 +428,7 @@ fn recordings_as_machines_make_them_are_read() {
     }
 }
 
-/// R5.26: of several turns the best one is evaluated, and a worse one is named; noise is none.
+/// R5.26: the best of several turns is evaluated, and a worse one is named; noise does not make a turn worse.
 #[test]
 fn a_worse_turn_is_named() {
     let of = |heights: [f64; 3]| {

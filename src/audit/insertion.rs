@@ -4,6 +4,7 @@ use std::ops::Range;
 
 /// A block that is inserted into a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Insertion {
     /// The line before which it stands, from 1; one more than there are stands for the end.
     pub line: u32,

@@ -107,6 +107,7 @@ crate::words! {
     /// The selection of a kind of compensation on an axis (R1.23), whatever the parameterisation.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
     #[serde(rename_all = "lowercase")]
+    #[non_exhaustive]
     pub enum Selected {
         /// It is selected.
         On = "on",

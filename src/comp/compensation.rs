@@ -316,6 +316,7 @@ impl Compensation {
 
 /// Whether an axis takes part in a coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Coupling {
     /// It does.
     Active,

@@ -134,6 +134,7 @@ impl FromIterator<Kind> for KindSet {
 
 /// Whether a kind belongs to a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Membership {
     /// It does.
     In,

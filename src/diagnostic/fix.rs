@@ -24,6 +24,7 @@ crate::words! {
 /// fix in a [`Diagnostic`](super::Diagnostic) a [`Place`] in a file. The fixes of one diagnostic
 /// are alternatives: each alone does what is advised.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct Fix<P = Place> {
     /// Text to replace; an empty place inserts.
     pub place: P,
@@ -86,6 +87,7 @@ impl Serialize for Fix {
 
 /// A fix whose text holds a name that is known only where something is said.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct NamedFix {
     /// Text to replace; an empty place inserts.
     pub place: Place,
@@ -127,6 +129,7 @@ impl Fixed {
 
 /// A change of one text.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Edit {
     /// Text to replace.
     pub span: Span,

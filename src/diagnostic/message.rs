@@ -14,6 +14,7 @@ use crate::text::{Place, Span};
 
 /// A second place that explains the first.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Label {
     /// Where.
     pub place: Place,

@@ -48,6 +48,7 @@ pub enum Verdict {
 
 /// A checked friction value list.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FrictionReading {
     /// The control's reaction.
     pub verdict: Verdict,

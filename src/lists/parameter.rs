@@ -81,6 +81,7 @@ impl<T> From<&Given<T>> for Origin {
 
 /// One row of the table of effective parameters.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Parameter {
     /// The number in the parameter descriptions, `P-COMP-00043`.
     pub number: &'static str,

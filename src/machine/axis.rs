@@ -32,6 +32,7 @@ pub enum Parameterisation {
 
 /// One axis of the machine.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Axis {
     /// The name in NC programs, case-sensitive.
     pub name: String,

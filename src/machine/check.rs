@@ -41,6 +41,7 @@ pub struct ListsReport {
 
 /// A value list that the control would take, and the axis that it is for.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AcceptedList {
     /// The name of the axis; empty when a list is looked at by itself and names none.
     pub axis: String,

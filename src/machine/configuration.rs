@@ -15,6 +15,7 @@ use crate::text::{SourceFile, Span};
 
 /// A machine and everything else that its configuration says.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Configuration {
     /// The machine.
     pub machine: Machine,

@@ -22,6 +22,7 @@ pub enum AxisSet {
 
 /// A machine as far as NC programs see it.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Machine {
     /// The axes, in the machine's order.
     pub axes: Vec<Axis>,
@@ -57,6 +58,7 @@ pub struct Machine {
 
 /// An axis that follows another one in the position controller, P-AXIS-00070 (R1.43).
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GantrySlave {
     /// Its name, where its list gives one.
     pub name: String,

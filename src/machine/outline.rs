@@ -6,6 +6,7 @@ use crate::syntax::{AxisUse, axis_uses};
 
 /// Knowledge of a machine that is not described.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Outline {
     /// The path of its start-up list, as a configuration would write it.
     Startup(String),

@@ -5,6 +5,7 @@ use crate::lists::{ChannelPrograms, Role};
 
 /// Programs that the configuration names (R2.14, R2.15).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct ConfiguredPrograms {
     /// Runs before the first block of every main program, P-CHAN-00119.
     pub start: Option<String>,
@@ -28,6 +29,7 @@ pub struct ConfiguredPrograms {
 
 /// The part of the state that a program which only the machine has leaves unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Keeps {
     /// The compensation of all axes.
     pub compensation: bool,

@@ -2,6 +2,7 @@
 
 /// One of the two readings of a question, in the order of [`QuestionFacts::readings`](super::QuestionFacts::readings).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Alternative {
     /// The first one.
     First,

@@ -6,6 +6,7 @@ use Way::{Note, Program, Recording};
 crate::words! {
     /// Way to put a question to a control (R15.1).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
     pub enum Way {
         /// By an NC program that leaves its answer in a file of the control.
         Program = "program",

@@ -18,6 +18,7 @@ pub struct Confirmation {
 
 /// Basis of a reading (R15.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Basis<'a> {
     /// No control was asked.
     Assumed,

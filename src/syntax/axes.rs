@@ -13,6 +13,7 @@ pub(crate) const MAX_MACROS: usize = 16;
 
 /// Use of an axis in a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum AxisUse {
     /// It moves the axis, or speaks to it.
     Named,

@@ -24,6 +24,7 @@ const MAX_FAULTS: usize = 1000;
 
 /// Whether blocks are parsed by hand where that is possible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum FastPath {
     /// Plain blocks are parsed by hand, the rest by the grammar.
     #[default]

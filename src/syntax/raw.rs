@@ -92,6 +92,7 @@ pub struct LostRemarks {
 
 /// Whether comments stand in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Comments {
     /// There is none.
     Absent,

@@ -4,6 +4,7 @@ use super::span::Span;
 
 /// A position in a text as editors count it (Language Server Protocol, `Position`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub struct Utf16Position {
     /// The line, from 0.
     pub line: u32,

@@ -5,6 +5,7 @@ pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// A line of text without its line end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PhysicalLine<'a> {
     /// The characters of the line.
     pub text: &'a str,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A range of bytes in a text, `start..end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Span {
     /// Offset of the first byte.
     pub start: u32,
@@ -53,6 +54,7 @@ impl Span {
 
 /// A line and a column for people: both count from 1, columns count characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Position {
     /// Line, from 1.
     pub line: u32,

@@ -204,6 +204,7 @@ pub struct ChangedBy {
 
 /// Basis of the states of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Footing {
     /// Nothing but the programs and the machine.
     Known,

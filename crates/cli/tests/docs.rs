@@ -1,5 +1,7 @@
 //! The documents: every console block is run, every rule has a test, every link leads somewhere.
 
+#[path = "workspace/files.rs"]
+mod files;
 mod workspace;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,33 +10,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use files::files;
 use frictcomp_report::assumptions::{Chapter, chapters};
 use workspace::root;
 
 /// Set to write the output of the commands into the documents.
 const UPDATE: &str = "UPDATE_DOCS";
 
-fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
-    let mut folders = vec![root().join(folder)];
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|it| it == extension) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 /// The sources of all packages, with the tests of those in `crates`.
 fn sources() -> Vec<PathBuf> {
-    let mut sources = files("src", "rs");
-    sources.extend(files("crates", "rs"));
+    let mut sources = files("src", &["rs"]);
+    sources.extend(files("crates", &["rs"]));
     sources
 }
 
@@ -46,7 +32,7 @@ fn documents() -> Vec<PathBuf> {
         "CHANGELOG.md",
     ];
     let mut documents: Vec<PathBuf> = names.iter().map(|name| root().join(name)).collect();
-    documents.extend(files("docs", "md"));
+    documents.extend(files("docs", &["md"]));
     documents
 }
 
@@ -117,10 +103,10 @@ fn rules(text: &str) -> BTreeSet<String> {
 /// The sources that hold tests, each with the part that is tests.
 fn tests() -> BTreeMap<String, String> {
     let mut parts = BTreeMap::new();
-    for path in files("tests", "rs") {
+    for path in files("tests", &["rs"]) {
         parts.insert(path.display().to_string(), read(&path));
     }
-    for path in files("bindings/python/tests", "py") {
+    for path in files("bindings/python/tests", &["py"]) {
         let text = read(&path).replace("# R", "// R");
         parts.insert(path.display().to_string(), text);
     }

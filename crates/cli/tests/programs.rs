@@ -1,14 +1,17 @@
 //! Every program under `programs/` with its timeline, diagnostics and exit status as a reviewed
 //! snapshot; every code with its page and with a program or list that raises it.
 
+#[path = "workspace/files.rs"]
+mod files;
 mod workspace;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use files::files;
 use frictcomp::diagnostic::Code;
 use workspace::root;
 
@@ -172,25 +175,6 @@ fn transcript(output: &Output) -> String {
     let status = output.status.code().expect("an exit status");
     writeln!(all, "── exit status {status} ──").expect("text");
     all
-}
-
-/// The files below a folder, with an extension.
-fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
-    let mut folders = vec![root().join(folder)];
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            let extension = path.extension().map(|it| it.to_string_lossy().into_owned());
-            if path.is_dir() {
-                folders.push(path);
-            } else if extension.is_some_and(|it| extensions.contains(&it.as_str())) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 /// The code in front of the words of a file's name: `FC202-fric.nc` is about FC202.

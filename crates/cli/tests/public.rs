@@ -1,6 +1,8 @@
 //! What every host may rely on: the names that are public, and that all of it can be sent to another
 //! thread.
 
+#[path = "workspace/files.rs"]
+mod files;
 #[path = "public/sent.rs"]
 mod sent;
 mod workspace;
@@ -9,6 +11,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::files;
 use workspace::root;
 
 /// A package that others may use.
@@ -204,6 +207,119 @@ fn is_trait(name: &str) -> bool {
         "Watcher",
     ];
     TRAITS.contains(&name)
+}
+
+/// What a caller fills in: all of it has to be named, so that a new field is a new question.
+const FILLED_IN: &[&str] = &[
+    "lists::Conditions",
+    "lists::FrictionList",
+    "lists::ListHead",
+    "lists::TablePoint",
+    "text::Place",
+    "circle::Circle",
+    "circle::CircularTest",
+    "circle::CommandedCircle",
+    "circle::Job",
+    "circle::LearnedCircle",
+    "circle::Learner",
+    "circle::RecordedTrace",
+    "circle::Task",
+    "contour::ContourLimits",
+    "current::Reading",
+    "current::TraceColumns",
+    "simulation::Plant",
+    "simulation::Setpoint",
+    "commission::Dynamics",
+    "commission::FreeTravel",
+    "commission::MeasuredAxis",
+    "commission::PlanRequest",
+    "evidence::EvidenceRecording",
+    "evidence::Samples",
+    "identify::Predictor",
+    "trace::Choice",
+    "report::Look",
+    "report::TextChange",
+    "report::audit::AuditReport",
+    "report::commission::InputFile",
+    "report::commission::PlanReport",
+    "report::commission::Results",
+    "report::commission::ResultsReport",
+    "report::commission::Round",
+    "report::commission::ValueListUsed",
+    "report::compare::ContoursReport",
+    "report::compare::VersionsReport",
+    "report::contour::ContourSubject",
+    "report::html::Acceptance",
+    "report::html::GivenForRun",
+    "report::html::ReplayReport",
+    "report::html::ReplayReportAxis",
+    "report::html::RunInputs",
+    "report::pictures::AxisSample",
+    "report::svg::Band",
+    "report::svg::BandChart",
+    "report::svg::BandRow",
+    "report::svg::ChartAxis",
+    "report::svg::CurveNote",
+    "report::svg::LineChart",
+    "report::svg::Panel",
+    "report::svg::PlaneChart",
+    "report::svg::PlaneMark",
+    "report::svg::PlanePoint",
+    "report::svg::PolarChart",
+    "report::svg::PolarPanel",
+    "report::svg::PolarSeries",
+    "report::svg::SecondUnit",
+    "report::svg::Series",
+    "report::svg::XMark",
+    "host::CircleChannels",
+    "host::ContourSetup",
+    "host::GoldenKind",
+    "host::Input",
+    "host::Programs",
+    "host::ask::AskedAxis",
+    "host::replay::ReplayChannels",
+];
+
+/// Whether the definition of a type in a text lets it grow without breaking those who read it; `None` where
+/// the text does not define it, or where nothing of it is public.
+fn can_grow(text: &str, name: &str) -> Option<bool> {
+    let lines: Vec<&str> = text.lines().collect();
+    let start = ["struct", "enum"].map(|kind| format!("pub {kind} {name}"));
+    let defines = |line: &str| {
+        let mut rest = start
+            .iter()
+            .filter_map(|start| line.strip_prefix(start.as_str()));
+        rest.any(|rest| rest.starts_with([' ', '<']) && rest.ends_with('{'))
+    };
+    let at = lines.iter().position(|line| defines(line))?;
+    let body = lines[at + 1..].iter().take_while(|line| **line != "}");
+    let mut fields = body.filter(|line| line.starts_with("    ") && line.ends_with(','));
+    let is_closed =
+        lines[at].starts_with("pub struct") && fields.any(|field| !field.starts_with("    pub "));
+    let above = lines[..at].iter().rev();
+    let mut above = above.take_while(|line| line.starts_with("#[") || line.starts_with("///"));
+    Some(is_closed || above.any(|line| line.contains("non_exhaustive")))
+}
+
+#[test]
+fn what_is_read_can_grow() {
+    let mut fixed = Vec::new();
+    for package in &PACKAGES {
+        let sources = files(&format!("{}/src", package.folder), &["rs"]);
+        let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
+        let texts: Vec<String> = sources.iter().map(read).collect();
+        let mut items = package.items();
+        items.retain(|item| !item.ends_with("(unstable)"));
+        fixed.extend(items.into_iter().filter(|item| {
+            let name = item.rsplit("::").next().unwrap_or(item);
+            let mut found = texts
+                .iter()
+                .filter_map(|text| can_grow(text, name))
+                .peekable();
+            found.peek().is_some() && found.all(|can_grow| !can_grow)
+        }));
+    }
+    assert_eq!(fixed, FILLED_IN);
 }
 
 #[test]

@@ -1,11 +1,14 @@
 //! The JSON schemas of `frictcomp.toml` and of plant files, held to the reader (R17.6).
 
+#[path = "workspace/files.rs"]
+mod files;
 mod folder;
 mod workspace;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::files;
 use folder::{Bench, json};
 use frictcomp::SourceFile;
 use frictcomp::machine::{Configuration, NoLists};
@@ -38,21 +41,10 @@ fn is_plant(text: &str) -> bool {
     Plant::from_toml(SourceFile::new("plant.toml", text)).is_ok()
 }
 
-/// The files of the tree that end so, those that were built aside.
-fn files(ending: &str) -> Vec<PathBuf> {
-    let mut folders: Vec<PathBuf> = ["programs", "docs"].map(|it| root().join(it)).to_vec();
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.to_string_lossy().ends_with(ending) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
+/// The files of TOML that programs and documents bring.
+fn configurations() -> Vec<PathBuf> {
+    let mut found = files("programs", &["toml"]);
+    found.extend(files("docs", &["toml"]));
     found
 }
 
@@ -71,7 +63,7 @@ fn whole() -> String {
 fn every_configuration_of_the_tree_fits_as_it_is_read() {
     // R17.6
     let validator = validator("config");
-    let files = files(".toml");
+    let files = configurations();
     let mut refused = 0;
     let mut machines = 0;
     for path in files {
@@ -93,7 +85,7 @@ fn every_plant_of_the_tree_fits_as_it_is_read() {
     // R17.6
     let validator = validator("plant");
     let mut plants = 0;
-    for path in files(".toml") {
+    for path in configurations() {
         let text = read(&path);
         if is_configuration(&text) && !is_plant(&text) {
             continue;

@@ -29,6 +29,7 @@ const OF_DRIVES: [u16; 8] = [
 /// Why a description of a network or of devices is not read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}:{line}: {reason}")]
+#[non_exhaustive]
 pub struct XmlError {
     /// The file as the user named it.
     pub file: Arc<str>,

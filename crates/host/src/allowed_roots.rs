@@ -8,6 +8,7 @@ use frictcomp::text::Place;
 
 /// Treatment of files outside the folders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
     #[default]

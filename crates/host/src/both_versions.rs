@@ -12,6 +12,7 @@ use super::input::Input;
 /// The machine of two versions of a program: the same for both, each with the folders in which it
 /// looks for what it calls.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MachineOfVersions {
     /// The machine as the old version finds it.
     pub old: LoadedMachine,

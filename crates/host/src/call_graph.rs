@@ -57,6 +57,7 @@ impl GraphProgram {
 
 /// A call of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FoundCall {
     /// The position of the program that is called.
     pub program: usize,
@@ -66,6 +67,7 @@ pub struct FoundCall {
 
 /// A call whose program is not there.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MissingCall {
     /// The name as it is called.
     pub name: String,

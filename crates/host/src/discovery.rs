@@ -53,6 +53,7 @@ pub struct MachineOptions {
 
 /// A machine and what else its configuration says.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LoadedMachine {
     /// The machine.
     pub machine: Machine,

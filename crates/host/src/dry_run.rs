@@ -134,6 +134,7 @@ pub struct Programs<'a> {
 
 /// Progress of the programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct RunSummary {
     /// `Break` when the sink wanted no more.
     pub flow: ControlFlow<()>,
@@ -169,6 +170,7 @@ pub fn run_programs(
 }
 
 /// Run of a program in a session of its own.
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SingleRun {
     /// Options of the session.
     pub options: SessionOptions,
@@ -180,6 +182,7 @@ pub struct SingleRun {
 
 /// Listed axes where no machine is described.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Axes {
     /// Those that a look over the program finds (R9.74).
     Ahead,

@@ -17,6 +17,7 @@ use frictcomp::text::SourceFile;
 
 /// Folders of called programs besides the folder of the caller.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct SearchPath {
     /// The folders of `program_dirs`, which are searched in this order.
     pub program_dirs: Vec<PathBuf>,

@@ -26,6 +26,7 @@ pub struct Revision {
 
 /// A file that differs between a revision and the work tree.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ChangedFile {
     /// The file in the work tree, from the root on; `None` where it is gone.
     pub new: Option<PathBuf>,

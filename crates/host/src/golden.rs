@@ -33,6 +33,7 @@ pub struct GoldenResults {
 
 /// A program with the file that holds what was agreed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GoldenFile {
     /// The program whose result was agreed on.
     pub program: Input,
@@ -42,6 +43,7 @@ pub struct GoldenFile {
 
 /// A result against the one that was agreed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GoldenDrift {
     /// They are the same.
     AsAgreed,
@@ -61,6 +63,7 @@ pub enum GoldenDrift {
 
 /// Result for the files of one folder.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct UpdatedFolder<'a, E> {
     /// The folder.
     pub folder: &'a Path,

@@ -20,6 +20,7 @@ const STDIN: &str = "<stdin>";
 
 /// Form of the names of files in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Naming {
     /// As the user named them.
     AsGiven,

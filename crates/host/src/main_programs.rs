@@ -10,6 +10,7 @@ use frictcomp::interpreter::holds_program_end;
 
 /// A program that was run from the start of the control, and what it called.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ExecutedProgram<'a> {
     /// The program.
     pub input: &'a Input,

@@ -14,6 +14,7 @@ use frictcomp::text::{SourceFile, shown_path};
 
 /// A file and what changes make of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MendedFile {
     /// Path of the file.
     pub path: PathBuf,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 /// A text that is at hand, and the file that it stands in for, which may hold another one or not be
 /// there at all.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct OpenText {
     /// Path of the file.
     pub path: PathBuf,

@@ -42,6 +42,7 @@ pub(super) struct Claim {
 
 /// Files that an output may replace (R9.93).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Replaces {
     /// Another result.
     #[default]

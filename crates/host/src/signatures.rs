@@ -13,6 +13,7 @@ use frictcomp_recordings::trace::{
 
 /// A signature in a recording, and the time in s at which its strokes end.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SignedAt {
     /// The signature.
     pub signature: Signature,

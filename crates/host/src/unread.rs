@@ -10,6 +10,7 @@ use frictcomp::syntax::code_words;
 
 /// A variable that is set and that no program reads.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnreadVariable {
     /// The name as it was given.
     pub name: String,

@@ -11,6 +11,7 @@ use super::input::Input;
 
 /// Programs found below the paths.
 #[derive(Debug, Default)]
+#[non_exhaustive]
 pub struct FoundPrograms {
     /// The programs in a fixed order: files as the user named them, folders walked by name.
     pub inputs: Vec<Input>,

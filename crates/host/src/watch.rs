@@ -180,6 +180,7 @@ impl Watch {
 
 /// The line of a program that control has reached.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Reached<'a> {
     /// The name of the program.
     pub file: &'a str,
@@ -189,6 +190,7 @@ pub struct Reached<'a> {
 
 /// Number of passes of the control through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Passes {
     /// From its first line to its last.
     #[default]

@@ -41,6 +41,7 @@ pub struct Csv<W> {
 
 /// Whether the rows say where the axes stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Positions {
     /// A column `X_pos` for each axis, in mm or degrees, empty where the position is not known, and
     /// a column `frame` that says whether positions are those of the `machine` or as `programmed`.

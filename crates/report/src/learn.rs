@@ -92,6 +92,7 @@ pub struct LearnedAxis {
 /// The next step of the user.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum NextStep {
     /// Recordings are wanted in this folder, with these lists.
     Record {

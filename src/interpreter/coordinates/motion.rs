@@ -11,6 +11,7 @@ use crate::machine::SlopeProfile;
 
 /// Whether blocks say what they move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Motions {
     /// They do not.
     #[default]
@@ -71,6 +72,7 @@ pub enum Form {
 
 /// A circular arc in the plane of two axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Arc {
     /// The first and the second axis of the plane: X Y with G17, Z X with G18, Y Z with G19.
     pub axes: [AxisIndex; 2],

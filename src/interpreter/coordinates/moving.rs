@@ -34,6 +34,7 @@ crate::words! {
 
 /// Whether something happens on every way that a program may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Certainty {
     /// It does.
     Certain,

@@ -74,6 +74,7 @@ pub enum NoteKind {
 
 /// Whether notes are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Notes {
     /// They are not.
     #[default]

@@ -351,6 +351,7 @@ sent! {
     host::ask::AnsweredReading,
     host::ask::AskedAxis,
     host::ask::AskedFile,
+    host::ask::InvalidToml,
     host::ask::RecordedQuestions<'_>,
     host::ask::UnreadAnswer,
     host::conformance::Answers,

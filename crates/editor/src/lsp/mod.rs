@@ -48,7 +48,9 @@ mod worker;
 
 use std::io;
 
-pub use server::{Shutdown, serve};
+pub use server::Shutdown;
+#[cfg(feature = "unstable")]
+pub use server::serve;
 
 /// Talks to a client at the other end of standard input and output.
 ///
@@ -56,7 +58,7 @@ pub use server::{Shutdown, serve};
 /// The system starts no threads.
 pub fn serve_stdio() -> io::Result<Shutdown> {
     let stdio = transport::Stdio::open()?;
-    let shutdown = serve(&stdio.connection)?;
+    let shutdown = server::serve(&stdio.connection)?;
     stdio.close();
     Ok(shutdown)
 }

@@ -48,6 +48,7 @@ const MOST_WAITING: usize = 1000;
 
 /// Form of the end of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Shutdown {
     /// It asked for the end, and then ended the server.
     Proper,

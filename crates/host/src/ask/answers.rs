@@ -9,6 +9,7 @@ use frictcomp::readings::{Alternative, Question, Way};
 
 /// The answer to one question on one axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Answer {
     /// The question.
     pub question: Question,
@@ -24,6 +25,7 @@ pub struct Answer {
 
 /// Conclusion from an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum AnswerVerdict {
     /// The control follows the reading.
     Reading(Alternative),
@@ -58,6 +60,7 @@ struct Run {
 
 /// A line that is marked as an answer and cannot be read as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct UnreadAnswer {
     /// The line, from 1.
     pub line: usize,

@@ -16,4 +16,4 @@ pub use answers::{Answer, AnswerVerdict, UnreadAnswer, read_answers};
 pub use axis::AskedAxis;
 pub use programs::{AskedFile, ask, readme};
 pub use recording::{RecordedQuestions, read_recorded_answers};
-pub use written::{AnsweredReading, date_of, with_findings};
+pub use written::{AnsweredReading, InvalidToml, date_of, with_findings};

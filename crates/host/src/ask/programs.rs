@@ -17,6 +17,7 @@ const NO_BUILD: &str = "?";
 
 /// A program that asks.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AskedFile {
     /// Its question.
     pub question: Question,

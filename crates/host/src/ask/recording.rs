@@ -21,6 +21,7 @@ use frictcomp_recordings::trace::{
 
 /// The axis that was recorded, and its channels.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedQuestions<'a> {
     /// The axis.
     pub axis: &'a AskedAxis,

@@ -2,13 +2,15 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use toml_edit::{DocumentMut, InlineTable, Item, Table, TomlError, value};
+use thiserror::Error;
+use toml_edit::{DocumentMut, InlineTable, Item, Table, value};
 
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question};
 
 /// An answer that the configuration remembers.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AnsweredReading {
     /// The question.
     pub question: Question,
@@ -20,12 +22,18 @@ pub struct AnsweredReading {
     pub date: String,
 }
 
+/// A text that is no TOML: the place, and what is wrong there.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct InvalidToml(String);
+
 /// The text of a configuration with answers in `[reading]` and `[confirmed]`; everything else stays.
 ///
 /// # Errors
 /// The text is no TOML.
-pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, TomlError> {
-    let mut document: DocumentMut = text.parse()?;
+pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, InvalidToml> {
+    let parsed = text.parse::<DocumentMut>();
+    let mut document = parsed.map_err(|error| InvalidToml(error.to_string()))?;
     for finding in findings {
         let rule = finding.question.facts().rule;
         let reading = finding.question.name_of(finding.reading);

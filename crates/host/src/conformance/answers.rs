@@ -25,6 +25,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// A case beside the answers of a control.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Compared {
     /// No answer belongs to it.
     Unanswered,

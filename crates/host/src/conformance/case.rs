@@ -17,6 +17,7 @@ use frictcomp::text::shown_path;
 /// Why a case cannot be run.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}: {message}", shown_path(.file))]
+#[non_exhaustive]
 pub struct CaseError {
     /// The file of the case.
     pub file: PathBuf,
@@ -27,6 +28,7 @@ pub struct CaseError {
 /// A program or list of a case.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct CaseFile {
     /// Its name, by which it is called or named.
     pub name: String,
@@ -36,6 +38,7 @@ pub struct CaseFile {
 
 /// Moment at which a state is examined.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Moment {
     /// After the last execution of the block that begins on this line.
     Line(u32),
@@ -54,6 +57,7 @@ impl fmt::Display for Moment {
 
 /// Expectation at one point.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum Expectation {
     /// The state of a kind on an axis.
     State {
@@ -90,6 +94,7 @@ pub enum Expectation {
 
 /// One case.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Case {
     /// Its file.
     pub file: PathBuf,

@@ -6,6 +6,7 @@ use frictcomp_physics::current::{Added, AdditiveCurrent, Switched};
 
 /// Currents expected for a commanded motion that is given as numbers.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ExpectedCycles {
     /// The axis.
     pub axis: String,

@@ -11,6 +11,7 @@ use frictcomp::lists::{ListHead, Points, write_value_list};
 
 /// A file of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Exported {
     /// Its path below the folder of the export.
     pub path: PathBuf,

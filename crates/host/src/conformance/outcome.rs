@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 /// An expectation that does not hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mismatch {
     /// The file of the case.
     pub file: PathBuf,
@@ -15,6 +16,7 @@ pub struct Mismatch {
 
 /// Outcome of a case.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct CaseOutcome {
     /// Whether the documents leave it open.
     pub is_undecided: bool,
@@ -24,6 +26,7 @@ pub struct CaseOutcome {
 
 /// Outcome of all cases.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Totals {
     /// Number of cases.
     pub cases: usize,

@@ -10,6 +10,7 @@ const MAX_BETWEEN: usize = 1000;
 
 /// A block by its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ReplayPlace {
     /// The file.
     pub file: Arc<str>,
@@ -20,6 +21,7 @@ pub struct ReplayPlace {
 frictcomp::words! {
     /// Evidence that a change of the machine is the one of the dry run.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
     pub enum ReplayedBy {
         /// The line of the program.
         Line = "line",
@@ -34,6 +36,7 @@ frictcomp::words! {
 
 /// A change in which machine and dry run agree.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MatchedChange {
     /// The block of the dry run.
     pub at: ReplayPlace,
@@ -47,6 +50,7 @@ pub struct MatchedChange {
 
 /// The first place where machine and dry run do not agree.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Disagreement {
     /// The block; `None` before the first one.
     pub at: Option<ReplayPlace>,
@@ -66,6 +70,7 @@ pub struct Disagreement {
 
 /// An axis of the recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ReplayedAxis {
     /// Its name.
     pub name: String,

@@ -28,6 +28,7 @@ enum Asked {
 
 /// A condition with the answer that was tried.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct TriedCondition {
     /// The file.
     pub file: Arc<str>,

@@ -42,6 +42,7 @@ pub struct StateRecording {
 
 /// A stretch of a recording in which samples are missing.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RecordedGap {
     /// The time of the last sample before it, in seconds.
     pub at_s: f64,
@@ -51,6 +52,7 @@ pub struct RecordedGap {
 
 /// Recording of an axis.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct RecordedAxis {
     /// Its name.
     pub name: String,
@@ -66,6 +68,7 @@ pub struct RecordedAxis {
 
 /// A recorded change of a state, with what the sample before it and its own hold.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct RecordedChange {
     /// The time of its first sample in seconds.
     pub t_s: f64,

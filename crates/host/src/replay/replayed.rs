@@ -11,6 +11,7 @@ use frictcomp::readings::Question;
 use frictcomp::session::SessionOptions;
 
 /// Programs to compare with a recording.
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Replay<'a> {
     /// The programs, one after the other.
     pub inputs: &'a [Input],
@@ -24,6 +25,7 @@ pub struct Replay<'a> {
 
 /// Result of the comparison.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Replayed {
     /// Each axis of the recording.
     pub axes: Vec<ReplayedAxis>,

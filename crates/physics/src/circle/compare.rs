@@ -9,6 +9,7 @@ use crate::current::Switched;
 
 /// The paths in both directions with their figures.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Side {
     /// The radial deviations over the angle.
     pub paths: Paths,
@@ -18,6 +19,7 @@ pub struct Side {
 
 /// The result of a test.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Without friction compensation.
     pub off: Side,

@@ -86,6 +86,7 @@ pub enum FoundAt {
 
 /// A piece of advice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Diagnosis {
     /// Where.
     pub place: FoundAt,
@@ -103,6 +104,7 @@ pub struct Diagnosis {
 
 /// Grounds of a piece of advice about a recording, with the evidence against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct DiagnosisGrounds {
     /// Standard error of the size.
     #[serde(rename = "error", skip_serializing_if = "Option::is_none")]

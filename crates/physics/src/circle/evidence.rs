@@ -28,6 +28,7 @@ const EXPLAINS: f64 = 0.2;
 
 /// Evidence in a recording, with its limits.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CircleEvidence {
     /// Standard deviation of the noise of single samples.
     pub noise_um: f64,

@@ -43,6 +43,7 @@ pub enum OtherShape {
 
 /// A fitted shape with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Term {
     /// The shape.
     pub shape: ShapeTerm,

@@ -11,6 +11,7 @@ use super::zone::{least_squares, minimum_zone, zone_about};
 
 /// The figures of one path (R5.21), named by the symbols of ISO 230-4.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PathFigures {
     /// Circular deviation G about the centre of the minimum zone.
     #[serde(rename = "G_mz")]
@@ -34,6 +35,7 @@ pub struct PathFigures {
 
 /// The figures of the paths in both directions (R5.21).
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Figures {
     /// Of the counter-clockwise path.
     pub ccw: Option<PathFigures>,
@@ -61,6 +63,7 @@ pub struct Figures {
 
 /// The profiles of the paths in both directions.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Paths {
     /// The counter-clockwise path.
     pub ccw: Option<RadialProfile>,

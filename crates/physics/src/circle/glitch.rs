@@ -11,6 +11,7 @@ use super::window::Window;
 
 /// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Glitch {
     /// The crossing.
     pub crossing: Crossing,
@@ -52,6 +53,7 @@ pub enum Bulge {
 
 /// Shape of the path where an axis reverses (R5.24).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct AxisShape {
     /// Permanent step of the path outwards: the backlash of the axis, negative if it is
     /// over-compensated.
@@ -66,6 +68,7 @@ pub struct AxisShape {
 
 /// Shape of a path at its crossings, and the ellipse that remains without it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PathShape {
     /// Width of the window after a crossing.
     pub window_deg: f64,

@@ -28,6 +28,7 @@ pub struct Job {
 
 /// Result of a run.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Lap {
     /// Job of the run.
     pub job: Job,

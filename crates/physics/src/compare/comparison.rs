@@ -9,6 +9,7 @@ use super::version::Version;
 frictcomp::words! {
     /// One of the two versions.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Which {
         /// The old version.
         Old = "old",
@@ -19,6 +20,7 @@ frictcomp::words! {
 
 /// A switch in its place among those of the other version.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Paired {
     /// Both versions switch.
     Both {
@@ -34,6 +36,7 @@ pub enum Paired {
 frictcomp::words! {
     /// Result of a comparison.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Agreement {
         /// Both versions switch the same.
         Same = "same",

@@ -28,6 +28,7 @@ impl From<ProgramContour<BlockDeviations>> for VersionContour {
 
 /// A block that deviates more somewhere on its path.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct BlockChange {
     /// The block of the new version.
     pub block: BlockDeviation,
@@ -83,6 +84,7 @@ fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
 frictcomp::words! {
     /// Result of a comparison of contours.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum ContourAgreement {
         /// No block of the new version deviates more than the tolerance allows.
         NoMore = "no-more",

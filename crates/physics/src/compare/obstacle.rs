@@ -7,6 +7,7 @@ use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 
 /// Obstacle to a comparison of the whole version, with its place: what follows is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Obstacle {
     /// Path of the file, as it is shown.
     pub file: String,

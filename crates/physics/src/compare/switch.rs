@@ -7,6 +7,7 @@ use frictcomp::timeline::Row;
 
 /// A change of one state by one block of a version.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Switch {
     /// Name of the axis.
     pub axis: String,

@@ -16,6 +16,7 @@ const MOST_REVERSALS: usize = 8;
 
 /// A block that moves axes, and how far the axes are from its path while it is cut.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct BlockDeviation {
     /// Path of the file, as it is shown.
     pub file: Arc<str>,
@@ -38,6 +39,7 @@ pub struct BlockDeviation {
 
 /// A reversal while a block is cut.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct BlockReversal {
     /// Name of the axis.
     pub axis: String,
@@ -49,6 +51,7 @@ pub struct BlockReversal {
 
 /// Place of the largest deviation of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct WorstPlace {
     /// The deviation to either side in µm.
     pub deviation_um: f64,

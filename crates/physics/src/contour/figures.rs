@@ -67,6 +67,7 @@ impl Deviations {
 /// Cost of missing compensation (R11.24): the largest additional deviation of the path as
 /// programmed against the one with all of it on.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Due {
     /// The difference in µm, 0 where nothing is missing.
     pub um: f64,
@@ -87,6 +88,7 @@ impl Due {
 
 /// The reversals of an axis, counted (R11.4).
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ContourSummary {
     /// Name of the axis.
     pub axis: String,

@@ -15,6 +15,7 @@ const MM_PER_M: f64 = 1000.0;
 /// The force that a value list adds, and the friction of the drive at the same velocities: means over
 /// 1 to 100 mm/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ListFit {
     /// The mean of the added force in N.
     pub added_n: f64,

@@ -23,6 +23,7 @@ pub enum ListSource {
 
 /// An axis that is driven.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ContourAxis {
     /// Position of the axis in the machine.
     pub axis: AxisIndex,

@@ -15,6 +15,7 @@ const ALONG: f64 = 0.99;
 
 /// Basis of the glitch at a reversal (R11.26).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GlitchFigure {
     /// None: a stop, a corner or the next reversal of the axis is too near.
     Missing,

@@ -15,6 +15,7 @@ pub struct ContourLimits {
 frictcomp::words! {
     /// Verdict on a contour.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
     pub enum ContourVerdict {
         /// It keeps the limits.
         Within = "within",

@@ -7,6 +7,7 @@ use frictcomp::lists::{FrictionList, TablePoint};
 
 /// Whether friction compensation is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Switched {
     /// On.
     On,
@@ -16,6 +17,7 @@ pub enum Switched {
 
 /// Additive current of one CNC cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Added {
     /// Weight of the decay before a reversal, 0 to 1 (R4.2).
     pub w_before: f64,

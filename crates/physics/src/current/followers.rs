@@ -7,6 +7,7 @@ use frictcomp::comp::State;
 
 /// Commanded motion of one axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Commanded {
     /// The position in units of 0.1 µm or 0.0001°.
     pub position_units: f64,
@@ -18,6 +19,7 @@ pub struct Commanded {
 
 /// One axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CurrentSample {
     /// Commanded motion.
     pub commanded: Commanded,

@@ -24,6 +24,7 @@ pub struct CommandedTrace {
 
 /// One cycle of a commanded trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct CommandedRow {
     /// The time of the cycle.
     pub time_s: f64,

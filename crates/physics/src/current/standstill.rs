@@ -16,6 +16,7 @@ pub enum DeadBand {
 
 /// Samples that count as standstill although the velocity was not 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Standstills {
     /// Number of samples.
     pub count: u64,

@@ -14,6 +14,7 @@ const LONGEST_MS: f64 = 1000.0;
     "a CNC cycle of {} ms is not possible; it must be between {SHORTEST_MS} and {LONGEST_MS} ms",
     Shown(*.milliseconds)
 )]
+#[non_exhaustive]
 pub struct CycleError {
     /// The cycle that was given.
     pub milliseconds: f64,

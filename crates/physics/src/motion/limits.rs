@@ -5,6 +5,7 @@ use frictcomp::machine::{Axis, AxisType, Machine, SlopeProfile};
 
 /// The bounds of one axis: mm or degrees, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct AxisLimits {
     /// The highest velocity.
     pub velocity_per_s: f64,
@@ -23,6 +24,7 @@ pub struct AxisLimits {
 
 /// The bounds of an axis that are assumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Assumed {
     /// `max_velocity`.
     pub velocity: bool,

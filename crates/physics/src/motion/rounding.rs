@@ -31,6 +31,7 @@ const STRAIGHT: f64 = 1e-7;
 
 /// Largest deviation of the followed path from the programmed one.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Departure {
     /// The distance in µm.
     pub um: f64,

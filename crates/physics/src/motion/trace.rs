@@ -8,6 +8,7 @@ use frictcomp::interpreter::{PositionFrame, Simplifications};
 
 /// The block that a piece of the path comes from, and what holds while it is followed.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Cause {
     /// The program of the session, from 1.
     pub program: u32,
@@ -45,6 +46,7 @@ frictcomp::words! {
 
 /// The commanded trace in one CNC cycle (R5.1).
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct Sample<'a> {
     /// Time since the first cycle.
     pub time_s: f64,

@@ -27,6 +27,7 @@ const ELEMENTS: u32 = 4;
 
 /// The parameters of one feed drive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DriveParameters {
     /// Moved mass m.
     pub mass_kg: f64,

@@ -6,6 +6,7 @@ use super::guideline::{Guideline, not_kept};
 
 /// Stiction compensation of one axis, as the control is set.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StictionParameters {
     /// MP1511, the factor; 0 switches the compensation off.
     pub mp1511_us: f64,

@@ -14,6 +14,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// The value of a quantity and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Solved {
     /// The quantity.
     pub quantity: Quantity,

@@ -31,6 +31,7 @@ const UNSCALED: i16 = 1000;
 
 /// The friction of an axis in a recorded program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct FrictionFound {
     /// The axis.
     pub axis: String,
@@ -292,6 +293,7 @@ fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
 
 /// The circles of a recorded program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CirclesFound {
     /// The planned feed in mm/min.
     pub feed: f64,
@@ -394,6 +396,7 @@ impl CirclesFound {
 
 /// Figures of ISO 230-4 in µm, where a recording has them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct IsoFigures {
     /// Circular deviation G of the counter-clockwise path about the centre of the minimum zone.
     pub g_ccw: Option<f64>,

@@ -24,6 +24,7 @@ const ALIKE_UM: f64 = 1.5;
 
 /// A turn of a recording, with the name of its file.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedTurn {
     /// The file.
     pub file: String,

@@ -23,6 +23,7 @@ const LAST_ROUND: u16 = 61;
 /// Compensation while the programs of a plan run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Stage {
     /// Off: the friction and the machine as it is.
     Off,
@@ -32,6 +33,7 @@ pub enum Stage {
 
 /// Measuring programs for one or two axes (R16.1, R16.8).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Plan {
     /// Compensation while they run.
     pub stage: Stage,

@@ -29,6 +29,7 @@ const GAIN: f64 = 0.95;
 
 /// A plant with what was made of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PlantFound {
     /// The SHA-256 of all that it was fitted to.
     pub key: String,
@@ -53,6 +54,7 @@ pub struct PlantFound {
 
 /// The fitted parameters of an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PlantAxis {
     /// The axis.
     pub axis: String,
@@ -76,6 +78,7 @@ pub struct PlantAxis {
 
 /// A predicted glitch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PredictedGlitch {
     /// The axis.
     pub axis: String,
@@ -90,6 +93,7 @@ pub struct PredictedGlitch {
 
 /// A recorded glitch, as a prediction is compared with it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedGlitch {
     /// The axis.
     pub axis: String,
@@ -105,6 +109,7 @@ pub struct RecordedGlitch {
 /// A recorded glitch at a feed that neither the fit nor the tuning has seen, or with a list that was tuned on the
 /// plant, beside its prediction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ComparedGlitch {
     /// The recorded glitch.
     #[serde(flatten)]
@@ -116,6 +121,7 @@ pub struct ComparedGlitch {
 
 /// A list that was tuned on the plant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TunedList {
     /// The axis.
     pub axis: String,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A measuring program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Program {
     /// The number of its signature, from 1 to 1023.
     pub number: u16,
@@ -23,6 +24,7 @@ pub struct Program {
 /// The measurement of a program; axes are places in the plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Measurement {
     /// Constant speeds of an axis in mm/s or °/s, slowest first, up and then down.
     Friction {
@@ -49,6 +51,7 @@ pub enum Measurement {
 
 /// A motion or a pause of a program.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PlanStep {
     /// A comment before what follows.
     Note(String),
@@ -78,6 +81,7 @@ pub enum PlanStep {
 
 /// The direction of an arc, from the first axis towards the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Turning {
     /// Counter-clockwise.
     Ccw,

@@ -62,6 +62,7 @@ pub struct FreeTravel {
 
 /// Friction compensation of an axis at the start of the control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Installed {
     /// P-AXIS-00522 is 0: no command changes anything.
     Unconfigured,

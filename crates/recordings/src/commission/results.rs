@@ -8,6 +8,7 @@ use super::strokes::StrokesFound;
 
 /// A recording in the folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordingResult {
     /// The file.
     pub file: String,
@@ -24,6 +25,7 @@ pub struct RecordingResult {
 /// Result of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Found {
     /// The friction of an axis.
     Friction(FrictionFound),
@@ -111,6 +113,7 @@ impl Found {
 
 /// Glitches at a feed with compensation off and on, as they were recorded: in µm, or 0.001° of an axis that turns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BeforeAfter {
     /// The planned feed in mm/min or °/min.
     pub feed: f64,

@@ -20,6 +20,7 @@ const LEAST_SEEN: f64 = 0.5;
 
 /// The strokes of a recorded program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StrokesFound {
     /// The axis.
     pub axis: String,
@@ -35,6 +36,7 @@ pub struct StrokesFound {
 
 /// The reversals of strokes at one feed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct FeedReversals {
     /// The planned feed in mm/min or °/min.
     pub feed: f64,
@@ -51,6 +53,7 @@ pub struct FeedReversals {
 
 /// A recording of strokes.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedStrokes<'a> {
     /// The motion.
     pub track: &'a Track,

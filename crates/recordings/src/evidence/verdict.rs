@@ -4,6 +4,7 @@ use frictcomp::readings::{Alternative, Question};
 
 /// Conclusion on one question from a recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Conclusion {
     /// The question.
     pub question: Question,

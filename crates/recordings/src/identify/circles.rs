@@ -11,6 +11,7 @@ use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
 /// Friction found on circles.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct OnCircles {
     /// Speeds in mm/s with the friction there in drive units, slowest first.
     pub points: Vec<[f64; 2]>,

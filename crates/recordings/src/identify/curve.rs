@@ -7,6 +7,7 @@ use super::statistics::count;
 
 /// Friction over speed.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum FrictionCurve {
     /// Coulomb, Stribeck and viscous friction.
     Fit(Fit),
@@ -16,6 +17,7 @@ pub enum FrictionCurve {
 
 /// `f(v) = Fc + (Fs - Fc)·exp(-(v/vs)^δ) + fv·v`, the friction in drive units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Fit {
     /// Coulomb friction Fc.
     pub coulomb: f64,

@@ -6,6 +6,7 @@ use frictcomp::diagnostic::{Code, Severity};
 
 /// A statement about a recording: a sentence in lower case, and what to do.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceFinding {
     /// Its number.
     pub code: Code,

@@ -84,6 +84,7 @@ impl IdentifyError {
 
 /// Values found in a recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Identified {
     /// The segments of constant speed.
     pub segments: Vec<Segment>,

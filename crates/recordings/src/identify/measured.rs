@@ -104,6 +104,7 @@ pub enum Contradiction {
 
 /// Known properties of a recorded torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Measured {
     /// Kind of torque; `None` where it is not known.
     pub kind: Option<TorqueKind>,

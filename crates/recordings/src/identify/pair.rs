@@ -15,6 +15,7 @@ const COMMON: f64 = 0.5;
 
 /// The friction at one speed.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Pair {
     /// The speed in mm/s or °/s.
     pub speed: f64,
@@ -32,6 +33,7 @@ pub struct Pair {
 
 /// A speed that was driven, in both directions where they follow each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Visit {
     /// When, in s.
     pub time_s: f64,
@@ -244,6 +246,7 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
 
 /// Change of friction over the recording, where speeds were visited more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Drift {
     /// By which part friction is larger at the end of the recording than at its beginning.
     pub part: f64,

@@ -35,6 +35,7 @@ enum Followed {
 
 /// Recording of an axis, with its remarks.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct AxisRecording {
     /// Motion and torque.
     pub track: Track,

@@ -11,6 +11,7 @@ use super::track::Samples;
 
 /// A torque that repeats with the position.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Ripple {
     /// The period in mm or degrees.
     pub period: f64,

@@ -32,6 +32,7 @@ const CUT_END: f64 = 0.1;
 
 /// Samples at one speed.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Segment {
     /// Samples in use.
     pub samples: Range<usize>,

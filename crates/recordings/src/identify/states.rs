@@ -7,6 +7,7 @@ const SAME: f64 = 0.05;
 
 /// Friction of one axis in several states, at the speeds of the state for which the list is.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ComparedStates {
     /// Slowest first.
     pub rows: Vec<StateRow>,
@@ -14,6 +15,7 @@ pub struct ComparedStates {
 
 /// The friction at one speed in each state.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct StateRow {
     /// The speed in mm/s or °/s.
     pub speed: f64,

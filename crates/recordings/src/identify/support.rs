@@ -4,6 +4,7 @@ use super::curve::FrictionCurve;
 
 /// Requested number of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Wanted {
     /// At most this many.
     Points(usize),

@@ -32,6 +32,7 @@ const SIGNIFICANT: f64 = 3.0;
 /// Part of the current of a list that is in a torque, and the interval of three standard errors around
 /// it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ActingShare {
     /// The part itself, 1 where all of the current is there.
     #[serde(serialize_with = "in_hundredths")]

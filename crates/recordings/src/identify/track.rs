@@ -6,6 +6,7 @@ use super::statistics::count;
 
 /// Samples of one axis at common, rising times.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Track {
     /// Times in s.
     pub times_s: Vec<f64>,

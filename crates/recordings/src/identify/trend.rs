@@ -16,6 +16,7 @@ const PART: f64 = 0.05;
 frictcomp::words! {
     /// A parameter of the friction.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
     pub enum FrictionParameter {
         /// Friction without the speed, Fc.
         Coulomb = "Fc",
@@ -30,6 +31,7 @@ frictcomp::words! {
 
 /// A value with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Level {
     /// The value, in drive units or drive units per mm/s.
     pub value: f64,
@@ -96,6 +98,7 @@ fn offset_error(found: &Identified) -> f64 {
 
 /// A parameter that changed between two recordings, which are named by their places.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct FrictionChange {
     /// The parameter.
     pub parameter: FrictionParameter,

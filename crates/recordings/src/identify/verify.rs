@@ -12,6 +12,7 @@ use frictcomp_physics::current::{
 
 /// Fit of a value list to a recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Verified {
     /// Recorded friction as a part of the predicted one, over all speeds.
     pub scale: f64,
@@ -35,6 +36,7 @@ pub struct Verified {
 
 /// A range of speeds with its scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ScaleRange {
     /// The slowest speed of the range, in mm/s or °/s.
     pub from: f64,
@@ -46,6 +48,7 @@ pub struct ScaleRange {
 
 /// A change of direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Reversal {
     /// When, in s.
     pub time_s: f64,

@@ -11,6 +11,7 @@ use super::select::Pick;
 
 /// Samples of several channels at the same times.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Aligned {
     /// The times in seconds, rising.
     pub times_s: Vec<f64>,

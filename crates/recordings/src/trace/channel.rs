@@ -15,6 +15,7 @@ impl ChannelIndex {
 
 /// A recorded signal.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Channel {
     /// Its name in the file; without a header `column 1` and so on.
     pub name: String,
@@ -38,6 +39,7 @@ pub struct Channel {
 
 /// Factor and offset with which Scope draws a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ScopeDrawing {
     /// `ScaleFactor`.
     pub factor: f64,
@@ -120,6 +122,7 @@ impl ScopeDrawing {
 
 /// An object of the CNC as ADS addresses it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CncObject {
     /// The index group: which part of the control.
     pub group: u32,

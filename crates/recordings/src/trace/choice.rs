@@ -17,6 +17,7 @@ pub struct Choice {
 
 /// Source of the times of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum TimeSource {
     /// From the columns of times that the layout has; a table with a header has none.
     #[default]

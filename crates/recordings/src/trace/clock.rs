@@ -2,6 +2,7 @@
 
 /// Properties of a column of times.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Clock {
     /// The usual time between two samples.
     pub step_s: Option<f64>,

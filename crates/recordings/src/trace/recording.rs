@@ -32,6 +32,7 @@ impl Layout {
 
 /// Cells of a channel that hold no number.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Missing {
     /// Number of them.
     pub count: u64,

@@ -8,6 +8,7 @@ use frictcomp::diagnostic::did_you_mean;
 
 /// Selection of the channels of a trace by the user.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ChannelSelection {
     /// The axis whose channels are meant, by its name or its number.
     pub axis: Option<String>,
@@ -29,6 +30,7 @@ pub struct ChannelSelection {
 
 /// A channel that was found, with what makes the units of lists and traces of its samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Pick {
     /// Index of the channel.
     pub channel: ChannelIndex,

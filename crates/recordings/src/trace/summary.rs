@@ -6,6 +6,7 @@ use super::recording::TraceRecording;
 
 /// A channel at a glance.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ChannelSummary<'a> {
     /// Description of the channel.
     pub channel: &'a Channel,

@@ -30,6 +30,7 @@ impl ChannelQuantity {
 
 /// Along what an axis moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum AxisMotion {
     /// Along a line.
     Linear,
@@ -39,6 +40,7 @@ pub enum AxisMotion {
 
 /// A unit that a file names.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Unit {
     /// Quantity.
     pub quantity: ChannelQuantity,

@@ -14,6 +14,7 @@ pub struct AuditReport {
 
 /// The programs of one machine.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct MachineAudit {
     /// The configuration or start-up list of the machine, where there is one.
     pub origin: Option<String>,

@@ -14,6 +14,7 @@ const LISTED: usize = 10;
 
 /// Length at which tables and lists are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Length {
     /// The dangerous part; the rest is counted.
     Folded,

@@ -37,6 +37,7 @@ impl ListOrigin {
 
 /// Report on a circular test.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct CircleReport {
     /// Driven circle.
     pub subject: Subject,
@@ -63,6 +64,7 @@ pub enum Subject {
 
 /// Paths under a name, with what they suggest.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct NamedSide {
     /// `off`, `on` or `recorded`.
     pub name: &'static str,

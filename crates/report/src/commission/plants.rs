@@ -12,6 +12,7 @@ use crate::visible::visible_line;
 
 /// The plants of all rounds.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Plants {
     /// A plant for each round whose circles are recorded.
     pub verdicts: Vec<PlantVerdict>,
@@ -21,6 +22,7 @@ pub struct Plants {
 
 /// A plant, and what the recordings say about it.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PlantVerdict {
     /// The plant.
     #[serde(flatten)]

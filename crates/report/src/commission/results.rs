@@ -32,6 +32,7 @@ impl Results {
 
 /// The list of an axis, or the reasons for which there is none.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisVerdict {
     /// The axis.
     pub axis: String,
@@ -95,6 +96,7 @@ pub struct Round {
 /// Where friction shows in the recordings of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Shows {
     /// On circles of two axes.
     Contour,

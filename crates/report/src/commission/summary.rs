@@ -35,6 +35,7 @@ pub struct ValueListUsed {
 
 /// The content of `plan.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PlanFile {
     /// The form of this file.
     pub schema: u32,

@@ -11,6 +11,7 @@ use frictcomp_physics::contour::{
 
 /// Driven program, and its start.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct GoldenContour {
     /// Path of the program.
     pub program: String,

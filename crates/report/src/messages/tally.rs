@@ -7,6 +7,7 @@ use frictcomp::timeline::ReadingsInForce;
 
 /// Number of files examined, and of diagnostics of each severity.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Tally {
     /// Files that were looked at.
     pub files: u64,

@@ -36,6 +36,7 @@ struct Spot {
 
 /// A contour on which a block is found, and a block on which its place is.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FollowedContour {
     /// The path without the deviation over time.
     pub chart: PlaneChart,
@@ -47,6 +48,7 @@ pub struct FollowedContour {
 
 /// What a block drives of the path.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct BlockStretch {
     /// Its file.
     pub file: Arc<str>,
@@ -58,6 +60,7 @@ pub struct BlockStretch {
 
 /// A reversal with its words.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct WorstReversal {
     /// The file of its block.
     pub file: Arc<str>,

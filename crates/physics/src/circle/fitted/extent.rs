@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A parameter with its 95 % range.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Extent {
     /// The value that fits best.
     pub value: f64,

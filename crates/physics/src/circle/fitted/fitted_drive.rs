@@ -25,6 +25,7 @@ const SHAPE: f64 = 0.02;
 
 /// The drive that fits the reversals, and how well its parameters are known.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FittedDrive {
     /// The drive.
     pub drive: DriveParameters,

@@ -21,6 +21,7 @@ pub struct ObservedCircle {
 
 /// An axis on recorded circles, and the drive that is assumed before they are looked at.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct DriveFit {
     /// The axis.
     pub axis: PlaneAxis,

@@ -56,6 +56,7 @@ pub struct Learner {
 
 /// The list of the next round.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Proposal {
     /// The list.
     pub list: FrictionList,

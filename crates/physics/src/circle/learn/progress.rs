@@ -12,6 +12,7 @@ const SMALLER: f64 = 0.5;
 
 /// Judgement of a round.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RoundVerdict {
     /// The largest recorded glitch.
     #[serde(rename = "glitch")]
@@ -25,6 +26,7 @@ pub struct RoundVerdict {
 
 /// The progress of an axis over its rounds (R16.4).
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LearningProgress {
     /// The judgement of each round.
     pub verdicts: Vec<RoundVerdict>,

@@ -27,6 +27,7 @@ pub struct RecordedTwice([Reversals; 2]);
 
 /// An axis in one round: a list, and the circles that were recorded with it.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LearnedRound {
     /// The list.
     pub list: FrictionList,
@@ -39,6 +40,7 @@ pub struct LearnedRound {
 #[error(
     "at {speed_mm_per_s:.3} mm/s it adds {part:.2} times the measured friction, and {most} times are the most"
 )]
+#[non_exhaustive]
 pub struct TooMuchCurrent {
     /// The speed at which it adds most.
     pub speed_mm_per_s: f64,

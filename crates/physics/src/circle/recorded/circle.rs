@@ -45,6 +45,7 @@ pub struct RecordedCircle {
 
 /// The rest of a recording besides the evaluated turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LeftOut {
     /// Rows that repeat the one before them, of the whole recording.
     pub repeated: usize,

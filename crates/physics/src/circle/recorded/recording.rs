@@ -9,6 +9,7 @@ use crate::circle::figures::{Nominal, Paths};
 
 /// One or two recorded circles with their figures.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Recording {
     /// The circles.
     pub circles: Vec<RecordedCircle>,

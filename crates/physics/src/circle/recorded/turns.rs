@@ -19,6 +19,7 @@ const WORSE_UM: f64 = 0.5;
 
 /// The whole turns of a recorded circle: at least two, without its first and last eighth of a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct WholeTurns {
     /// Their number.
     pub count: usize,
@@ -29,6 +30,7 @@ pub struct WholeTurns {
 
 /// A turn that leaves more at a crossing than the evaluated one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct WorseTurn {
     /// Its direction of travel.
     pub direction: Direction,

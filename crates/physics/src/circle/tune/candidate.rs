@@ -7,6 +7,7 @@ use frictcomp::lists::{FrictionList, Points};
 
 /// The four parameters that are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[non_exhaustive]
 pub struct Candidate {
     /// P-COMP-00043, in 0.1 µm.
     pub position_delay: i32,

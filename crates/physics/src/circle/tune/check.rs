@@ -64,6 +64,7 @@ impl Deviating {
 
 /// Remaining glitch of a list at one acceleration, in µm: the largest over the axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Checked {
     /// The acceleration v²/R at the reversal in mm/s².
     #[serde(rename = "acceleration")]

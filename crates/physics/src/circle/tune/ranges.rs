@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 /// Between which values parameters are searched.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Ranges {
     /// P-COMP-00043.
     pub position_delay: RangeInclusive<i32>,

@@ -18,6 +18,7 @@ use frictcomp::lists::FrictionList;
 
 /// The largest glitches on one circle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct FeedResult {
     /// The feed.
     #[serde(rename = "feed")]
@@ -51,6 +52,7 @@ impl FeedResult {
 
 /// Result for an axis.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TunedAxis {
     /// The best compensation: a value list as it is written, or stiction compensation; none for an
     /// axis without it beside one that has it.
@@ -74,6 +76,7 @@ impl TunedAxis {
 /// A robust list against one for the plant alone: the largest glitch over the range, on the plant and on
 /// machines that deviate from it (R5.29).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Robust {
     /// Whether it gains 5 % or more and costs a quarter at most on the plant; else the other list is kept.
     pub is_taken: bool,
@@ -87,6 +90,7 @@ pub struct Robust {
 
 /// The result of a tuning.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Tuned {
     /// X and Y; both the same where their drives are equal.
     pub axes: [TunedAxis; 2],

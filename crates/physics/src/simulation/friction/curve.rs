@@ -7,6 +7,7 @@ pub(super) const LEAST_N: f64 = 1e-9;
 
 /// One element of the Maxwell-slip model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct GmsElement {
     /// Its share of the friction, α; the shares of all elements add up to 1.
     pub share: f64,
@@ -16,6 +17,7 @@ pub struct GmsElement {
 
 /// The friction of one axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Friction {
     /// Coulomb friction Fc.
     pub coulomb_n: f64,

@@ -1,0 +1,25 @@
+//! The files of the repository that tests go over.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::workspace::root;
+
+/// The files below a folder with one of the extensions, sorted.
+pub(crate) fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
+    let mut folders = vec![root().join(folder)];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let extension = path.extension().and_then(|it| it.to_str());
+            if path.is_dir() {
+                folders.push(path);
+            } else if extension.is_some_and(|it| extensions.contains(&it)) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}

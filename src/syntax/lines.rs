@@ -69,8 +69,9 @@ impl<S: LineSource> BlockReader<S> {
         self.remarks.lost()
     }
 
-    /// Appends the lines that were not read yet, each with a line end.
+    /// Appends the lines that were not read yet, each with a line end. No block follows the remarks before them.
     pub fn append_rest(&mut self, text: &mut String) {
+        self.remarks.end();
         self.source.append_rest(text);
     }
 
@@ -111,7 +112,10 @@ impl<S: LineSource> BlockReader<S> {
                     plain: false,
                     remark: match stretch {
                         Stretch::Block => self.remarks.above(line),
-                        Stretch::Program { .. } => None,
+                        Stretch::Program { .. } => {
+                            self.remarks.end();
+                            None
+                        }
                     },
                 });
             }

@@ -50,7 +50,11 @@ impl Remarks {
     /// Returns the remark directly above a block that begins on a line.
     #[inline]
     pub(super) fn above(&mut self, line: u32) -> Option<&Remark> {
-        if self.last == 0 || self.last + 1 != line {
+        if self.last == 0 {
+            return None;
+        }
+        if self.last + 1 != line {
+            self.end();
             return None;
         }
         self.is_heard = true;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
 
@@ -84,20 +85,17 @@ pub fn render_text(report: &IdentifyReport) -> String {
     );
     out.push_str(offset_words(found));
     push_curve(&mut out, found);
-    let _ = writeln!(
+    let mut table = Table::of_numbers(["in", "out"]);
+    table.row(&[&"µm/s", &report.unit()]);
+    for point in &found.points {
+        table.row(&[&point.input, &Rounded(point.output, 3)]);
+    }
+    let _ = write!(
         out,
-        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n{:>10} {:>10}\n{:>10} {:>10}",
+        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n{table}",
         found.points.len(),
         found.point_error,
-        "in",
-        "out",
-        "µm/s",
-        report.unit()
     );
-    for point in &found.points {
-        let output = Rounded(point.output, 3);
-        let _ = writeln!(out, "{:>10} {output:>10}", point.input);
-    }
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
@@ -105,26 +103,22 @@ pub fn render_text(report: &IdentifyReport) -> String {
 }
 
 fn push_pairs(out: &mut String, found: &Identified) {
-    let _ = writeln!(
-        out,
-        "{:>10} {:>10} {:>8} {:>10} {:>10} {:>7}\n{:>10}",
-        "speed", "friction", "±", "offset", "residual", "visits", "mm/s"
-    );
+    let mut table = Table::of_numbers(["speed", "friction", "±", "offset", "residual", "visits"]);
+    table.row(&[&"mm/s"]);
     for pair in &found.pairs {
         let offset = pair.offset.map_or("one-sided".to_owned(), |offset| {
             Rounded(offset, 3).to_string()
         });
-        let _ = writeln!(
-            out,
-            "{:>10.3} {:>10} {:>8.3} {:>10} {:>10} {:>7}",
-            pair.speed,
-            Rounded(pair.friction, 3),
-            pair.error,
-            offset,
-            Rounded(pair.friction - found.curve.at(pair.speed), 3),
-            pair.visits.len()
-        );
+        table.row(&[
+            &format_args!("{:.3}", pair.speed),
+            &Rounded(pair.friction, 3),
+            &format_args!("{:.3}", pair.error),
+            &offset,
+            &Rounded(pair.friction - found.curve.at(pair.speed), 3),
+            &pair.visits.len(),
+        ]);
     }
+    let _ = write!(out, "{table}");
 }
 
 /// Returns the use of an offset, in words.

@@ -8,6 +8,7 @@ use super::assumptions::not_modelled_line;
 use super::commission::ValueListUsed;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::circle::RoundVerdict;
 
@@ -145,23 +146,26 @@ pub fn render_text(report: &LearnReport) -> String {
         let feeds: Vec<String> = report.feeds.iter().map(|it| format!("{it:.0}")).collect();
         let _ = writeln!(
             out,
-            "circles at {} mm/min, each recorded twice; the plant {} gives the direction\n{}\n\n\
-             round  axis  glitch µm   spread  predicted",
+            "circles at {} mm/min, each recorded twice; the plant {} gives the direction\n{}\n",
             feeds.join(", "),
             visible_line(&report.plant),
             not_modelled_line(&report.not_modelled)
         );
-    }
-    for axis in &report.axes {
-        rounds(&mut out, report, axis);
+        let _ = write!(out, "{}", rounds(report));
     }
     next(&mut out, report);
     out
 }
 
-/// The rounds of an axis.
-fn rounds(out: &mut String, report: &LearnReport, axis: &LearnedAxis) {
-    for (at, round) in axis.rounds.iter().enumerate() {
+/// The rounds of all axes.
+fn rounds(report: &LearnReport) -> Table {
+    let table = Table::of_numbers(["round"]).left("axis").right("glitch µm");
+    let mut table = table.right("spread").right("predicted").left("");
+    let rounds = report
+        .axes
+        .iter()
+        .flat_map(|axis| axis.rounds.iter().enumerate().map(move |it| (axis, it)));
+    for (axis, (at, round)) in rounds {
         let predicted = report.predictions.get(at);
         let predicted = predicted.and_then(|it| it[usize::from(axis.axis != "X")]);
         let number = predicted.map_or("-".to_owned(), |it| format!("{:.2}", it.glitch_um));
@@ -171,20 +175,21 @@ fn rounds(out: &mut String, report: &LearnReport, axis: &LearnedAxis) {
             (_, false) => "no gain: back to the best, half the step",
         };
         let missed = predicted.is_some_and(|it| it.is_missed_by(round.worst_um));
-        let _ = writeln!(
-            out,
-            "{:>5}  {:<4}  {:>9.2}  {:>7.2}  {number:>9}  {verdict}{}",
-            at + 1,
-            axis.axis,
-            round.worst_um,
-            round.spread_um,
-            if missed {
-                "; the prediction missed it"
-            } else {
-                ""
-            }
-        );
+        let missed = if missed {
+            "; the prediction missed it"
+        } else {
+            ""
+        };
+        table.row(&[
+            &(at + 1),
+            &axis.axis,
+            &format_args!("{:.2}", round.worst_um),
+            &format_args!("{:.2}", round.spread_um),
+            &number,
+            &format_args!("{verdict}{missed}"),
+        ]);
     }
+    table
 }
 
 /// The next step.

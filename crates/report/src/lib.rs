@@ -47,6 +47,7 @@ pub mod states;
 pub mod stiction;
 mod strings;
 pub mod svg;
+mod table;
 mod text;
 mod timeline_format;
 pub mod trace;

@@ -8,6 +8,7 @@ use super::findings::write_findings;
 use super::identify::PointRecord;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
 
@@ -71,20 +72,14 @@ pub fn render_text(report: &OnCirclesReport) -> String {
         names.join(", "),
         axis.unwrap_or_default()
     );
-    let _ = writeln!(
-        out,
-        "{:>10} {:>12}\n{:>10} {:>12}",
-        "speed",
-        "friction",
-        "mm/s",
-        report.unit()
-    );
+    let mut table = Table::of_numbers(["speed", "friction"]);
+    table.row(&[&"mm/s", &report.unit()]);
     for [speed, friction] in &found.points {
-        let _ = writeln!(out, "{speed:>10.3} {:>12}", Rounded(*friction, 3));
+        table.row(&[&format_args!("{speed:.3}"), &Rounded(*friction, 3)]);
     }
     let _ = writeln!(
         out,
-        "\noffset {}, inertia {} per mm/s²",
+        "{table}\noffset {}, inertia {} per mm/s²",
         Rounded(found.offset, 3),
         Rounded(found.inertia, 6)
     );

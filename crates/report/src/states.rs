@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::identify::{self, IdentifyReport};
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::ComparedStates;
 
@@ -59,36 +60,30 @@ impl StatesReport {
 
 /// The states side by side, then the one for which the list is.
 pub fn render_text(report: &StatesReport) -> String {
-    let mut out = String::from("friction in each state, with its standard error\n\n     speed");
-    for (name, _) in &report.states {
-        let _ = write!(out, " {:>20}", visible_line(name));
-    }
-    out.push_str("   spread\n      mm/s\n");
+    let mut out = String::from("friction in each state, with its standard error\n\n");
+    let names = report.states.iter().map(|(name, _)| visible_line(name));
+    let table = names.fold(Table::of_numbers(["speed"]), Table::right);
+    let mut table = table.right("spread");
+    table.row(&[&"mm/s"]);
     for row in &report.compared.rows {
-        let _ = write!(out, "{:>10.3}", row.speed);
-        for friction in &row.frictions {
-            let shown =
-                friction.map(|[value, error]| format!("{} ± {error:.3}", Rounded(value, 3)));
-            let _ = write!(
-                out,
-                " {:>20}",
-                shown.unwrap_or_else(|| "not recorded".to_owned())
-            );
-        }
+        let frictions = row.frictions.iter().map(|friction| match friction {
+            Some([value, error]) => format!("{} ± {error:.3}", Rounded(*value, 3)),
+            None => "not recorded".to_owned(),
+        });
         let spread = row.spread.map(|it| format!("{:.1} %", it * 100.0));
-        let _ = writeln!(out, " {:>8}", spread.unwrap_or_else(|| "-".to_owned()));
+        let mut cells = vec![format!("{:.3}", row.speed)];
+        cells.extend(frictions);
+        cells.push(spread.unwrap_or_else(|| "-".to_owned()));
+        table.cells(cells);
     }
-    out.push_str("    offset");
-    for (_, state) in &report.states {
-        let _ = write!(
-            out,
-            " {:>20}",
-            Rounded(state.identified.offset, 3).to_string()
-        );
-    }
+    let mut cells = vec!["offset".to_owned()];
+    let offsets = report.states.iter().map(|(_, it)| it.identified.offset);
+    cells.extend(offsets.map(|offset| Rounded(offset, 3).to_string()));
+    table.cells(cells);
+    let _ = write!(out, "{table}");
     let _ = writeln!(
         out,
-        "\n\n{}\n\nthe list is for `{}`:",
+        "\n{}\n\nthe list is for `{}`:",
         report.spread(),
         visible_line(report.working_name())
     );

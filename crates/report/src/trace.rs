@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 
 /// A trace as it was read.
@@ -17,7 +18,7 @@ pub struct TraceReport<'a> {
     pub recording: &'a TraceRecording,
 }
 
-/// The channels for people, one a line, with what is odd about them.
+/// The channels for people, one a line, then what is odd about them.
 pub fn render_text(report: &TraceReport<'_>) -> String {
     let mut out = String::new();
     let recording = report.recording;
@@ -28,13 +29,17 @@ pub fn render_text(report: &TraceReport<'_>) -> String {
         recording.layout().as_str(),
         recording.channels().len()
     );
-    let _ = writeln!(
-        out,
-        "{:>8} {:>9} {:>10} {:>14} {:>14}  {:<9} channel",
-        "samples", "every ms", "length s", "least", "greatest", "unit"
-    );
+    let table = Table::of_numbers(["samples", "every ms", "length s", "least", "greatest"]);
+    let mut table = table.left("unit").left("channel");
     for summary in recording.summaries() {
-        push_channel(&mut out, &summary);
+        push_channel(&mut table, &summary);
+    }
+    let _ = write!(out, "{table}");
+    for summary in recording.summaries() {
+        for odd in oddities(&summary) {
+            let name = visible_line(&summary.channel.name);
+            let _ = writeln!(out, "\nnote: `{name}`: {odd}");
+        }
     }
     for remark in recording.remarks() {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
@@ -42,7 +47,7 @@ pub fn render_text(report: &TraceReport<'_>) -> String {
     out
 }
 
-fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
+fn push_channel(table: &mut Table, summary: &ChannelSummary<'_>) {
     let channel = summary.channel;
     let clock = summary.clock.as_ref();
     let step = clock
@@ -53,17 +58,6 @@ fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
         .range
         .map_or([None, None], |range| range.map(|it| Some(number(it))));
     let shown = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-    let _ = write!(
-        out,
-        "{:>8} {:>9} {:>10} {:>14} {:>14}  {:<9} {}",
-        summary.samples,
-        shown(step),
-        shown(length),
-        shown(least),
-        shown(greatest),
-        visible_line(channel.unit.as_deref().unwrap_or("-")),
-        visible_line(&channel.name)
-    );
     let object = channel
         .object
         .map(|object| object.to_string())
@@ -74,12 +68,25 @@ fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
         .filter(|text| !text.is_empty() && **text != channel.name)
         .map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "))
         .collect();
+    let mut name = visible_line(&channel.name).into_owned();
     if !known.is_empty() {
-        let _ = write!(out, " ({})", visible_line(&known.join("; ")));
+        let _ = write!(name, " ({})", visible_line(&known.join("; ")));
     }
-    out.push('\n');
+    table.row(&[
+        &summary.samples,
+        &shown(step),
+        &shown(length),
+        &shown(least),
+        &shown(greatest),
+        &visible_line(channel.unit.as_deref().unwrap_or("-")),
+        &name,
+    ]);
+}
+
+/// What is odd about a channel.
+fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     let mut odd = Vec::new();
-    if let Some(clock) = clock {
+    if let Some(clock) = &summary.clock {
         if clock.gaps > 0 {
             odd.push(format!(
                 "{} gaps, the longest of {} ms after {} s",
@@ -95,20 +102,18 @@ fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
     if summary.missing > 0 {
         odd.push(format!("{} samples are no numbers", summary.missing));
     }
-    if let Some(drawn) = &channel.drawn {
+    if let Some(drawn) = &summary.channel.drawn {
         odd.push(format!(
             "drawn by Scope with the factor {} and the offset {}",
             drawn.factor, drawn.offset
         ));
     }
-    if let Some([factor, offset]) = channel.unit_scale {
+    if let Some([factor, offset]) = summary.channel.unit_scale {
         odd.push(format!(
             "the unit is scaled by Scope, with the factor {factor} and the offset {offset}"
         ));
     }
-    for odd in odd {
-        let _ = writeln!(out, "{:>8} {odd}", "");
-    }
+    odd
 }
 
 /// A number with at most six digits that count.

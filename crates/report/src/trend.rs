@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionParameter};
 
 /// The friction of an axis on some dates.
@@ -50,26 +51,25 @@ pub fn render_text(report: &TrendReport) -> String {
         report.dates.len(),
         visible_line(&report.unit)
     );
-    let _ = write!(out, "{:<10}", "date");
-    for parameter in FrictionParameter::ALL {
-        let _ = write!(out, " {:>19}", parameter.as_str());
-    }
-    out.push('\n');
+    let names = FrictionParameter::ALL.iter().map(|it| it.as_str());
+    let table = names.fold(Table::default().left("date"), Table::right);
+    let mut table = table.left("recording");
     for dated in &report.dates {
-        out.push_str(&dated.date);
-        for parameter in FrictionParameter::ALL {
+        let levels = FrictionParameter::ALL.iter().map(|&parameter| {
             let level = dated.levels.get(parameter);
             let digits = if parameter == FrictionParameter::Viscous {
                 4
             } else {
                 2
             };
-            let shown = format!("{:.digits$} ± {:.digits$}", level.value, level.error);
-            let _ = write!(out, " {shown:>19}");
-        }
-        let _ = writeln!(out, "  {}", visible_line(&dated.file));
+            format!("{:.digits$} ± {:.digits$}", level.value, level.error)
+        });
+        let mut cells = vec![dated.date.clone()];
+        cells.extend(levels);
+        cells.push(visible_line(&dated.file).into_owned());
+        table.cells(cells);
     }
-    out.push('\n');
+    let _ = writeln!(out, "{table}");
     for change in &report.changes {
         let _ = writeln!(out, "{}", sentence(report, change));
     }

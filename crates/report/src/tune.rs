@@ -8,6 +8,7 @@ use super::assumptions::not_modelled_line;
 use super::circle::stiction_line;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::Checked;
 use frictcomp_physics::circle::Robust;
@@ -122,29 +123,33 @@ pub fn render_text(reports: &[TuneReport]) -> String {
             checked(&report.tuned),
             not_modelled_line(&report.not_modelled)
         );
-        let _ = writeln!(
-            out,
-            "v\u{b2}/R mm/s\u{b2}  feed mm/min  radius mm   glitch \u{b5}m  off      on   friction \
-             -20 %   friction +20 %"
-        );
+        let headings = [
+            "v\u{b2}/R mm/s\u{b2}",
+            "feed mm/min",
+            "radius mm",
+            "glitch \u{b5}m off",
+            "on",
+            "friction -20 %",
+            "friction +20 %",
+        ];
+        let mut table = Table::of_numbers(headings);
         let mut rows: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
         rows.sort_by(|one, other| {
             let by = |it: &FeedResult| it.acceleration_mm_per_s2;
             by(one).total_cmp(&by(other))
         });
         for row in rows {
-            let _ = writeln!(
-                out,
-                "{:>10.3}{:>13}{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
-                row.acceleration_mm_per_s2,
-                short(row.feed_mm_per_min),
-                short(row.radius_mm),
-                row.glitch_off_um,
-                row.glitch_on_um,
-                row.glitch_friction_minus20_um,
-                row.glitch_friction_plus20_um
-            );
+            table.row(&[
+                &format_args!("{:.3}", row.acceleration_mm_per_s2),
+                &short(row.feed_mm_per_min),
+                &short(row.radius_mm),
+                &format_args!("{:.3}", row.glitch_off_um),
+                &format_args!("{:.3}", row.glitch_on_um),
+                &format_args!("{:.3}", row.glitch_friction_minus20_um),
+                &format_args!("{:.3}", row.glitch_friction_plus20_um),
+            ]);
         }
+        let _ = write!(out, "{table}");
     }
     out
 }

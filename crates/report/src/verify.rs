@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::{AxisRecording, Timing, TraceFinding, Verified};
 
@@ -40,23 +41,17 @@ pub fn render_text(report: &VerifyReport) -> String {
         let _ = writeln!(out, "{line}");
     }
     let _ = writeln!(out, "{}", verified.timing.sentence());
-    let _ = writeln!(
-        out,
-        "\n{:>12} {:>12} {:>20}",
-        "from mm/s", "to mm/s", "recorded/predicted"
-    );
+    let mut table = Table::of_numbers(["from mm/s", "to mm/s", "recorded/predicted"]);
     for range in &verified.ranges {
-        let _ = writeln!(
-            out,
-            "{:>12.2} {:>12.2} {:>20}",
-            range.from,
-            range.to,
-            Rounded(range.scale, 3)
-        );
+        table.row(&[
+            &format_args!("{:.2}", range.from),
+            &format_args!("{:.2}", range.to),
+            &Rounded(range.scale, 3),
+        ]);
     }
     let _ = writeln!(
         out,
-        "\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
+        "\n{table}\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
         Rounded(verified.scale, 3),
         Rounded(verified.offset, 3),
         Rounded(verified.inertia, 6),
@@ -64,20 +59,15 @@ pub fn render_text(report: &VerifyReport) -> String {
     );
     if !verified.reversals.is_empty() {
         const SHOWN: usize = 20;
-        let _ = writeln!(
-            out,
-            "\n{:>12} {:>12} {:>12}",
-            "reversal s", "recorded", "predicted"
-        );
+        let mut table = Table::of_numbers(["reversal s", "recorded", "predicted"]);
         for turn in verified.reversals.iter().take(SHOWN) {
-            let _ = writeln!(
-                out,
-                "{:>12.3} {:>12} {:>12}",
-                turn.time_s,
-                Rounded(turn.recorded, 3),
-                Rounded(turn.predicted, 3)
-            );
+            table.row(&[
+                &format_args!("{:.3}", turn.time_s),
+                &Rounded(turn.recorded, 3),
+                &Rounded(turn.predicted, 3),
+            ]);
         }
+        let _ = write!(out, "\n{table}");
         let more = verified.reversals.len().saturating_sub(SHOWN);
         if more > 0 {
             let _ = writeln!(out, "and {more} more, in the JSON");

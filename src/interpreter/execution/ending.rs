@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Compensation, KindSet};
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
 use crate::interpreter::programs::unit::Unit;
@@ -66,7 +66,7 @@ impl Interpreter {
         {
             notes.to_mut().push(open);
         }
-        let beside = self.beside_blocks();
+        let beside = self.beside_blocks(by);
         if !beside.is_empty() {
             notes.to_mut().append(&beside);
         }
@@ -152,20 +152,27 @@ impl Interpreter {
 
     /// Blocks that no run of the program and of the files that it calls reached, for their syntax.
     pub(in crate::interpreter) fn check_all_unexecuted(&self, notes: &mut Collected) {
-        let main = self.programs.units().first();
-        for other in main.into_iter().flat_map(|unit| unit.index.other_mains()) {
-            notes.push(other);
-        }
-        for unit in self.programs.units() {
-            self.check_unexecuted_of(unit, notes);
+        for (number, unit) in self.programs.units().iter().enumerate() {
+            let others = unit.index.other_mains().filter(|_| number == 0);
+            self.check_unexecuted_of(unit, others, notes);
         }
     }
 
-    fn check_unexecuted_of(&self, unit: &Unit, notes: &mut Collected) {
+    /// The messages on the blocks of a file, each program that is never run before its blocks.
+    fn check_unexecuted_of(
+        &self,
+        unit: &Unit,
+        never_run: impl Iterator<Item = (EntryIndex, Diagnostic)>,
+        notes: &mut Collected,
+    ) {
+        let mut never_run = never_run.peekable();
         let file = unit.index.source.name();
         let mut unread_up_to = 0;
         for place in 0..unit.index.entries.len() {
             let entry = Span::new(place, place).start;
+            while let Some((_, said)) = never_run.next_if(|(start, _)| *start <= entry) {
+                notes.push(said);
+            }
             if unit.executed[place] {
                 // Branches that `#IF` left out are not read at all (R2.73).
                 let decided = !unit.undecided.contains(&entry);

@@ -4,6 +4,8 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::interpreter::programs::unit::Unit;
+use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::syntax::{LostRemarks, Remark, allow};
@@ -11,23 +13,37 @@ use crate::text::{Place, changed_direction};
 
 impl Interpreter {
     /// Returns the messages on the `%` lines of the main file, and on comments for this tool in all
-    /// files, or up to the last block of each that was reached where the rest is not checked.
-    pub(in crate::interpreter) fn beside_blocks(&mut self) -> Collected {
+    /// files, or up to where each was reached where the rest is not checked.
+    pub(in crate::interpreter) fn beside_blocks(&mut self, by: EndedBy) -> Collected {
         let mut said = std::mem::take(&mut self.lost);
-        if let Some(main) = self.programs.units().first() {
-            said.append(&main.index.openings);
-        }
-        for unit in self.programs.units() {
-            let reached = unit.high.checked_sub(1);
-            let last = reached.and_then(|last| unit.index.entries.get(last as usize));
-            let last = match self.options.stop {
-                StopPolicy::CheckAll => u32::MAX,
-                StopPolicy::FirstError | StopPolicy::KeepGoing => last.map_or(0, |last| last.line),
-            };
-            let file = unit.index.source.name();
-            gather(file, &unit.index.lost, last, &mut said);
+        for (number, unit) in self.programs.units().iter().enumerate() {
+            let until = self.reached_line(number, unit, by);
+            let openings = &unit.index.openings;
+            match (number, until) {
+                (0, u32::MAX) => said.append(openings),
+                (0, _) => {
+                    let reached = openings.said.iter();
+                    said.extend(reached.filter(|it| it.place.first_line <= until).cloned());
+                }
+                _ => {}
+            }
+            gather(unit.index.source.name(), &unit.index.lost, until, &mut said);
         }
         said
+    }
+
+    /// The last line of a file that was reached, or more than all lines where the rest is checked, too.
+    fn reached_line(&self, number: usize, unit: &Unit, by: EndedBy) -> u32 {
+        if self.options.stop == StopPolicy::CheckAll {
+            return u32::MAX;
+        }
+        let has_fallen_through = self.state.last.is_some() || unit.high == 0;
+        if number == 0 && by == EndedBy::EndOfFile && has_fallen_through {
+            return unit.index.end_of_main();
+        }
+        let last = unit.high.checked_sub(1);
+        let last = last.and_then(|last| unit.index.entries.get(last as usize));
+        last.map_or(0, |last| last.line)
     }
 
     /// Keeps in mind what there is to say about lines that are not kept.

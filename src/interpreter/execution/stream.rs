@@ -92,7 +92,9 @@ impl Interpreter {
             if raw.stretch == Stretch::Block {
                 notes.extend(never_begun.take().map(never_run));
             }
-            if !raw.plain && (needs_rest(&raw, &block) || self.names_others(&block)) {
+            // Both ways of a block that may be skipped are followed, with what comes after them (R14.1).
+            let may_be_skipped = self.undecided_level(&block).is_some();
+            if may_be_skipped || (!raw.plain && needs_rest(&raw, &block)) {
                 let (mut text, first) = opening(&raw);
                 reader.append_rest(&mut text);
                 self.note_lost(&file, reader.lost_remarks());
@@ -196,11 +198,6 @@ impl Interpreter {
             return outcome;
         }
         self.end_of_lines(stage, &progress.notes, observer)
-    }
-
-    /// Whether a message about the skip level of a block would name what others of the level do.
-    fn names_others(&self, block: &Block) -> bool {
-        self.undecided_level(block).is_some() && !block.items.is_empty()
     }
 
     /// Whether a block is passed over on the way to the one that M17 returned to.

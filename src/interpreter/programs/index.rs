@@ -147,13 +147,23 @@ impl Index {
         Some(said.with_help("begin the main program with `%NAME`"))
     }
 
-    /// FC324 for every main program with blocks but the one that runs. A `%` alone may end a file.
-    pub(in crate::interpreter) fn other_mains(&self) -> impl Iterator<Item = Diagnostic> {
+    /// FC324 for every main program with blocks but the one that runs, with its first block. A `%` alone may end a
+    /// file.
+    pub(in crate::interpreter) fn other_mains(
+        &self,
+    ) -> impl Iterator<Item = (EntryIndex, Diagnostic)> {
         let others = self.sections.iter().enumerate();
         let others = others.filter(|(number, section)| {
             !section.local && section.end > section.start && self.main != Some(*number)
         });
-        others.filter_map(|(_, section)| Some(never_run(section.opening.clone()?)))
+        others.filter_map(|(_, section)| Some((section.start, never_run(section.opening.clone()?))))
+    }
+
+    /// The line on which another program begins behind the main program, or more than all lines.
+    pub(in crate::interpreter) fn end_of_main(&self) -> u32 {
+        let behind = self.main.and_then(|main| self.sections.get(main + 1));
+        let opening = behind.and_then(|section| section.opening.as_ref());
+        opening.map_or(u32::MAX, |place| place.first_line)
     }
 
     /// A local subprogram by its name.

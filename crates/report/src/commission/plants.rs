@@ -8,6 +8,7 @@ use frictcomp_recordings::commission::{ComparedGlitch, PlantAxis, PlantFound, Tu
 use serde::Serialize;
 
 use crate::assumptions::not_modelled_line;
+use crate::table::Table;
 use crate::visible::visible_line;
 
 /// The plants of all rounds.
@@ -177,24 +178,18 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
         }
     );
     for axis in &found.axes {
-        let _ = writeln!(
-            out,
-            "{:<6} {:<18} {:<8} {:>14}  95 % range",
-            visible_line(&axis.axis),
-            "predicted",
-            "",
-            ""
-        );
+        let table = Table::default().left(visible_line(&axis.axis));
+        let mut table = table
+            .left("predicted")
+            .left("")
+            .right("")
+            .left("95 % range");
         for it in parameters(axis) {
-            let _ = writeln!(
-                out,
-                "       {:<18} {:<8} {:>14}  {}",
-                it.name, it.unit, it.value, it.range
-            );
+            table.row(&[&"", &it.name, &it.unit, &it.value, &it.range]);
         }
         let _ = writeln!(
             out,
-            "       {:.2} µm are left of {} recorded reversals, after {} simulated ones",
+            "{table}{:.2} µm are left of {} recorded reversals, after {} simulated ones",
             axis.left, axis.reversals, axis.simulations
         );
     }
@@ -213,22 +208,21 @@ fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
     if compared.is_empty() {
         return;
     }
-    let _ = writeln!(
-        out,
-        "recorded beside predicted glitch in µm, each a mean over 8 ms\n{:>12} {:<6} {:<10} {:>9} {:>9}",
-        "feed mm/min", "axis", "list", "predicted", "recorded"
-    );
+    let table = Table::of_numbers(["feed mm/min"]).left("axis").left("list");
+    let mut table = table.right("predicted").right("recorded");
     for it in compared {
-        let _ = writeln!(
-            out,
-            "{:>12} {:<6} {:<10} {:>9.1} {:>9.1}",
-            it.recorded.feed,
-            visible_line(&it.recorded.axis),
-            list_on(it),
-            it.predicted_um,
-            it.recorded.um
-        );
+        table.row(&[
+            &it.recorded.feed,
+            &visible_line(&it.recorded.axis),
+            &list_on(it),
+            &format_args!("{:.1}", it.predicted_um),
+            &format_args!("{:.1}", it.recorded.um),
+        ]);
     }
+    let _ = write!(
+        out,
+        "recorded beside predicted glitch in µm, each a mean over 8 ms\n{table}"
+    );
 }
 
 /// The predicted glitch of each axis at each feed, off and with the tuned lists.
@@ -236,24 +230,22 @@ fn push_glitches(out: &mut String, found: &PlantFound) {
     for axis in &found.axes {
         let name = &axis.axis;
         let tuned = found.lists.iter().find(|it| it.axis == *name);
-        let _ = writeln!(
-            out,
-            "{} predicted glitch in µm\n{:>12} {:>8} {:>8}",
-            visible_line(name),
-            "feed mm/min",
-            "off",
-            "tuned"
-        );
+        let mut table = Table::of_numbers(["feed mm/min", "off", "tuned"]).left("");
         for feed in found.feeds() {
             let off = found.predicted(name, feed, None);
             let on = tuned.and_then(|it| found.predicted(name, feed, Some(&it.sha256)));
             let shown = |um: Option<f64>| um.map_or("-".to_owned(), |it| format!("{it:.1}"));
             let held = if found.is_held_out(feed) {
-                "  held out"
+                "held out"
             } else {
                 ""
             };
-            let _ = writeln!(out, "{feed:>12} {:>8} {:>8}{held}", shown(off), shown(on));
+            table.row(&[&feed, &shown(off), &shown(on), &held]);
         }
+        let _ = write!(
+            out,
+            "{} predicted glitch in µm\n{table}",
+            visible_line(name)
+        );
     }
 }

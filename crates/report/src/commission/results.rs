@@ -8,6 +8,7 @@ use super::plants::{PlantVerdict, Plants, push_plants};
 use super::summary::{PlanFile, ValueListUsed};
 use super::words::{number, told};
 use crate::strings::to_pretty;
+use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{
@@ -287,27 +288,22 @@ fn push_round(out: &mut String, round: &Round) {
     let Some(against) = &round.against else {
         return;
     };
-    let _ = writeln!(
+    let mut table = Table::of_numbers(["feed /min", "driven", "off", "on"]);
+    for pair in &round.recorded {
+        table.row(&[
+            &number(pair.feed),
+            &format_args!("{:.0}", pair.driven),
+            &format_args!("{:.1}", pair.off),
+            &format_args!("{:.1}", pair.on),
+        ]);
+    }
+    let _ = write!(
         out,
-        "\nround {}: recorded {}, in {}\n{:>10} {:>10} {:>8} {:>8}",
+        "\nround {}: recorded {}, in {}\n{table}",
         round.number,
         round.shows.figure(),
         round.unit,
-        "feed /min",
-        "driven",
-        "off",
-        "on"
     );
-    for pair in &round.recorded {
-        let _ = writeln!(
-            out,
-            "{:>10} {:>10.0} {:>8.1} {:>8.1}",
-            number(pair.feed),
-            pair.driven,
-            pair.off,
-            pair.on
-        );
-    }
     if against.is_empty() {
         let list = |it: &ValueListUsed| {
             let sum = it.sha256.get(..16).unwrap_or(&it.sha256);

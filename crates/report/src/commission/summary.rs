@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::words::{number, told};
 use crate::strings::to_pretty;
+use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp_recordings::commission::{Plan, Program, Stage};
 
@@ -73,17 +74,16 @@ pub fn render_text(report: &PlanReport) -> String {
         plan.programs.len(),
         minutes(plan.time_s())
     );
+    let mut table = Table::default()
+        .left("program")
+        .right("time")
+        .left("motion");
     for program in &plan.programs {
         let what = told(program, &plan.axes);
-        let _ = writeln!(
-            out,
-            "{:<20} {:>7}  {}",
-            visible_line(&program.file),
-            minutes(program.time_s),
-            visible_line(&what)
-        );
+        let file = visible_line(&program.file);
+        table.row(&[&file, &minutes(program.time_s), &visible_line(&what)]);
     }
-    out.push('\n');
+    let _ = writeln!(out, "{table}");
     for axis in &plan.axes {
         let (dynamics, unit) = (axis.dynamics, axis.unit());
         let _ = writeln!(

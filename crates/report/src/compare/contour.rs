@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::contour::places::{Block, record};
+use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourComparison, Which};
 
@@ -63,47 +64,45 @@ impl ContoursReport {
 pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
     let comparison = &report.comparison;
     let [old, new] = [Which::Old, Which::New].map(|which| comparison.deviations(which));
-    let _ = writeln!(
-        out,
-        "\ncontour in the plane {}{}, plant {}, in µm\n{:<20}{:>9}{:>9}",
-        report.plane[0],
-        report.plane[1],
-        visible_line(&report.plant),
-        "while cutting",
-        "old",
-        "new"
-    );
+    let mut table = Table::default()
+        .left("while cutting")
+        .right("old")
+        .right("new");
     for (name, values) in [
         ("largest deviation", [old.max_um(), new.max_um()]),
         ("root mean square", [old.rms_um(), new.rms_um()]),
     ] {
-        let _ = writeln!(out, "{name:<20}{:>9.2}{:>9.2}", values[0], values[1]);
+        let [old, new] = values.map(|it| format!("{it:.2}"));
+        table.row(&[&name, &old, &new]);
     }
+    let _ = write!(
+        out,
+        "\ncontour in the plane {}{}, plant {}, in µm\n{table}",
+        report.plane[0],
+        report.plane[1],
+        visible_line(&report.plant),
+    );
     for (which, deviations) in [(Which::Old, old), (Which::New, new)] {
         if let Some(at) = deviations.max_at() {
             let (version, at) = (which.as_str(), Block::from(&**at).words());
             let _ = writeln!(out, "largest deviation of the {version} version at {at}");
         }
     }
-    if let [_, ..] = comparison.more() {
-        let _ = writeln!(
-            out,
-            "\n{:>7} {:>8} {:>8} {:>8}  {:<24} block",
-            "line", "old", "new", "more", "at"
-        );
-    }
+    let table = Table::of_numbers(["line", "old", "new", "more"]);
+    let mut table = table.left("at").left("block");
     for change in comparison.more().iter().take(LISTED) {
         let old = change.old.map(|(_, um)| format!("{um:.2}"));
-        let _ = writeln!(
-            out,
-            "{:>7} {:>8} {:>8.2} {:>8.2}  {:<24} {}",
-            change.block.line,
-            old.as_deref().unwrap_or("-"),
-            change.new.deviation_um,
-            change.more_um(),
-            report.place(change),
-            visible_line(&change.block.text)
-        );
+        table.row(&[
+            &change.block.line,
+            &old.as_deref().unwrap_or("-"),
+            &format_args!("{:.2}", change.new.deviation_um),
+            &format_args!("{:.2}", change.more_um()),
+            &report.place(change),
+            &visible_line(&change.block.text),
+        ]);
+    }
+    if !comparison.more().is_empty() {
+        let _ = write!(out, "\n{table}");
     }
     let left = comparison.more().len().saturating_sub(LISTED);
     if left > 0 {

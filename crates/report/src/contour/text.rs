@@ -7,6 +7,7 @@ use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
 use crate::assumptions::{not_modelled, not_modelled_line};
 use crate::glitch::glitch_in_words;
+use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{
@@ -101,23 +102,18 @@ pub fn render_text(
 fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     let runs = contour.deviations();
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
-    let _ = writeln!(
-        out,
-        "{:<24}{:>12}{:>12}{:>12}",
-        "while cutting, in µm", "programmed", "all on", "all off"
-    );
-    let mut row = |name: &str, values: [f64; 3]| {
-        let _ = write!(out, "{name:<24}");
-        for value in values {
-            let _ = write!(out, "{:>12.2}", value + 0.0);
-        }
-        out.push('\n');
-    };
-    row("largest deviation", runs.map(Deviations::max_um));
-    row("outermost", runs.map(|run| run.outermost_um));
-    row("innermost", runs.map(|run| run.innermost_um));
-    row("root mean square", runs.map(Deviations::rms_um));
-    out.push('\n');
+    let table = Table::default().left("while cutting, in µm");
+    let mut table = table.right("programmed").right("all on").right("all off");
+    for (name, values) in [
+        ("largest deviation", runs.map(Deviations::max_um)),
+        ("outermost", runs.map(|run| run.outermost_um)),
+        ("innermost", runs.map(|run| run.innermost_um)),
+        ("root mean square", runs.map(Deviations::rms_um)),
+    ] {
+        let [programmed, on, off] = values.map(|value| format!("{:.2}", value + 0.0));
+        table.row(&[&name, &programmed, &on, &off]);
+    }
+    let _ = writeln!(out, "{table}");
     for (name, at) in [
         (
             "largest deviation",

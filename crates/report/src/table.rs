@@ -1,0 +1,101 @@
+//! Tables in text.
+
+use std::fmt::{self, Display};
+
+use unicode_width::UnicodeWidthStr;
+
+/// Whether the cells of a column end or begin below one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Alignment {
+    Left,
+    Right,
+}
+
+/// A table whose columns are as wide as what stands in them, with two blanks between them and none at the end of
+/// a line. The first line has the headings; a row may end before the last column.
+#[derive(Debug, Default)]
+pub(crate) struct Table {
+    headings: Vec<String>,
+    alignments: Vec<Alignment>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table whose columns have numbers.
+    pub(crate) fn of_numbers<const N: usize>(headings: [&str; N]) -> Self {
+        headings.into_iter().fold(Self::default(), Self::right)
+    }
+
+    /// Adds a column of numbers: they end below one another.
+    pub(crate) fn right(self, heading: impl Display) -> Self {
+        self.column(heading, Alignment::Right)
+    }
+
+    /// Adds a column of words.
+    pub(crate) fn left(self, heading: impl Display) -> Self {
+        self.column(heading, Alignment::Left)
+    }
+
+    fn column(mut self, heading: impl Display, alignment: Alignment) -> Self {
+        self.headings.push(heading.to_string());
+        self.alignments.push(alignment);
+        self
+    }
+
+    /// Adds a row.
+    pub(crate) fn row(&mut self, cells: &[&dyn Display]) {
+        self.cells(cells.iter().map(ToString::to_string).collect());
+    }
+
+    /// Adds a row of which only its data say how many cells it has.
+    pub(crate) fn cells(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
+        [&self.headings].into_iter().chain(&self.rows)
+    }
+}
+
+impl Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns = self.alignments.iter().enumerate();
+        let columns: Vec<(Alignment, usize)> = columns
+            .map(|(at, alignment)| {
+                let cells = self.lines().filter_map(|cells| cells.get(at));
+                let width = cells.map(|cell| cell.width()).max();
+                (*alignment, width.unwrap_or(0))
+            })
+            .collect();
+        for cells in self.lines() {
+            let mut line = String::new();
+            for (cell, (alignment, width)) in cells.iter().zip(&columns) {
+                let blanks = " ".repeat(width - cell.width());
+                match alignment {
+                    Alignment::Left => line.extend([cell, blanks.as_str()]),
+                    Alignment::Right => line.extend([&blanks, cell.as_str()]),
+                }
+                line.push_str("  ");
+            }
+            writeln!(f, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_as_wide_as_what_stands_in_them() {
+        let mut table = Table::of_numbers(["µm"]).left("axis").right("at");
+        table.row(&[&1.25, &"X", &7]);
+        table.row(&[&"-", &"軸", &1000]);
+        table.row(&[&12]);
+        assert_eq!(
+            table.to_string(),
+            "  µm  axis    at\n1.25  X        7\n   -  軸    1000\n  12\n"
+        );
+    }
+}

@@ -84,33 +84,31 @@ fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     said(draft, index, message)
 }
 
-/// Outputs that fall to less than half and rise again, or the reverse.
+/// Outputs that fall to less than half from one point to the next and rise like that further on, or the
+/// reverse. Friction that falls and rises over several points is none, nor is a rise from 0.
 fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
-    let sizes: Vec<f64> = points.iter().map(|point| point.output.abs()).collect();
-    let mut after: Vec<(f64, f64)> = Vec::with_capacity(sizes.len());
-    let mut range = (f64::INFINITY, f64::NEG_INFINITY);
-    for &size in sizes.iter().rev() {
-        after.push(range);
-        range = (range.0.min(size), range.1.max(size));
-    }
-    after.reverse();
-    let mut before = (f64::INFINITY, f64::NEG_INFINITY);
-    for ((index, point), (&size, after)) in (0..).zip(points).zip(sizes.iter().zip(after)) {
-        let valley = size < 0.5 * before.1.min(after.1);
-        let peak = 0.5 * size > before.0.max(after.0);
-        if valley || peak {
-            let what = if valley {
-                "less than half"
-            } else {
-                "more than twice"
-            };
+    let (mut fallen, mut risen) = (None, None);
+    for (index, pair) in (1..).zip(points.windows(2)) {
+        let [from, to] = [pair[0].output.abs(), pair[1].output.abs()];
+        let (falls, rises) = (to < 0.5 * from, from > 0.0 && from < 0.5 * to);
+        let found = match (fallen, risen) {
+            (Some(valley), _) if rises => Some((valley, "less than half")),
+            (_, Some(peak)) if falls => Some((peak, "more than twice")),
+            _ => None,
+        };
+        if let Some((index, what)) = found {
+            let output = points.get(index as usize)?.output;
             let message = format!(
-                "`frict_comp.table[{index}].out` is {}, {what} of what stands before and after it",
-                point.output
+                "`frict_comp.table[{index}].out` is {output}, {what} of what stands before and after it"
             );
             return said(draft, index, message);
         }
-        before = (before.0.min(size), before.1.max(size));
+        if falls {
+            fallen.get_or_insert(index);
+        }
+        if rises {
+            risen.get_or_insert(index);
+        }
     }
     None
 }

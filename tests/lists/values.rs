@@ -183,6 +183,13 @@ fn values_that_are_hardly_meant_are_said() {
     assert_eq!(table(&valley), ["FC139 6:25"]);
     let peak = [("0", "50"), ("3000", "500"), ("100000", "60")];
     assert_eq!(table(&peak), ["FC139 6:25"]);
+    let two_points = [
+        ("0", "120"),
+        ("2000", "11"),
+        ("3000", "12"),
+        ("9000", "115"),
+    ];
+    assert_eq!(table(&two_points), ["FC139 6:25"]);
     for plausible in [
         &[
             ("0", "126"),
@@ -194,6 +201,15 @@ fn values_that_are_hardly_meant_are_said() {
         &[("0", "12")],
         &[("500", "200"), ("9000", "60"), ("90000", "20")],
         &[("0", "0"), ("20", "12"), ("9000", "10")],
+        &[("0", "0"), ("20", "12"), ("9000", "5")],
+        // A soft machine, for which a list was learned: below half only over several points.
+        &[
+            ("0", "140"),
+            ("35", "92"),
+            ("100", "66"),
+            ("220", "103"),
+            ("80000", "164"),
+        ],
     ] {
         assert_eq!(table(plausible), [""; 0], "{plausible:?}");
     }

@@ -343,7 +343,7 @@ mod tests {
             .parsed(listed)
             .iter()
             .map(|it| {
-                let name = |path: &PathBuf| path.display().to_string();
+                let name = |path: &PathBuf| path.display().to_string().replace('\\', "/");
                 let old = it
                     .old
                     .as_ref()

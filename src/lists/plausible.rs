@@ -87,13 +87,13 @@ fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
 /// Outputs that fall to less than half from one point to the next and rise like that further on, or the
 /// reverse. Friction that falls and rises over several points is none, nor is a rise from 0.
 fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
-    let (mut fallen, mut risen) = (None, None);
+    let (mut valley, mut peak) = (None, None);
     for (index, pair) in (1..).zip(points.windows(2)) {
         let [from, to] = [pair[0].output.abs(), pair[1].output.abs()];
-        let (falls, rises) = (to < 0.5 * from, from > 0.0 && from < 0.5 * to);
-        let found = match (fallen, risen) {
-            (Some(valley), _) if rises => Some((valley, "less than half")),
-            (_, Some(peak)) if falls => Some((peak, "more than twice")),
+        let (is_fall, is_rise) = (to < 0.5 * from, from > 0.0 && from < 0.5 * to);
+        let found = match (valley, peak) {
+            (Some(at), _) if is_rise => Some((at, "less than half")),
+            (_, Some(at)) if is_fall => Some((at, "more than twice")),
             _ => None,
         };
         if let Some((index, what)) = found {
@@ -103,11 +103,11 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
             );
             return said(draft, index, message);
         }
-        if falls {
-            fallen.get_or_insert(index);
+        if is_fall {
+            valley.get_or_insert(index);
         }
-        if rises {
-            risen.get_or_insert(index);
+        if is_rise {
+            peak.get_or_insert(index);
         }
     }
     None

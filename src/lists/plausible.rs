@@ -85,12 +85,12 @@ fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
 }
 
 /// Outputs that fall to less than half from one point to the next and rise like that further on, or the
-/// reverse. Friction that falls and rises over several points is none, nor is a rise from 0.
+/// reverse. Friction may fall and rise over several points, and a table may begin at 0.
 fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     let (mut valley, mut peak) = (None, None);
     for (index, pair) in (1..).zip(points.windows(2)) {
         let [from, to] = [pair[0].output.abs(), pair[1].output.abs()];
-        let (is_fall, is_rise) = (to < 0.5 * from, from > 0.0 && from < 0.5 * to);
+        let (is_fall, is_rise) = (to < 0.5 * from, from < 0.5 * to);
         let found = match (valley, peak) {
             (Some(at), _) if is_rise => Some((at, "less than half")),
             (_, Some(at)) if is_fall => Some((at, "more than twice")),
@@ -106,7 +106,7 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
         if is_fall {
             valley.get_or_insert(index);
         }
-        if is_rise {
+        if is_rise && from > 0.0 {
             peak.get_or_insert(index);
         }
     }

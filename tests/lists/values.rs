@@ -190,6 +190,8 @@ fn values_that_are_hardly_meant_are_said() {
         ("9000", "115"),
     ];
     assert_eq!(table(&two_points), ["FC139 6:25"]);
+    let nothing = [("0", "120"), ("3000", "0"), ("9000", "115")];
+    assert_eq!(table(&nothing), ["FC139 6:25"]);
     for plausible in [
         &[
             ("0", "126"),

@@ -11,8 +11,8 @@ enum Alignment {
     Right,
 }
 
-/// A table whose columns are as wide as what stands in them, with two blanks between them and none at the end of
-/// a line. The first line has the headings; a row may end before the last column.
+/// A table whose columns are as wide as their widest cell, two blanks apart, without blanks at the end of a line. The
+/// first line has the headings; a row may have fewer cells than there are columns.
 #[derive(Debug, Default)]
 pub(crate) struct Table {
     headings: Vec<String>,

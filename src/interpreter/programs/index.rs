@@ -159,10 +159,10 @@ impl Index {
         others.filter_map(|(_, section)| Some((section.start, never_run(section.opening.clone()?))))
     }
 
-    /// The line on which another program begins behind the main program, or more than all lines.
+    /// The line of the `%` that follows the main program; `u32::MAX` where the file ends with it.
     pub(in crate::interpreter) fn end_of_main(&self) -> u32 {
-        let behind = self.main.and_then(|main| self.sections.get(main + 1));
-        let opening = behind.and_then(|section| section.opening.as_ref());
+        let next = self.main.and_then(|main| self.sections.get(main + 1));
+        let opening = next.and_then(|section| section.opening.as_ref());
         opening.map_or(u32::MAX, |place| place.first_line)
     }
 

@@ -73,6 +73,45 @@ struct Start<'a> {
     recorded: Vec<[Waveform; 2]>,
     /// The simulated one with the list of the best round.
     simulated: Vec<Waveform>,
+    /// Circles at feeds between the recorded ones.
+    between: Vec<Between>,
+}
+
+/// A circle at a feed between two recorded ones.
+struct Between {
+    circle: Circle,
+    /// How much higher the glitches in µm at both reversals were recorded than simulated on its two neighbours, as a
+    /// mean.
+    missed_um: [f64; 2],
+}
+
+impl Between {
+    /// The circles between those of a round, which stand the slowest first.
+    fn all(
+        circles: &[LearnedCircle],
+        recorded: &[[Waveform; 2]],
+        simulated: &[Waveform],
+    ) -> Vec<Self> {
+        let missed = recorded.iter().zip(simulated).map(|(recorded, simulated)| {
+            let simulated = simulated.height_um();
+            recorded.each_ref().map(|it| it.height_um() - simulated)
+        });
+        let missed: Vec<[f64; 2]> = missed.collect();
+        let pairs = circles.windows(2).zip(missed.windows(2));
+        pairs
+            .map(|(circles, missed)| {
+                let [slow, fast] = [0, 1].map(|at: usize| circles[at].circle);
+                let feed = (slow.feed_mm_per_min * fast.feed_mm_per_min).sqrt();
+                Self {
+                    circle: Circle {
+                        feed_mm_per_min: feed,
+                        ..slow
+                    },
+                    missed_um: [0, 1].map(|at: usize| f64::midpoint(missed[0][at], missed[1][at])),
+                }
+            })
+            .collect()
+    }
 }
 
 impl Learner {
@@ -97,10 +136,14 @@ impl Learner {
         };
         let contact = self.fitted_contact(rounds, simulations)?;
         let drive = self.drive.with_contact(contact);
+        let recorded: Vec<[Waveform; 2]> =
+            best.circles.iter().map(|it| it.recorded.mean()).collect();
+        let simulated = self.all_simulated(&drive, best)?;
         let start = Start {
             circles: &best.circles,
-            recorded: best.circles.iter().map(|it| it.recorded.mean()).collect(),
-            simulated: self.all_simulated(&drive, best)?,
+            between: Between::all(&best.circles, &recorded, &simulated),
+            recorded,
+            simulated,
         };
         let (friction, most) = &self.friction;
         let steps = Steps::new(
@@ -200,7 +243,13 @@ impl Learner {
                     idle = 0;
                 }
                 if cost < before {
-                    best = Some((cost, point.clone(), heights.worst_um()));
+                    // Only what is recorded can show whether it comes true.
+                    let recorded = &heights.0[..2 * start.circles.len()];
+                    best = Some((
+                        cost,
+                        point.clone(),
+                        recorded.iter().copied().fold(0.0, f64::max),
+                    ));
                 }
             }
             if idle >= IDLE {
@@ -213,7 +262,7 @@ impl Learner {
     }
 
     /// The predicted heights with a list at both reversals of each circle: what was recorded with the best list,
-    /// and the difference that the plant makes between both.
+    /// and the difference that the plant makes between both. Those between the recorded feeds follow.
     fn predicted(
         &self,
         drive: &DriveParameters,
@@ -230,6 +279,10 @@ impl Learner {
             let change = self.simulated(drive, circle.circle, list)?.less(before);
             let changed = recorded.each_ref().map(|it| it.changed(&change));
             heights.extend(changed.each_ref().map(Waveform::height_um));
+        }
+        for between in &start.between {
+            let height = self.simulated(drive, between.circle, list)?.height_um();
+            heights.extend(between.missed_um.map(|missed| height + missed));
         }
         Ok(Heights(heights))
     }

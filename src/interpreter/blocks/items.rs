@@ -112,6 +112,17 @@ impl Interpreter {
         }
     }
 
+    /// Says the number of messages about a block that are left out.
+    pub(in crate::interpreter) fn say_unsaid(&mut self, at: &BlockContext<'_>) {
+        if let Some((span, more)) = self.scratch.unsaid.take() {
+            let message = format!(
+                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
+            );
+            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
+            self.scratch.diagnostics.push(at.diagnostic(fault));
+        }
+    }
+
     /// Whether the control stops at what was said about the block.
     #[inline]
     pub(in crate::interpreter) fn is_halted(&self) -> bool {
@@ -119,7 +130,7 @@ impl Interpreter {
     }
 
     #[inline(never)]
-    fn item(
+    pub(in crate::interpreter) fn item(
         &mut self,
         item: &Item,
         at: &BlockContext<'_>,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::cycles::RepeatedCall;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -40,33 +40,77 @@ impl Interpreter {
         self.note_exits(&region, next.saturating_sub(1)..=next, &cause, None);
     }
 
-    /// Says which COMP commands and values the control refuses if it executes the block.
+    /// Says what the control refuses if it executes the block.
     fn perhaps_refused(&mut self, at: &BlockContext<'_>) {
-        let after = at.block.items.iter().filter_map(|item| match item {
-            Item::Word(word) => word.value,
-            Item::Assign(assignment) => Some(assignment.value),
-            _ => None,
+        self.try_out(at, |run| {
+            let mut outcome = BlockOutcome::default();
+            for word in &at.block.words {
+                if let Err(fault) = run.word(word, at, &mut outcome) {
+                    run.scratch.complain(*fault, at);
+                }
+            }
+            let still = |item: &&Item| !matches!(item, Item::Flow(..));
+            for item in at.block.items.iter().filter(still) {
+                if let Err(fault) = run.item(item, at, &mut outcome) {
+                    run.scratch.complain(*fault, at);
+                }
+            }
         });
-        let words = at.block.words.iter().filter_map(|word| word.value);
-        for operand in words.chain(after) {
-            if let Err(fault) = self.value(operand, at) {
-                self.scratch.complain(*fault, at);
+    }
+
+    /// Says what the control refuses if it executes blocks that were passed over (R2.51), each time
+    /// but once. What parameters called programs have is not known: only their COMP commands are tried.
+    pub(in crate::interpreter) fn try_passed(&mut self) {
+        let passed = std::mem::take(&mut self.scratch.passed);
+        if !self.options.follows_ways() {
+            return;
+        }
+        let frames = &self.state.control.frames;
+        let (level, running) = (frames.level(), frames.program());
+        for (unit, blocks) in passed {
+            if !self.programs.unit_mut(unit).tried.insert(blocks.start) {
+                continue;
+            }
+            let section = running.map(|program| self.programs.section(program));
+            let is_own = running.is_some_and(|program| program.unit == unit)
+                && section.is_some_and(|own| (own.start..own.end).contains(&blocks.start));
+            for entry in blocks {
+                let parsed = self.programs.parsed(unit, entry);
+                if self.is_skipped(&parsed.block) {
+                    continue;
+                }
+                let shown = Shown::default();
+                let at = BlockContext::of_parsed(&parsed, level, &shown);
+                if is_own {
+                    self.perhaps_refused(&at);
+                } else {
+                    self.try_out(&at, |run| {
+                        for item in &at.block.items {
+                            if let Item::Comp(command) = item {
+                                run.comp(command, &at);
+                            }
+                        }
+                    });
+                }
+                let own = self.scratch.diagnostics.len();
+                self.take_faults(&at, false);
+                let faults = self.scratch.diagnostics.drain(own..);
+                self.scratch.of_some_ways.extend(faults);
             }
         }
-        let commands = at.block.items.iter().filter_map(|item| match item {
-            Item::Comp(command) => Some(command),
-            _ => None,
-        });
-        let before = self.state.control.compensation.clone();
-        let (changes, outcomes) = (self.scratch.changes.len(), self.scratch.outcomes.len());
-        let doubted = self.scratch.doubted.len();
-        for command in commands {
-            self.comp(command, at);
-        }
-        self.state.control.compensation = before;
-        self.scratch.changes.truncate(changes);
-        self.scratch.outcomes.truncate(outcomes);
-        self.scratch.doubted.truncate(doubted);
+    }
+
+    /// Does something of a block for what is said of it, and leaves all else as it is.
+    fn try_out(&mut self, at: &BlockContext<'_>, attempt: impl FnOnce(&mut Self)) {
+        let before = (self.state.control.clone(), self.state.track.clone());
+        let scratch = std::mem::take(&mut self.scratch);
+        let called = self.pending.len();
+        attempt(self);
+        self.say_unsaid(at);
+        self.pending.truncate(called);
+        let said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
+        self.scratch.of_some_ways.extend(said);
+        (self.state.control, self.state.track) = before;
     }
 
     /// A modal cycle is repeated after the block if the control executes it.

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::blocks::items::MAX_SAID;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
@@ -231,6 +230,9 @@ impl Interpreter {
             self.havoc_called(finder);
             self.move_followers(AxisWords::Other);
         }
+        if !self.scratch.passed.is_empty() {
+            self.try_passed();
+        }
         if let Some(undecided) = self.scratch.undecided.take() {
             self.tell_undecided(*undecided);
         }
@@ -243,13 +245,7 @@ impl Interpreter {
     /// budget that is used up. Returns whether one is.
     #[inline(never)]
     fn settle(&mut self, at: &BlockContext<'_>) -> bool {
-        if let Some((span, more)) = self.scratch.unsaid.take() {
-            let message = format!(
-                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
-            );
-            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
-            self.scratch.diagnostics.push(at.diagnostic(fault));
-        }
+        self.say_unsaid(at);
         let Some(over) = self.used_up(at) else {
             return false;
         };

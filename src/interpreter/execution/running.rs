@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
 use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
@@ -51,6 +52,7 @@ impl Interpreter {
                 frame.next = next + 1;
             }
             if self.is_skipped(&parsed.block) {
+                self.seek_beyond(unit, next);
                 continue;
             }
             if let Some(level) = self.undecided_level(&parsed.block)
@@ -131,6 +133,20 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
+    }
+
+    /// Looks for a branch beyond the part of a control block at an entry, which is skipped.
+    fn seek_beyond(&mut self, unit: usize, entry: EntryIndex) {
+        let links = self.programs.index(unit).links(entry);
+        if let Some(frame) = self.state.control.frames.running_mut()
+            && frame.seeking.is_some()
+        {
+            if links.next == entry {
+                frame.seeking = None;
+            } else {
+                frame.next = links.next;
+            }
+        }
     }
 
     /// The run parts after a block that asked, unless it ends or returns in any case. Returns what is

@@ -19,6 +19,8 @@ pub(in crate::interpreter) struct Unit {
     pub(in crate::interpreter) executed: Vec<bool>,
     /// Control blocks whose branch is not known offline.
     pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
+    /// First blocks of the regions that were passed over and tried (R2.51).
+    pub(in crate::interpreter) tried: BTreeSet<EntryIndex>,
     /// Whether a call of the file came back from its end (R17.2).
     pub(in crate::interpreter) returned: bool,
 }
@@ -30,6 +32,7 @@ impl Unit {
             high: 0,
             executed: vec![false; index.entries.len()],
             undecided: BTreeSet::new(),
+            tried: BTreeSet::new(),
             returned: false,
             index: Arc::new(index),
         }

@@ -1,6 +1,7 @@
 //! The inputs and results of the execution of one block.
 
 use std::cell::{Cell, RefCell};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::event::{Aside, Note, Outcome};
@@ -11,6 +12,7 @@ use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
 use crate::interpreter::coordinates::moving::{MovedAxis, Row};
+use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
@@ -64,6 +66,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) of_some_ways: Vec<Diagnostic>,
     /// Parts of the block that may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
+    /// The blocks that it passes over, by their file.
+    pub(in crate::interpreter) passed: Vec<(usize, Range<EntryIndex>)>,
     /// Number of messages on the last block.
     pub(in crate::interpreter) said: u64,
     /// Number of messages on the block that are left out, and the place of the first of them.

@@ -55,6 +55,11 @@ pub struct Options {
 }
 
 impl Options {
+    /// Whether a run parts where only the machine knows the way. A path that is driven has no sides (R14.8).
+    pub(in crate::interpreter) fn follows_ways(&self) -> bool {
+        self.branches == Branches::Followed && self.motions != Motions::Taken
+    }
+
     /// The same with another value of [`stop`](Self::stop).
     pub fn with_stop(mut self, stop: StopPolicy) -> Self {
         self.stop = stop;

@@ -122,8 +122,7 @@ impl Interpreter {
         let Some(program) = self.state.control.frames.program() else {
             return false;
         };
-        // A path that is driven has no sides (R14.8).
-        if self.options.branches == Branches::Passed || self.options.motions == Motions::Taken {
+        if !self.options.follows_ways() {
             return false;
         }
         let calls = self.state.control.frames.iter();

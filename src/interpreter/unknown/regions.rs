@@ -36,6 +36,7 @@ impl Interpreter {
         let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
+        self.scratch.passed.push((unit, from + 1..passed.end));
         let region = self.havoc_region(unit, passed, cause);
         self.note_exits(&region, from..=after, cause, Some(span));
         Some(Step::Jump(after))
@@ -270,6 +271,7 @@ impl Interpreter {
             }
             let section = self.programs.section(found);
             let region = section.start..section.end;
+            self.scratch.passed.push((found.unit, region.clone()));
             let region = self.havoc_region(found.unit, region, &cause);
             self.note_far_exits(&region, &cause);
             pending.append(&mut self.pending);

@@ -5,11 +5,9 @@ use std::sync::Arc;
 use super::branching::{MAX_CONDITIONS, answers};
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::Last;
 use crate::interpreter::run::possible::{Side, join};
 use crate::interpreter::run::search::BeforeSearch;
@@ -88,9 +86,8 @@ impl Interpreter {
             self.scratch.diagnostics.push(said);
         }
         self.version += 1;
-        let can_part = self.options.branches == Branches::Followed
-            && self.options.motions != Motions::Taken
-            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
+        let can_part =
+            self.options.follows_ways() && self.state.conditions.len() + 1 < MAX_CONDITIONS;
         if !can_part {
             for (axis, kind) in differing {
                 self.havoc(axis, KindSet::of(kind));

@@ -38,6 +38,7 @@ pub fn check_circle(dice: &mut Dice<'_>) {
                 assert!(angle_deg.is_finite(), "{test:?}");
                 return;
             }
+            Err(CircleError::NotFollowed { .. }) => return,
             Err(error) => panic!("a valid circle is refused: {error}"),
         }
     }

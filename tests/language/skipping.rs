@@ -382,3 +382,45 @@ fn nothing_is_said_where_nothing_can_differ() {
         assert!(said.contains("FC901"), "{program}\n{said}");
     }
 }
+
+#[test]
+fn what_the_control_refuses_where_ways_cannot_part_is_said() {
+    // R2.51 R2.90
+    let programs = [
+        "$IF V.E.B == 1\nX1\n/2 $ELSE\nZ[COMP ON FRICT]\n$ENDIF\nM30",
+        "$IF V.E.B == 1\nZ[COMP ON FRICT]\n/ $ENDIF\nM30",
+        "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\n$IF V.E.B == 1\nLL S\n/$ELSE\n$ENDIF\nM30",
+        "%L C\nM17\n%MAIN\nLL CYCLE [NAME=C MODAL_MOVE]\n$IF V.E.B == 1\nZ[COMP ON FRICT]\n$ENDIF\n#DISABLE MODAL CYCLE\nM30",
+        "$SWITCH V.E.B\n$CASE 1\nZ[COMP ON FRICT]\n$BREAK\n/3 $DEFAULT\n$BREAK\n$ENDSWITCH\nM30",
+        "$WHILE V.E.B == 1\nZ[COMP ON FRICT]\n/ $ENDWHILE\nM30",
+    ];
+    for program in programs {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
+            for bench in [Bench::new(), Bench::new().check_all()] {
+                let said = bench.handed(handed).said(program);
+                assert!(said.contains("P-ERR-70495"), "{program}\n{said}");
+            }
+        }
+    }
+    let said = Bench::new()
+        .check_all()
+        .said("P1 = 2\n$IF V.E.B == 1\nG0 G1 X5\nP3 = 4\n/ $ELSE\nX=P3 Y=P1\nX=P7\n$ENDIF\nM30");
+    assert!(
+        said.contains("FC313 3:") && said.contains("FC311 7:"),
+        "{said}"
+    );
+    assert_eq!(count(&said, "FC311"), 1, "{said}");
+}
+
+#[test]
+fn a_branch_behind_a_skipped_part_is_not_entered() {
+    // R2.3 R2.90
+    let program = "X[COMP OFF FRICT]\nP1 = 0\n$IF P1 == 1\nY[COMP OFF FRICT]\n/2 $ELSE\nX[COMP ON FRICT]\n$ENDIF\nM30";
+    for (levels, expected) in [("2", State::Inactive), ("none", State::Active)] {
+        let (x, y, said) = left(&Bench::new().skip(levels), program);
+        assert_eq!((x, y), (expected, State::Active), "{said}");
+    }
+    let program = "X[COMP OFF FRICT]\n$SWITCH 3\n$CASE 1\n$BREAK\n/ $CASE 3\nX[COMP ON FRICT]\n$BREAK\n/2 $DEFAULT\nX[COMP ON FRICT]\n$ENDSWITCH\nM30";
+    let (x, _, said) = left(&Bench::new().skip("all"), program);
+    assert_eq!(x, State::Inactive, "{said}");
+}

@@ -326,6 +326,7 @@ fn a_snapshot_that_names_what_is_not_there_is_refused() {
         ("/state/seq", json!(u64::MAX)),
         ("/state/blocks", json!(u64::MAX)),
         ("/state/effort/level", json!(u64::MAX)),
+        ("/state/opaque", json!({"G99": u64::MAX})),
         ("/state/occurred", json!([true])),
         ("/state/control/modal/positions", json!([])),
         ("/state/control/modal/references", json!([1.0])),

@@ -75,12 +75,12 @@ impl Interpreter {
             let is_own = running.is_some_and(|program| program.unit == unit)
                 && section.is_some_and(|own| (own.start..own.end).contains(&blocks.start));
             for entry in blocks {
-                let parsed = self.programs.parsed(unit, entry);
-                if self.is_skipped(&parsed.block) {
+                let block = self.programs.parsed(unit, entry);
+                if self.is_skipped(&block.block) {
                     continue;
                 }
                 let shown = Shown::default();
-                let at = BlockContext::of_parsed(&parsed, level, &shown);
+                let at = BlockContext::of_parsed(&block, level, &shown);
                 if is_own {
                     self.perhaps_refused(&at);
                 } else {

@@ -136,7 +136,8 @@ impl<'a> Trust<'a> {
             state.effort.level(),
             state.effort.repeated(),
         ];
-        let counted = counted.iter().all(|count| *count < MOST_COUNTED);
+        let mut counted = counted.iter().chain(state.opaque.values());
+        let counted = counted.all(|count| *count < MOST_COUNTED);
         holds(counted, "a counter that is too large")?;
         let lines = state.last.iter().all(|last| last.line < MOST_LINES);
         holds(lines, "a line that no text has")

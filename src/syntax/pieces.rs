@@ -33,6 +33,14 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
     let trailing = line.trim_end_matches(is_blank).len();
     let texts = Texts::new(bytes);
     let mut at = 0;
+    // Looked for once in each stretch of code, however many quotation marks are in it (R9.90).
+    let mut end_of_code = 0;
+    let mut code_end = move |start: usize| {
+        if start >= end_of_code {
+            end_of_code = start + 1 + code_length(&bytes[start + 1..]);
+        }
+        end_of_code
+    };
     std::iter::from_fn(move || {
         let start = at;
         let byte = *bytes.get(start)?;
@@ -45,14 +53,14 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
             b';' => (PieceKind::Comment, bytes.len()),
             b'(' => (PieceKind::Comment, comment_end(bytes, start)),
             b'\'' => {
-                let code = &bytes[start + 1..start + 1 + code_length(&bytes[start + 1..])];
+                let code = &bytes[start + 1..code_end(start)];
                 match memchr::memchr(b'\'', code) {
                     Some(length) => (PieceKind::Quoted, start + length + 2),
                     None => (PieceKind::Code, start + 1 + code.len()),
                 }
             }
             _ if is_code => {
-                let code = &bytes[start + 1..start + 1 + code_length(&bytes[start + 1..])];
+                let code = &bytes[start + 1..code_end(start)];
                 let length = memchr::memchr(b'\'', code).unwrap_or(code.len());
                 (PieceKind::Code, start + 1 + length)
             }

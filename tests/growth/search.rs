@@ -304,6 +304,16 @@ fn each_pair_of_lists_repeated() {
 }
 
 #[test]
+fn quotation_marks_in_a_long_line() {
+    // R9.90
+    let mut search = Search::new(Look::Long, &[InLine]);
+    for sequence in [["!=", "'"], ["\t", "'"]] {
+        search.at(InLine, &sequence);
+    }
+    search.finds_nothing();
+}
+
+#[test]
 #[ignore = "an hour: `scripts/full`"]
 fn every_combination_of_one_or_two_tokens_repeated() {
     // R9.90

@@ -424,3 +424,13 @@ fn a_branch_behind_a_skipped_part_is_not_entered() {
     let (x, _, said) = left(&Bench::new().skip("all"), program);
     assert_eq!(x, State::Inactive, "{said}");
 }
+
+#[test]
+fn trying_blocks_that_are_passed_over_changes_nothing() {
+    // R2.51
+    let region = "$IF V.E.B == 1\n#RT CYCLE [ID = 1]\n#RT CYCLE END\n\"A\" = \"$GOTO N90\"\n\"A\"\nG310 X5 $GOTO N90\n#IF V.E.C == 1\nX[COMP OFF FRICT]\n#ENDIF\nL missing.nc\n/2 $ELSE\nX2\n$ENDIF\n";
+    let program = format!("{region}Y[COMP OFF FRICT]\nX[COMP ON FRICT]\nN90: M30");
+    let (x, y, said) = left(&Bench::new().check_all(), &program);
+    let passed = left(&Bench::new().check_all().passing_branches(), &program);
+    assert_eq!((x, y), (passed.0, passed.1), "{said}\n{}", passed.2);
+}

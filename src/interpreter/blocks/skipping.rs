@@ -9,6 +9,7 @@ use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::region::Region;
 use crate::interpreter::values::cause::skip_level;
 use crate::syntax::ast::{Block, Flow, Item};
+use crate::syntax::control_part;
 use crate::text::Span;
 
 impl Interpreter {
@@ -49,8 +50,11 @@ impl Interpreter {
                     run.scratch.complain(*fault, at);
                 }
             }
-            let still = |item: &&Item| !matches!(item, Item::Flow(..));
-            for item in at.block.items.iter().filter(still) {
+            // What decides which blocks are executed decides nothing here.
+            let decides = |item: &Item| {
+                matches!(item, Item::Flow(..)) || control_part(at.block, item).is_some()
+            };
+            for item in at.block.items.iter().filter(|item| !decides(item)) {
                 if let Err(fault) = run.item(item, at, &mut outcome) {
                     run.scratch.complain(*fault, at);
                 }
@@ -58,8 +62,8 @@ impl Interpreter {
         });
     }
 
-    /// Says what the control refuses if it executes blocks that were passed over (R2.51), each time
-    /// but once. What parameters called programs have is not known: only their COMP commands are tried.
+    /// Says what the control refuses if it executes the blocks that were passed over (R2.51), once for
+    /// each of them. The parameters of called programs are not known: of these only COMP commands are tried.
     pub(in crate::interpreter) fn try_passed(&mut self) {
         let passed = std::mem::take(&mut self.scratch.passed);
         if !self.options.follows_ways() {
@@ -104,10 +108,13 @@ impl Interpreter {
     fn try_out(&mut self, at: &BlockContext<'_>, attempt: impl FnOnce(&mut Self)) {
         let before = (self.state.control.clone(), self.state.track.clone());
         let scratch = std::mem::take(&mut self.scratch);
-        let called = self.pending.len();
+        let sides = std::mem::take(&mut self.sides);
+        let (called, departing) = (self.pending.len(), self.departing.len());
         attempt(self);
         self.say_unsaid(at);
+        self.sides = sides;
         self.pending.truncate(called);
+        self.departing.truncate(departing);
         let said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
         self.scratch.of_some_ways.extend(said);
         (self.state.control, self.state.track) = before;

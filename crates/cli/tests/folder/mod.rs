@@ -2,9 +2,9 @@
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
-use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::{fs, io};
 
 use serde_json::Value;
 
@@ -56,7 +56,7 @@ impl Bench {
     }
 
     pub(crate) fn call(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("the tool starts")
+        starting(|| self.command(arguments).output())
     }
 
     pub(crate) fn status(&self, arguments: &[&str]) -> Option<i32> {
@@ -80,6 +80,19 @@ impl Bench {
         let values = records.iter().map(|line| json(line));
         values.filter(|it| it["record"] == "block").collect()
     }
+}
+
+/// What a start of the tool gives. Wine, where it starts many processes at once, refuses a start now and
+/// then with `ERROR_INTERNAL_ERROR`, before anything of the tool has run; such a start is tried again.
+pub(crate) fn starting<T>(mut start: impl FnMut() -> io::Result<T>) -> T {
+    const ERROR_INTERNAL_ERROR: i32 = 1359;
+    for _ in 0..3 {
+        match start() {
+            Err(error) if cfg!(windows) && error.raw_os_error() == Some(ERROR_INTERNAL_ERROR) => {}
+            started => return started.expect("the tool starts"),
+        }
+    }
+    start().expect("the tool starts")
 }
 
 pub(crate) fn json(text: &str) -> Value {

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use fastrand::Rng;
 
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, starting};
 
 /// Each run counts itself in the state.
 const COUNT: &str = "V.S.RUNS = V.S.RUNS + 1\nX[COMP OFF FRICT]\nM30\n";
@@ -49,7 +49,7 @@ fn kill_runs(bench: &Bench, tally: &Tally, enough: u64, mut rng: Rng) {
     while Tally::of(&tally.killed) < enough {
         let before = Tally::of(&tally.completed);
         tally.started.fetch_add(1, Ordering::SeqCst);
-        let mut child = bench.command(&RUN).spawn().expect("it starts");
+        let mut child = starting(|| bench.command(&RUN).spawn());
         thread::sleep(usual.mul_f64(rng.f64() * 1.5));
         let _ = child.kill();
         match child.wait().expect("it ends").code() {

@@ -239,9 +239,9 @@ fn after_hash(text: &str) -> Meaning {
             };
         }
     };
-    let is_part = |c: char| c.is_ascii_alphanumeric() || "#_<>".contains(c);
-    let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
-    Meaning::Of(dialect, text[..end].to_owned())
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "_<>".contains(c);
+    let length = text[1..].find(|c| !is_part(c)).map(|length| length + 1);
+    Meaning::Of(dialect, text[..length.unwrap_or(text.len())].to_owned())
 }
 
 fn after_dollar(text: &str) -> Meaning {

@@ -304,10 +304,10 @@ fn each_pair_of_lists_repeated() {
 }
 
 #[test]
-fn quotation_marks_in_a_long_line() {
+fn marks_in_a_long_line() {
     // R9.90
     let mut search = Search::new(Look::Long, &[InLine]);
-    for sequence in [["!=", "'"], ["\t", "'"]] {
+    for sequence in [["!=", "'"], ["\t", "'"], ["#", "1"], ["#", "<"]] {
         search.at(InLine, &sequence);
     }
     search.finds_nothing();

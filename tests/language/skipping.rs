@@ -413,6 +413,52 @@ fn what_the_control_refuses_where_ways_cannot_part_is_said() {
 }
 
 #[test]
+fn what_the_control_refuses_where_only_the_machine_knows_the_way_is_said() {
+    // R2.51 R2.52
+    let programs = [
+        "N10 $GOTO N[V.E.T]\nN20 M30\nN100: Z[COMP ON FRICT]\nM30",
+        "P1 = V.E.T\n$GOTO N[P1]\n$GOTO N30\nN20: X1\nZ[COMP ON FRICT]\nN30: M30",
+        "%L S\n$GOTO N[V.E.T]\nM17\nN20: Z[COMP ON FRICT]\nM17\n%MAIN\nLL S\nX1\nM30",
+        "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nX1\n$GOTO N[V.E.T]\nM30\nN20: LL S\nM30",
+        "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
+        "%L S\nLL T\nM17\n%L T\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
+        "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\n$IF V.E.B == 1\nLL V.E.NAME\n/2 $ELSE\n$ENDIF\nM30",
+    ];
+    for program in programs {
+        for handed in [SourceMode::Whole, SourceMode::LineByLine] {
+            let said = Bench::new().check_all().handed(handed).said(program);
+            assert_eq!(count(&said, "P-ERR-70495"), 1, "{program}\n{said}");
+        }
+    }
+    let shown = Bench::new()
+        .check_all()
+        .said("N10 $GOTO N[V.E.T]\nN20 M30\nN100: Z[COMP ON FRICT]\nM30");
+    assert!(
+        shown.contains("whether the block is executed depends on `V.E.T`"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn what_no_way_reaches_or_was_executed_is_not_said_again() {
+    // R2.52
+    let programs = [
+        ("N10 M30\nN100: Z[COMP ON FRICT]\nM30", 0),
+        ("Z[COMP ON FRICT]\n$GOTO N[V.E.T]\nN20: X1\nM30", 1),
+        (
+            "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL S\n$GOTO N[V.E.T]\nN20: LL S\nM30",
+            1,
+        ),
+        ("%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nL V.E.NAME\nM30", 0),
+        ("/2 $ENDIF\n$IF V.E.B == 1\n/ $ENDIF\nM30", 0),
+    ];
+    for (program, expected) in programs {
+        let said = Bench::new().check_all().said(program);
+        assert_eq!(count(&said, "P-ERR-70495"), expected, "{program}\n{said}");
+    }
+}
+
+#[test]
 fn a_branch_behind_a_skipped_part_is_not_entered() {
     // R2.3 R2.90
     let program = "X[COMP OFF FRICT]\nP1 = 0\n$IF P1 == 1\nY[COMP OFF FRICT]\n/2 $ELSE\nX[COMP ON FRICT]\n$ENDIF\nM30";

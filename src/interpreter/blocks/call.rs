@@ -41,7 +41,7 @@ impl Interpreter {
                 part: None,
             })),
             Value::Unknown(cause) => {
-                self.havoc_all(&cause);
+                let _ = self.havoc_block(at, &cause);
                 if self.scratch.unread.get() {
                     return Ok(None);
                 }

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_scratch::PassedOver;
 use crate::interpreter::run::cycles::RepeatedCall;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::region::Region;
-use crate::interpreter::values::cause::skip_level;
+use crate::interpreter::values::cause::{skip_level, unknown_value};
 use crate::syntax::ast::{Block, Flow, Item};
 use crate::syntax::control_part;
 use crate::text::Span;
@@ -24,7 +26,7 @@ impl Interpreter {
     ) {
         let cause = skip_level(level);
         self.note_unknown(&cause, at);
-        self.perhaps_refused(at);
+        self.perhaps_refused(&cause, at);
         if let Some((flow, span)) = structure(at.block) {
             outcome.step = self.undecided(flow, &cause, span, at);
             return;
@@ -42,8 +44,8 @@ impl Interpreter {
     }
 
     /// Says what the control refuses if it executes the block.
-    fn perhaps_refused(&mut self, at: &BlockContext<'_>) {
-        self.try_out(at, |run| {
+    fn perhaps_refused(&mut self, cause: &str, at: &BlockContext<'_>) {
+        self.try_out(cause, at, |run| {
             let mut outcome = BlockOutcome::default();
             for word in &at.block.words {
                 if let Err(fault) = run.word(word, at, &mut outcome) {
@@ -69,43 +71,53 @@ impl Interpreter {
         if !self.options.follows_ways() {
             return;
         }
-        let frames = &self.state.control.frames;
-        let (level, running) = (frames.level(), frames.program());
-        for (unit, blocks) in passed {
-            if !self.programs.unit_mut(unit).tried.insert(blocks.start) {
-                continue;
-            }
-            let section = running.map(|program| self.programs.section(program));
-            let is_own = running.is_some_and(|program| program.unit == unit)
-                && section.is_some_and(|own| (own.start..own.end).contains(&blocks.start));
-            for entry in blocks {
-                let block = self.programs.parsed(unit, entry);
-                if self.is_skipped(&block.block) {
-                    continue;
+        for PassedOver {
+            unit,
+            blocks,
+            cause,
+            with_executed,
+        } in passed
+        {
+            let untried = self.programs.unit_mut(unit).take_untried(blocks);
+            for entry in untried.into_iter().flatten() {
+                if with_executed || !self.programs.was_read(unit, entry) {
+                    self.try_block(unit, entry, &cause);
                 }
-                let shown = Shown::default();
-                let at = BlockContext::of_parsed(&block, level, &shown);
-                if is_own {
-                    self.perhaps_refused(&at);
-                } else {
-                    self.try_out(&at, |run| {
-                        for item in &at.block.items {
-                            if let Item::Comp(command) = item {
-                                run.comp(command, &at);
-                            }
-                        }
-                    });
-                }
-                let own = self.scratch.diagnostics.len();
-                self.take_faults(&at, false);
-                let faults = self.scratch.diagnostics.drain(own..);
-                self.scratch.of_some_ways.extend(faults);
             }
         }
     }
 
+    fn try_block(&mut self, unit: usize, entry: EntryIndex, cause: &str) {
+        let block = self.programs.parsed(unit, entry);
+        if self.is_skipped(&block.block) {
+            return;
+        }
+        let frames = &self.state.control.frames;
+        let is_own = frames.program().is_some_and(|own| {
+            let section = self.programs.section(own);
+            own.unit == unit && (section.start..section.end).contains(&entry)
+        });
+        let shown = Shown::default();
+        let at = BlockContext::of_parsed(&block, frames.level(), &shown);
+        if is_own {
+            self.perhaps_refused(cause, &at);
+        } else {
+            self.try_out(cause, &at, |run| {
+                for item in &at.block.items {
+                    if let Item::Comp(command) = item {
+                        run.comp(command, &at);
+                    }
+                }
+            });
+        }
+        let own = self.scratch.diagnostics.len();
+        self.take_faults(&at, false);
+        let faults = self.scratch.diagnostics.drain(own..);
+        self.scratch.of_some_ways.extend(faults);
+    }
+
     /// Does something of a block for what is said of it, and leaves all else as it is.
-    fn try_out(&mut self, at: &BlockContext<'_>, attempt: impl FnOnce(&mut Self)) {
+    fn try_out(&mut self, cause: &str, at: &BlockContext<'_>, attempt: impl FnOnce(&mut Self)) {
         let before = (self.state.control.clone(), self.state.track.clone());
         let scratch = std::mem::take(&mut self.scratch);
         let sides = std::mem::take(&mut self.sides);
@@ -115,7 +127,12 @@ impl Interpreter {
         self.sides = sides;
         self.pending.truncate(called);
         self.departing.truncate(departing);
-        let said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
+        let mut said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
+        for said in said.iter_mut().filter(|said| !said.code.is_about_text()) {
+            let value = unknown_value(cause);
+            let message = &mut said.message;
+            *message = format!("{message}; whether the block is executed depends on {value}");
+        }
         self.scratch.of_some_ways.extend(said);
         (self.state.control, self.state.track) = before;
     }

@@ -1,6 +1,7 @@
 //! The files of a run: held when they are needed first, looked up by what called them.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::finder::{Finder, NoProgram};
@@ -114,6 +115,16 @@ impl Programs {
         self.units.swap_remove(0);
         self.numbers.clear();
         self.names.insert(name, 0);
+    }
+
+    /// The blocks of the section that holds one.
+    pub(in crate::interpreter) fn section_of(
+        &self,
+        (unit, entry): (usize, EntryIndex),
+    ) -> Option<Range<EntryIndex>> {
+        let sections = self.index(unit).sections.iter();
+        let mut blocks = sections.map(|section| section.start..section.end);
+        blocks.find(|blocks| blocks.contains(&entry))
     }
 
     /// Whether a block was read before, in order to be executed.

@@ -1,6 +1,7 @@
 //! A file of a run: which of its blocks were executed, and those that are kept parsed.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::index::{EntryIndex, Index};
@@ -19,8 +20,10 @@ pub(in crate::interpreter) struct Unit {
     pub(in crate::interpreter) executed: Vec<bool>,
     /// Control blocks whose branch is not known offline.
     pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
-    /// First blocks of the regions that were passed over and tried (R2.51).
-    pub(in crate::interpreter) tried: BTreeSet<EntryIndex>,
+    /// Regions that were passed over and tried (R2.51), apart from each other: first block and end.
+    tried: BTreeMap<EntryIndex, EntryIndex>,
+    /// Whether it has a call that may be one of any local subprogram.
+    pub(in crate::interpreter) calls_any_local: bool,
     /// Whether a call of the file came back from its end (R17.2).
     pub(in crate::interpreter) returned: bool,
 }
@@ -32,10 +35,41 @@ impl Unit {
             high: 0,
             executed: vec![false; index.entries.len()],
             undecided: BTreeSet::new(),
-            tried: BTreeSet::new(),
+            tried: BTreeMap::new(),
+            calls_any_local: false,
             returned: false,
             index: Arc::new(index),
         }
+    }
+
+    /// The parts of a region that were not tried before; they are from here on.
+    pub(in crate::interpreter) fn take_untried(
+        &mut self,
+        region: Range<EntryIndex>,
+    ) -> Vec<Range<EntryIndex>> {
+        if region.is_empty() {
+            return Vec::new();
+        }
+        let (mut from, mut whole) = (region.start, region.clone());
+        let mut untried = Vec::new();
+        let before = self.tried.range(..=from).next_back();
+        let first = before.map_or(from, |(start, _)| *start);
+        let known = self.tried.range(first..region.end);
+        let known = known.filter(|(_, end)| **end >= from);
+        let known: Vec<_> = known.map(|(start, end)| (*start, *end)).collect();
+        for (start, end) in known {
+            self.tried.remove(&start);
+            if from < start {
+                untried.push(from..start);
+            }
+            from = from.max(end);
+            whole = whole.start.min(start)..whole.end.max(end);
+        }
+        if from < region.end {
+            untried.push(from..region.end);
+        }
+        self.tried.insert(whole.start, whole.end);
+        untried
     }
 }
 

@@ -33,6 +33,17 @@ pub(in crate::interpreter) struct LeftOpen {
     pub(in crate::interpreter) place: Place,
 }
 
+/// Blocks that the dry run passes over and the control perhaps executes.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct PassedOver {
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) blocks: Range<EntryIndex>,
+    /// The value that decides whether they are executed.
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// Whether blocks that were executed before are of interest, too.
+    pub(in crate::interpreter) with_executed: bool,
+}
+
 /// Buffers that are used again for each block.
 #[derive(Default)]
 #[allow(
@@ -66,8 +77,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) of_some_ways: Vec<Diagnostic>,
     /// Parts of the block that may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
-    /// The blocks that it passes over, by their file.
-    pub(in crate::interpreter) passed: Vec<(usize, Range<EntryIndex>)>,
+    /// The blocks that it passes over.
+    pub(in crate::interpreter) passed: Vec<PassedOver>,
     /// Number of messages on the last block.
     pub(in crate::interpreter) said: u64,
     /// Number of messages on the block that are left out, and the place of the first of them.

@@ -9,6 +9,7 @@ use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
 use crate::interpreter::values::target::Target;
 use crate::syntax::ast::Owner;
+use crate::text::Span;
 
 /// Something that a region could change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -49,6 +50,8 @@ pub(in crate::interpreter) enum Effect {
     FileName(String),
     /// Everything, through a call of an unknown program.
     All,
+    /// Everything that any local subprogram of the file does, through a call of an unknown one.
+    AnyLocal(Span),
 }
 
 /// Exit from a region other than its end.

@@ -127,6 +127,7 @@ impl Interpreter {
                 && self.programs.index(place.unit).entries.len() >= here as usize
             {
                 // It executes what the dry run jumped over, or what it has after it.
+                self.leave_out(place.unit, target..here, &cause);
                 let region = self.havoc_region(place.unit, target..here, &cause);
                 self.note_exits(&region, target..=here, &cause, None);
             }
@@ -204,6 +205,7 @@ impl Interpreter {
             self.havoc_called(finder);
             self.departing.clear();
         }
+        self.try_passed();
         self.state.track.ways = Ways {
             ends: std::mem::take(&mut self.state.track.ways.ends),
             own: Some(own),
@@ -283,6 +285,7 @@ impl Interpreter {
             match lowest.min() {
                 Some(lowest) if lowest < from => from = lowest,
                 _ => {
+                    self.leave_out(unit, from..end, cause);
                     let region = self.havoc_region(unit, from..end, cause);
                     self.note_far_exits(&region, cause);
                     return;

@@ -16,8 +16,7 @@ use crate::interpreter::coordinates::simplified;
 use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
-use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
-use crate::interpreter::programs::store::Programs;
+use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
 use crate::interpreter::run::cycles::after_motion_only;
@@ -81,6 +80,17 @@ impl MayEffects<'_> {
             }
             self.place.1 += 1;
         }
+    }
+
+    /// The effects, with those of the section that holds a call of an unknown part of it.
+    fn whole_region(mut self, from: EntryIndex) -> Region {
+        let unit = self.place.0;
+        if self.whole
+            && let Some(section) = self.run.programs.section_of((unit, from))
+        {
+            self.blocks(unit, section);
+        }
+        self.region
     }
 
     fn block(&mut self, at: &BlockContext<'_>) {
@@ -153,16 +163,13 @@ impl MayEffects<'_> {
             Item::Sequence(sequence) => match sequence.name {
                 // Some part of the program that holds the region.
                 None => self.whole = true,
-                Some(CallName::Variable(_)) => self.effect(Effect::All),
-                Some(CallName::Literal(name) | CallName::Quoted(name)) => {
-                    let name = unquoted(name.of(at.text));
-                    let Value::Text(name) = self.run.state.control.memory.macro_or_text(name)
-                    else {
-                        return self.effect(Effect::All);
-                    };
-                    let span = at.in_block(sequence.span);
-                    self.calls(Wanted::program(CallScope::Global, name.to_string(), span));
-                }
+                Some(name) => match self.program_name(name, at) {
+                    Some(name) => {
+                        let span = at.in_block(sequence.span);
+                        self.calls(Wanted::program(CallScope::Global, name, span));
+                    }
+                    None => self.effect(Effect::All),
+                },
             },
             Item::GCall(call) => {
                 self.effect(Effect::Function(FunctionWord::g(call.number)));
@@ -252,20 +259,31 @@ impl MayEffects<'_> {
         }
     }
 
-    fn call(&mut self, call: &Call, at: &BlockContext<'_>) {
-        let name = match call.name {
-            CallName::Literal(span) => Value::Text(span.of(at.text).into()),
+    /// The name of a called program; `None` where only the machine knows it.
+    fn program_name(&self, name: CallName, at: &BlockContext<'_>) -> Option<String> {
+        match name {
+            CallName::Literal(span) => Some(span.of(at.text).to_owned()),
             CallName::Quoted(span) => {
                 let name = unquoted(span.of(at.text));
-                self.run.state.control.memory.macro_or_text(name)
+                match self.run.state.control.memory.macro_or_text(name) {
+                    Value::Text(name) => Some(name.to_string()),
+                    Value::Number(_) | Value::Unknown(_) => None,
+                }
             }
-            CallName::Variable(_) => return self.effect(Effect::All),
-        };
-        let Value::Text(name) = name else {
-            return self.effect(Effect::All);
-        };
+            CallName::Variable(_) => None,
+        }
+    }
+
+    fn call(&mut self, call: &Call, at: &BlockContext<'_>) {
         let span = at.in_block(call.span);
-        let wanted = Wanted::program(call.scope, name.to_string(), span);
+        let Some(name) = self.program_name(call.name, at) else {
+            self.effect(Effect::All);
+            if call.scope == CallScope::Local {
+                self.effect(Effect::AnyLocal(span));
+            }
+            return;
+        };
+        let wanted = Wanted::program(call.scope, name, span);
         self.calls(Wanted {
             repeat: after_motion_only(call),
             ..wanted
@@ -502,13 +520,9 @@ impl Interpreter {
             return Arc::clone(known);
         }
         let mut may_effects = self.may_effects((unit, range.start));
-        may_effects.blocks(unit, range.clone());
-        if may_effects.whole
-            && let Some(section) = self.programs.section_of((unit, range.start))
-        {
-            may_effects.blocks(unit, section);
-        }
-        let region = Arc::new(may_effects.region);
+        let from = range.start;
+        may_effects.blocks(unit, range);
+        let region = Arc::new(may_effects.whole_region(from));
         self.regions.insert(key, Arc::clone(&region));
         region
     }
@@ -540,12 +554,8 @@ impl Interpreter {
             self.may_effects((unit, self.state.control.frames.entry().unwrap_or_default()));
         may_effects.block(at);
         may_effects.expand(at);
-        if may_effects.whole
-            && let Some(section) = self.programs.section_of(may_effects.place)
-        {
-            may_effects.blocks(unit, section);
-        }
-        may_effects.region
+        let from = may_effects.place.1;
+        may_effects.whole_region(from)
     }
 
     /// Returns the possible effects of the blocks of a skip level in a file.
@@ -573,16 +583,6 @@ impl Interpreter {
             });
             let _ = self.with_evaluator(at, |evaluator| evaluator.value(read, &mut Vec::new()));
         }
-    }
-}
-
-impl Programs {
-    /// The blocks of the section that holds one.
-    fn section_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Range<EntryIndex>> {
-        let sections = &self.index(unit).sections;
-        let around = |section: &&Section| (section.start..section.end).contains(&entry);
-        let section = sections.iter().find(around)?;
-        Some(section.start..section.end)
     }
 }
 

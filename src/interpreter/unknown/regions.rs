@@ -11,6 +11,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::PassedOver;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
@@ -21,6 +22,7 @@ use crate::interpreter::run::step::Step;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::syntax::ast::CallScope;
 use crate::text::Span;
 
 impl Interpreter {
@@ -36,10 +38,30 @@ impl Interpreter {
         let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
-        self.scratch.passed.push((unit, from + 1..passed.end));
+        self.scratch.passed.push(PassedOver {
+            unit,
+            blocks: from + 1..passed.end,
+            cause: cause.clone(),
+            with_executed: true,
+        });
         let region = self.havoc_region(unit, passed, cause);
         self.note_exits(&region, from..=after, cause, Some(span));
         Some(Step::Jump(after))
+    }
+
+    /// Notes blocks that another way may execute.
+    pub(in crate::interpreter) fn leave_out(
+        &mut self,
+        unit: usize,
+        blocks: Range<EntryIndex>,
+        cause: &Arc<str>,
+    ) {
+        self.scratch.passed.push(PassedOver {
+            unit,
+            blocks,
+            cause: cause.clone(),
+            with_executed: false,
+        });
     }
 
     /// Makes unknown what the blocks of a region could change. Calls are kept for later, when
@@ -205,7 +227,25 @@ impl Interpreter {
                 self.scratch.wrote = true;
             }
             Effect::All => self.havoc_all(cause),
+            Effect::AnyLocal(span) => self.look_through_locals(*span, unit, cause),
         }
+    }
+
+    /// A call may be one of any local subprogram: what the control refuses there is looked for, once in
+    /// each file.
+    fn look_through_locals(&mut self, span: Span, unit: usize, cause: &Arc<str>) {
+        let calling = self.programs.unit_mut(unit);
+        if std::mem::replace(&mut calling.calls_any_local, true) {
+            return;
+        }
+        let names = calling.index.local_names();
+        let calls = names.map(|name| Scan {
+            call: Wanted::program(CallScope::Local, name.to_owned(), span),
+            cause: cause.clone(),
+            unit,
+            region: None,
+        });
+        self.pending.extend(calls);
     }
 
     /// Makes unknown the possible effects of programs that a region calls (R2.51).
@@ -271,7 +311,7 @@ impl Interpreter {
             }
             let section = self.programs.section(found);
             let region = section.start..section.end;
-            self.scratch.passed.push((found.unit, region.clone()));
+            self.leave_out(found.unit, region.clone(), &cause);
             let region = self.havoc_region(found.unit, region, &cause);
             self.note_far_exits(&region, &cause);
             pending.append(&mut self.pending);

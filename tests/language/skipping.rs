@@ -423,10 +423,19 @@ fn what_the_control_refuses_where_only_the_machine_knows_the_way_is_said() {
         "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
         "%L S\nLL T\nM17\n%L T\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
         "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\n$IF V.E.B == 1\nLL V.E.NAME\n/2 $ELSE\n$ENDIF\nM30",
+        "L SEQUENCE [N[V.E.A] N30]\nM30\nN20 Z[COMP ON FRICT]\nN30 M30",
+        "L SEQUENCE [N20 N30 REPEAT=V.E.A]\nM30\nN20 Z[COMP ON FRICT]\nN30 M30",
+        "%L S\nM17 [MAIN N[V.E.A]]\n%MAIN\nLL S\nM30\nN20: Z[COMP ON FRICT]\nM30",
+        "#FILE NAME [M6=\"tool.nc\"]\nM=V.E.A\nM30",
+        "#FILE NAME [G80=\"tool.nc\"]\nG=V.E.A\nM30",
+        "#FILE NAME [G80=\"tool.nc\"]\n$IF V.E.B == 1\nG=V.E.A\n/2 $ELSE\n$ENDIF\nM30",
     ];
     for program in programs {
         for handed in [SourceMode::Whole, SourceMode::LineByLine] {
-            let said = Bench::new().check_all().handed(handed).said(program);
+            let bench = Bench::new()
+                .check_all()
+                .file("tool.nc", "Z[COMP ON FRICT]\nM17\n");
+            let said = bench.handed(handed).said(program);
             assert_eq!(count(&said, "P-ERR-70495"), 1, "{program}\n{said}");
         }
     }
@@ -447,6 +456,14 @@ fn what_no_way_reaches_or_was_executed_is_not_said_again() {
         ("Z[COMP ON FRICT]\n$GOTO N[V.E.T]\nN20: X1\nM30", 1),
         (
             "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL S\n$GOTO N[V.E.T]\nN20: LL S\nM30",
+            1,
+        ),
+        (
+            "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nLL S\nM30",
+            1,
+        ),
+        (
+            "L SEQUENCE [N[V.E.A] N30]\nN20 Z[COMP ON FRICT]\nN30 M30",
             1,
         ),
         ("%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nL V.E.NAME\nM30", 0),

@@ -7,7 +7,6 @@ use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -45,13 +44,8 @@ impl Interpreter {
                 if self.scratch.unread.get() {
                     return Ok(None);
                 }
-                let fault = Fault::new(
-                    Code::Fc902,
-                    call.span,
-                    format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(&cause)),
-                )
-                .with_help(how_to_set(&cause));
-                self.tell_once(&cause, "call", fault, at);
+                let what = "which program is called";
+                self.tell_unknown(what, "the call is passed over", &cause, call.span, at);
                 Ok(None)
             }
             Value::Number(_) => Err(Box::new(Fault::new(

@@ -65,7 +65,9 @@ impl Interpreter {
                 let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
                 outcome.calls.push(wanted);
             }
-            Configured::Unknown(cause) => self.unknown_program(&cause, span, at),
+            Configured::Unknown(cause) => {
+                self.unknown_call("which program is called", &cause, span, at);
+            }
         }
         true
     }
@@ -116,7 +118,9 @@ impl Interpreter {
                 let wanted = Wanted::program(CallScope::Global, name, at.in_block(call.span));
                 outcome.calls.push(Wanted { own, ..wanted });
             }
-            Configured::Unknown(cause) => self.unknown_program(&cause, call.span, at),
+            Configured::Unknown(cause) => {
+                self.unknown_call("which program is called", &cause, call.span, at);
+            }
             Configured::None => {
                 if !self
                     .machine

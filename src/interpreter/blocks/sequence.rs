@@ -1,11 +1,14 @@
 //! Parts of programs: `L SEQUENCE` (R2.77), and M17 and M29 with a place to return to (R2.78).
 
+use std::sync::Arc;
+
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::wanted::{Part, Wanted};
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::BlockScratch;
+use crate::interpreter::run::block_scratch::{BlockScratch, PassedBy};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::journal::Scan;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::Frame;
 use crate::interpreter::run::step::{Destination, PendingLabel, Step};
@@ -28,7 +31,7 @@ impl Interpreter {
             Some(name) => match self.called_name(name, at)? {
                 Value::Text(name) => name.trim().to_owned(),
                 Value::Unknown(cause) => {
-                    self.unknown_program(&cause, span, at);
+                    self.unknown_call("which program is called", &cause, span, at);
                     return Ok(());
                 }
                 Value::Number(_) => {
@@ -45,17 +48,24 @@ impl Interpreter {
             Some(passes) => self.value(passes, at)?,
         };
         let Some(passes) = passes.number().and_then(rounded) else {
-            self.unknown_program("REPEAT", span, at);
+            let cause = match passes {
+                Value::Unknown(cause) => cause,
+                Value::Number(_) | Value::Text(_) => "REPEAT".into(),
+            };
+            self.unknown_part(name, "how often a part is executed", &cause, span, at);
             return Ok(());
         };
         let first = self.label_of(sequence.first, at)?;
         let last = match sequence.last {
             Some(last) => self.label_of(last, at)?.map(Some),
-            None => Some(None),
+            None => Ok(None),
         };
-        let (Some(first), Some(last)) = (first, last) else {
-            self.unknown_program("N", span, at);
-            return Ok(());
+        let (first, last) = match (first, last) {
+            (Ok(first), Ok(last)) => (first, last),
+            (Err(cause), _) | (_, Err(cause)) => {
+                self.unknown_part(name, "which part is executed", &cause, span, at);
+                return Ok(());
+            }
         };
         let part = Part {
             first,
@@ -72,24 +82,56 @@ impl Interpreter {
         Ok(())
     }
 
-    /// Returns the label that a target names; `None` where it is not known offline.
+    /// A part of a program is called of which only the machine knows the blocks: any of them may be
+    /// executed. Without a name it is the program that calls.
+    fn unknown_part(
+        &mut self,
+        name: String,
+        what: &str,
+        cause: &Arc<str>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        self.unknown_call(what, cause, span, at);
+        let Some(ProgramId { unit, section }) = self.state.control.frames.program() else {
+            return;
+        };
+        if name.is_empty() {
+            let own = self.programs.section(ProgramId { unit, section });
+            self.note_passed(unit, own.start..own.end, cause, PassedBy::Call);
+        } else {
+            self.pending.push(Scan {
+                call: Wanted::program(CallScope::Global, name, at.in_block(span)),
+                cause: cause.clone(),
+                unit,
+                region: None,
+            });
+        }
+    }
+
+    /// Returns the label that a target names, or the value that decides where it is not known offline.
     fn label_of(
         &mut self,
         target: BlockReference,
         at: &BlockContext<'_>,
-    ) -> Result<Option<LabelName>, Box<Fault>> {
+    ) -> Result<Result<LabelName, Arc<str>>, Box<Fault>> {
         let value = match target {
             BlockReference::Label(name) => {
-                return Ok(Some(LabelName::Text(name.of(at.text).to_owned())));
+                return Ok(Ok(LabelName::Text(name.of(at.text).to_owned())));
             }
             BlockReference::Number(operand) => self.value(operand, at)?,
             BlockReference::Variable(place) => self.value(Operand::Expression(place), at)?,
         };
         match value {
-            Value::Number(number) => Ok(rounded(number).map(LabelName::Number)),
-            Value::Text(name) => Ok(Some(LabelName::Text(name.to_string()))),
-            Value::Unknown(_) => Ok(None),
+            Value::Number(number) => Ok(rounded(number).map(LabelName::Number).ok_or("N".into())),
+            Value::Text(name) => Ok(Ok(LabelName::Text(name.to_string()))),
+            Value::Unknown(cause) => Ok(Err(cause)),
         }
+    }
+
+    fn unknown_return(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
+        self.havoc_all(cause);
+        self.tell_unknown(what, "the dry run goes on after the call", cause, span, at);
     }
 
     /// `M17 [MAIN [LABEL]]`
@@ -106,7 +148,7 @@ impl Interpreter {
             Levels::Number(operand) => {
                 let value = self.value(operand, at)?;
                 if let Value::Unknown(cause) = &value {
-                    self.unknown_program(cause, back.span, at);
+                    self.unknown_return("how many programs are left", cause, back.span, at);
                     outcome.returns = true;
                     return Ok(());
                 }
@@ -134,10 +176,28 @@ impl Interpreter {
         let entry = match back.target {
             None => None,
             Some(target) => {
-                let Some(name) = self.label_of(target, at)? else {
-                    self.unknown_program("N", back.span, at);
-                    outcome.step = Some(Step::ReturnTo(Destination { level, entry: None }));
-                    return Ok(());
+                let name = match self.label_of(target, at)? {
+                    Ok(name) => name,
+                    Err(cause) => {
+                        self.unknown_return("where the program goes on", &cause, back.span, at);
+                        let program = self
+                            .state
+                            .control
+                            .frames
+                            .at_level(level)
+                            .map(Frame::program);
+                        if let Some(program) = program {
+                            let whole = self.programs.section(program);
+                            self.note_passed(
+                                program.unit,
+                                whole.start..whole.end,
+                                &cause,
+                                PassedBy::Call,
+                            );
+                        }
+                        outcome.step = Some(Step::ReturnTo(Destination { level, entry: None }));
+                        return Ok(());
+                    }
                 };
                 let frame = self.state.control.frames.at_level(level);
                 let program = frame.map_or(ProgramId::FIRST, Frame::program);

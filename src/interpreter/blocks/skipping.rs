@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use crate::diagnostic::Diagnostic;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::{BlockContext, Shown};
-use crate::interpreter::run::block_scratch::PassedOver;
+use crate::interpreter::run::block_scratch::PassedBy;
 use crate::interpreter::run::cycles::RepeatedCall;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -45,7 +46,7 @@ impl Interpreter {
 
     /// Says what the control refuses if it executes the block.
     fn perhaps_refused(&mut self, cause: &str, at: &BlockContext<'_>) {
-        self.try_out(cause, at, |run| {
+        let said = self.try_out(cause, at, |run| {
             let mut outcome = BlockOutcome::default();
             for word in &at.block.words {
                 if let Err(fault) = run.word(word, at, &mut outcome) {
@@ -62,6 +63,7 @@ impl Interpreter {
                 }
             }
         });
+        self.scratch.of_some_ways.extend(said);
     }
 
     /// Says what the control refuses if it executes the blocks that were passed over (R2.51), once for
@@ -71,23 +73,21 @@ impl Interpreter {
         if !self.options.follows_ways() {
             return;
         }
-        for PassedOver {
-            unit,
-            blocks,
-            cause,
-            with_executed,
-        } in passed
-        {
-            let untried = self.programs.unit_mut(unit).take_untried(blocks);
-            for entry in untried.into_iter().flatten() {
-                if with_executed || !self.programs.was_read(unit, entry) {
-                    self.try_block(unit, entry, &cause);
+        for passed in passed {
+            let unit = self.programs.unit_mut(passed.unit);
+            for entry in unit.take_untried(passed.blocks).into_iter().flatten() {
+                let place = (passed.unit, entry);
+                let was_read = self.programs.was_read(passed.unit, entry);
+                match passed.by {
+                    PassedBy::Way | PassedBy::Call if was_read => {}
+                    PassedBy::Way | PassedBy::Branch => self.try_block(place, &passed.cause),
+                    PassedBy::Call => self.try_called(place, &passed.cause),
                 }
             }
         }
     }
 
-    fn try_block(&mut self, unit: usize, entry: EntryIndex, cause: &str) {
+    fn try_block(&mut self, (unit, entry): (usize, EntryIndex), cause: &str) {
         let block = self.programs.parsed(unit, entry);
         if self.is_skipped(&block.block) {
             return;
@@ -102,13 +102,8 @@ impl Interpreter {
         if is_own {
             self.perhaps_refused(cause, &at);
         } else {
-            self.try_out(cause, &at, |run| {
-                for item in &at.block.items {
-                    if let Item::Comp(command) = item {
-                        run.comp(command, &at);
-                    }
-                }
-            });
+            let said = self.refused_comp(cause, &at);
+            self.scratch.of_some_ways.extend(said);
         }
         let own = self.scratch.diagnostics.len();
         self.take_faults(&at, false);
@@ -116,8 +111,43 @@ impl Interpreter {
         self.scratch.of_some_ways.extend(faults);
     }
 
+    /// Keeps what the control refuses in a block for the end of the program: until then the dry run may
+    /// have executed it.
+    fn try_called(&mut self, place: (usize, EntryIndex), cause: &str) {
+        let block = self.programs.looked_at(place.0, place.1);
+        if self.is_skipped(&block.block) {
+            return;
+        }
+        let shown = Shown::default();
+        let at = BlockContext::of_parsed(&block, self.state.control.frames.level(), &shown);
+        let said = self.refused_comp(cause, &at);
+        self.held.extend(said.into_iter().map(|said| (place, said)));
+    }
+
+    /// What was kept for the end of the program of blocks that the dry run did not execute.
+    pub(in crate::interpreter) fn take_held(&mut self) -> Vec<Diagnostic> {
+        let held = std::mem::take(&mut self.held).into_iter();
+        let unread = held.filter(|((unit, entry), _)| !self.programs.was_read(*unit, *entry));
+        unread.map(|(_, said)| said).collect()
+    }
+
+    fn refused_comp(&mut self, cause: &str, at: &BlockContext<'_>) -> Vec<Diagnostic> {
+        self.try_out(cause, at, |run| {
+            for item in &at.block.items {
+                if let Item::Comp(command) = item {
+                    run.comp(command, at);
+                }
+            }
+        })
+    }
+
     /// Does something of a block for what is said of it, and leaves all else as it is.
-    fn try_out(&mut self, cause: &str, at: &BlockContext<'_>, attempt: impl FnOnce(&mut Self)) {
+    fn try_out(
+        &mut self,
+        cause: &str,
+        at: &BlockContext<'_>,
+        attempt: impl FnOnce(&mut Self),
+    ) -> Vec<Diagnostic> {
         let before = (self.state.control.clone(), self.state.track.clone());
         let scratch = std::mem::take(&mut self.scratch);
         let sides = std::mem::take(&mut self.sides);
@@ -133,8 +163,8 @@ impl Interpreter {
             let message = &mut said.message;
             *message = format!("{message}; whether the block is executed depends on {value}");
         }
-        self.scratch.of_some_ways.extend(said);
         (self.state.control, self.state.track) = before;
+        said
     }
 
     /// A modal cycle is repeated after the block if the control executes it.

@@ -45,6 +45,21 @@ impl Interpreter {
         Configured::None
     }
 
+    /// The programs that words with a letter call.
+    pub(in crate::interpreter) fn programs_of_words(&self, letter: u8) -> Vec<String> {
+        let letter = char::from(letter);
+        let configured = self.machine.programs.words.iter();
+        let configured = configured.map(|(word, name)| (word, name.clone()));
+        let named = self.state.control.named.iter();
+        let named = named.filter_map(|(word, name)| match name {
+            Value::Text(name) => Some((word, name.to_string())),
+            Value::Number(_) | Value::Unknown(_) => None,
+        });
+        let all = configured.chain(named);
+        let all = all.filter(|(word, name)| word.starts_with(letter) && !name.is_empty());
+        all.map(|(_, name)| name).collect()
+    }
+
     /// Whether any word calls a program.
     #[inline]
     pub(in crate::interpreter) fn calls_by_words(&self) -> bool {
@@ -58,7 +73,11 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        self.havoc_all(&letter.into());
+        let cause = letter.into();
+        self.havoc_all(&cause);
+        if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
+            self.look_through_words(letter.as_bytes()[0], span, unit, &cause);
+        }
         self.state.control.modal.note_transformed(letter);
         if self.scratch.unread.get() {
             return;
@@ -71,23 +90,36 @@ impl Interpreter {
                  everything that a program could change becomes unknown"
             ),
         );
-        self.tell_once(&letter.into(), "function", fault, at);
+        self.tell_once(&cause, "function", fault, at);
     }
 
-    pub(in crate::interpreter) fn unknown_program(
+    /// A call is passed over, of which `what` depends on a value that only the machine knows.
+    pub(in crate::interpreter) fn unknown_call(
         &mut self,
-        cause: &str,
+        what: &str,
+        cause: &Arc<str>,
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        self.havoc_all(&cause.into());
-        let fault = Fault::new(
-            Code::Fc902,
-            at.in_block(span),
-            format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(cause)),
-        )
-        .with_help(how_to_set(cause));
-        self.tell_once(&cause.into(), "call", fault, at);
+        self.havoc_all(cause);
+        self.tell_unknown(what, "the call is passed over", cause, span, at);
+    }
+
+    /// FC902: `what` depends on a value that only the machine knows.
+    pub(in crate::interpreter) fn tell_unknown(
+        &mut self,
+        what: &str,
+        then: &str,
+        cause: &Arc<str>,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let value = unknown_value(cause);
+        let message = format!(
+            "{what} depends on {value}; {then}, and everything that a program could change becomes unknown"
+        );
+        let fault = Fault::new(Code::Fc902, at.in_block(span), message);
+        self.tell_once(cause, "call", fault.with_help(how_to_set(cause)), at);
     }
 
     /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
@@ -98,6 +130,45 @@ impl Interpreter {
             .control
             .modal
             .note_transformed(&format!("G{number}"));
+    }
+
+    /// A call may be one of any local subprogram: what the control refuses there is looked for.
+    pub(in crate::interpreter) fn look_through_locals(
+        &mut self,
+        span: Span,
+        unit: usize,
+        cause: &Arc<str>,
+    ) {
+        let calling = self.programs.unit_mut(unit);
+        if calling.open_calls.insert(b'L') {
+            let names = calling.index.local_names().map(str::to_owned).collect();
+            self.look_through(names, CallScope::Local, span, unit, cause);
+        }
+    }
+
+    /// A word whose number is not known may call any program that one of its letter calls.
+    fn look_through_words(&mut self, letter: u8, span: Span, unit: usize, cause: &Arc<str>) {
+        if self.programs.unit_mut(unit).open_calls.insert(letter) {
+            let names = self.programs_of_words(letter);
+            self.look_through(names, CallScope::Global, span, unit, cause);
+        }
+    }
+
+    fn look_through(
+        &mut self,
+        names: Vec<String>,
+        scope: CallScope,
+        span: Span,
+        unit: usize,
+        cause: &Arc<str>,
+    ) {
+        let calls = names.into_iter().map(|name| Scan {
+            call: Wanted::program(scope, name, span),
+            cause: cause.clone(),
+            unit,
+            region: None,
+        });
+        self.pending.extend(calls);
     }
 
     /// A word in a region that may or may not be executed.
@@ -148,8 +219,14 @@ impl Interpreter {
                     self.state.control.modal.note_transformed(&word);
                 }
             }
-            ('M', None) => self.havoc_all(cause),
-            ('G', None) if self.calls_by_words() => self.havoc_all(cause),
+            ('M', None) => {
+                self.havoc_all(cause);
+                self.look_through_words(b'M', Span::default(), unit, cause);
+            }
+            ('G', None) if self.calls_by_words() => {
+                self.havoc_all(cause);
+                self.look_through_words(b'G', Span::default(), unit, cause);
+            }
             (_, None) => {}
         }
     }

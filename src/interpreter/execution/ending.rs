@@ -82,6 +82,7 @@ impl Interpreter {
         }
         notes.to_mut().extend(self.met.drain(..));
         notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
+        notes.to_mut().extend(self.take_held());
         notes.to_mut().extend(self.missed_search());
         let at = self.scratch.end.take();
         let mut ends = self.all_ends(at.as_ref());

@@ -8,11 +8,10 @@ use super::finder::{Finder, NoProgram};
 use super::index::{EntryIndex, Index, LabelName, ProgramId, Section};
 use super::unit::{Parsed, Unit};
 use super::wanted::Wanted;
-use super::weight::weight;
 use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
-use crate::syntax::ast::{Block, CallScope};
-use crate::syntax::{Comments, Fault, Stretch};
+use crate::syntax::Fault;
+use crate::syntax::ast::CallScope;
 
 /// Limit of the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
@@ -141,28 +140,7 @@ impl Programs {
             return Arc::clone(kept);
         }
         unit.executed[place] = true;
-        let mut block = Block::default();
-        let mut text = String::new();
-        let mut comments = Comments::Possible;
-        let mut remark = None;
-        if let Some(mut reader) = unit.index.reader(entry)
-            && let Some(raw) = reader.next(&mut block)
-        {
-            debug_assert_eq!(raw.stretch, Stretch::Block);
-            raw.text.clone_into(&mut text);
-            comments = raw.comments;
-            remark = raw.remark.cloned();
-        }
-        let remark = remark.or_else(|| unit.index.remark(entry));
-        let parsed = Arc::new(Parsed {
-            weight: weight(&block, &text),
-            block,
-            file: Arc::clone(unit.index.source.name()),
-            line: unit.index.entries[place].line,
-            text,
-            comments,
-            remark,
-        });
+        let parsed = Arc::new(unit.parse(entry));
         let again = entry < unit.high;
         unit.high = unit.high.max(entry + 1);
         if again && self.kept < MAX_KEPT {
@@ -173,6 +151,13 @@ impl Programs {
             self.kept += 1;
         }
         parsed
+    }
+
+    /// A parsed block that is looked at and not executed.
+    pub(in crate::interpreter) fn looked_at(&self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
+        let unit = &self.units[unit];
+        let kept = unit.kept.get(entry as usize).cloned().flatten();
+        kept.unwrap_or_else(|| Arc::new(unit.parse(entry)))
     }
 
     /// The block of a section that a jump label or a block number names.

@@ -5,8 +5,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::index::{EntryIndex, Index};
+use super::weight::weight;
 use crate::syntax::ast::Block;
-use crate::syntax::{Comments, Remark};
+use crate::syntax::{Comments, Remark, Stretch};
 
 /// A file of the run.
 #[derive(Clone)]
@@ -22,8 +23,8 @@ pub(in crate::interpreter) struct Unit {
     pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
     /// Regions that were passed over and tried (R2.51), apart from each other: first block and end.
     tried: BTreeMap<EntryIndex, EntryIndex>,
-    /// Whether it has a call that may be one of any local subprogram.
-    pub(in crate::interpreter) calls_any_local: bool,
+    /// What may call any program of its kind: local subprograms `L`, those of G functions `G`.
+    pub(in crate::interpreter) open_calls: BTreeSet<u8>,
     /// Whether a call of the file came back from its end (R17.2).
     pub(in crate::interpreter) returned: bool,
 }
@@ -36,9 +37,33 @@ impl Unit {
             executed: vec![false; index.entries.len()],
             undecided: BTreeSet::new(),
             tried: BTreeMap::new(),
-            calls_any_local: false,
+            open_calls: BTreeSet::new(),
             returned: false,
             index: Arc::new(index),
+        }
+    }
+
+    pub(super) fn parse(&self, entry: EntryIndex) -> Parsed {
+        let mut block = Block::default();
+        let mut text = String::new();
+        let mut comments = Comments::Possible;
+        let mut remark = None;
+        if let Some(mut reader) = self.index.reader(entry)
+            && let Some(raw) = reader.next(&mut block)
+        {
+            debug_assert_eq!(raw.stretch, Stretch::Block);
+            raw.text.clone_into(&mut text);
+            comments = raw.comments;
+            remark = raw.remark.cloned();
+        }
+        Parsed {
+            weight: weight(&block, &text),
+            block,
+            file: Arc::clone(self.index.source.name()),
+            line: self.index.entries[entry as usize].line,
+            text,
+            comments,
+            remark: remark.or_else(|| self.index.remark(entry)),
         }
     }
 

@@ -40,8 +40,18 @@ pub(in crate::interpreter) struct PassedOver {
     pub(in crate::interpreter) blocks: Range<EntryIndex>,
     /// The value that decides whether they are executed.
     pub(in crate::interpreter) cause: Arc<str>,
-    /// Whether blocks that were executed before are of interest, too.
-    pub(in crate::interpreter) with_executed: bool,
+    pub(in crate::interpreter) by: PassedBy,
+}
+
+/// What passes over blocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum PassedBy {
+    /// A control block whose branch is not known.
+    Branch,
+    /// A way that the control may take instead.
+    Way,
+    /// A call that may be made; the dry run may execute them later.
+    Call,
 }
 
 /// Buffers that are used again for each block.

@@ -79,6 +79,9 @@ pub struct Interpreter {
     pub(in crate::interpreter) met: Vec<Diagnostic>,
     /// The same where it was said before, or where nothing differs.
     pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
+    /// What the control refuses in blocks of called programs, each with its file, until it is known
+    /// whether the dry run executes them.
+    pub(in crate::interpreter) held: Vec<((usize, EntryIndex), Diagnostic)>,
     /// The answers among which somebody may choose where no way is followed.
     pub(in crate::interpreter) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
@@ -207,6 +210,7 @@ impl Interpreter {
             sides: Vec::new(),
             met: Vec::new(),
             met_withheld: Vec::new(),
+            held: Vec::new(),
             offered: Vec::new(),
             chosen: VecDeque::new(),
             shown: Shown::default(),

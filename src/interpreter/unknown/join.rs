@@ -8,6 +8,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::PassedBy;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Frame;
@@ -127,7 +128,7 @@ impl Interpreter {
                 && self.programs.index(place.unit).entries.len() >= here as usize
             {
                 // It executes what the dry run jumped over, or what it has after it.
-                self.leave_out(place.unit, target..here, &cause);
+                self.note_passed(place.unit, target..here, &cause, PassedBy::Way);
                 let region = self.havoc_region(place.unit, target..here, &cause);
                 self.note_exits(&region, target..=here, &cause, None);
             }
@@ -285,7 +286,7 @@ impl Interpreter {
             match lowest.min() {
                 Some(lowest) if lowest < from => from = lowest,
                 _ => {
-                    self.leave_out(unit, from..end, cause);
+                    self.note_passed(unit, from..end, cause, PassedBy::Way);
                     let region = self.havoc_region(unit, from..end, cause);
                     self.note_far_exits(&region, cause);
                     return;

@@ -11,7 +11,7 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Caller;
 use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::PassedOver;
+use crate::interpreter::run::block_scratch::{PassedBy, PassedOver};
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
@@ -22,7 +22,6 @@ use crate::interpreter::run::step::Step;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
-use crate::syntax::ast::CallScope;
 use crate::text::Span;
 
 impl Interpreter {
@@ -38,29 +37,25 @@ impl Interpreter {
         let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
-        self.scratch.passed.push(PassedOver {
-            unit,
-            blocks: from + 1..passed.end,
-            cause: cause.clone(),
-            with_executed: true,
-        });
+        self.note_passed(unit, from + 1..passed.end, cause, PassedBy::Branch);
         let region = self.havoc_region(unit, passed, cause);
         self.note_exits(&region, from..=after, cause, Some(span));
         Some(Step::Jump(after))
     }
 
-    /// Notes blocks that another way may execute.
-    pub(in crate::interpreter) fn leave_out(
+    /// Notes blocks that are passed over.
+    pub(in crate::interpreter) fn note_passed(
         &mut self,
         unit: usize,
         blocks: Range<EntryIndex>,
         cause: &Arc<str>,
+        by: PassedBy,
     ) {
         self.scratch.passed.push(PassedOver {
             unit,
             blocks,
             cause: cause.clone(),
-            with_executed: false,
+            by,
         });
     }
 
@@ -231,23 +226,6 @@ impl Interpreter {
         }
     }
 
-    /// A call may be one of any local subprogram: what the control refuses there is looked for, once in
-    /// each file.
-    fn look_through_locals(&mut self, span: Span, unit: usize, cause: &Arc<str>) {
-        let calling = self.programs.unit_mut(unit);
-        if std::mem::replace(&mut calling.calls_any_local, true) {
-            return;
-        }
-        let names = calling.index.local_names();
-        let calls = names.map(|name| Scan {
-            call: Wanted::program(CallScope::Local, name.to_owned(), span),
-            cause: cause.clone(),
-            unit,
-            region: None,
-        });
-        self.pending.extend(calls);
-    }
-
     /// Makes unknown the possible effects of programs that a region calls (R2.51).
     pub(in crate::interpreter) fn havoc_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
@@ -311,7 +289,7 @@ impl Interpreter {
             }
             let section = self.programs.section(found);
             let region = section.start..section.end;
-            self.leave_out(found.unit, region.clone(), &cause);
+            self.note_passed(found.unit, region.clone(), &cause, PassedBy::Call);
             let region = self.havoc_region(found.unit, region, &cause);
             self.note_far_exits(&region, &cause);
             pending.append(&mut self.pending);

@@ -51,12 +51,7 @@ impl Site {
 
 /// Words of an executed block.
 pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
-    Place {
-        file: Arc::clone(executed.file),
-        text: executed.text.into(),
-        first_line: executed.line,
-        span,
-    }
+    Place::in_block(executed.file, executed.text, executed.line, span)
 }
 
 /// Effect of a block on a kind.

@@ -45,12 +45,7 @@ pub struct RawBlock<'a> {
 impl RawBlock<'_> {
     /// A place in its lines.
     pub(crate) fn place(&self, file: &Arc<str>, span: Span) -> Place {
-        Place {
-            file: Arc::clone(file),
-            text: self.text.into(),
-            first_line: self.line,
-            span,
-        }
+        Place::in_block(file, self.text, self.line, span)
     }
 
     /// A fault of a `%` line, which no run comes to, as a message about its file.

@@ -19,6 +19,6 @@ pub use index::{LineIndex, Utf16Position};
 pub use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;
-pub(crate) use place::StartsInOrder;
+pub(crate) use place::{MAX_WHOLE, StartsInOrder};
 pub use shown_path::shown_path;
 pub use span::{Position, Span};

@@ -304,9 +304,12 @@ fn each_pair_of_lists_repeated() {
 }
 
 #[test]
-fn marks_in_a_long_line() {
+fn marks_in_a_long_line_and_messages_in_a_long_block() {
     // R9.90
-    let mut search = Search::new(Look::Long, &[InLine]);
+    let mut search = Search::new(Look::Long, &[InLine, InBlock]);
+    for token in ["$IF", "X[COMP ON FRICT]"] {
+        search.at(InBlock, &[token]);
+    }
     for sequence in [["!=", "'"], ["\t", "'"], ["#", "1"], ["#", "<"]] {
         search.at(InLine, &sequence);
     }

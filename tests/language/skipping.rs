@@ -423,6 +423,7 @@ fn what_the_control_refuses_where_only_the_machine_knows_the_way_is_said() {
         "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
         "%L S\nLL T\nM17\n%L T\nZ[COMP ON FRICT]\nM17\n%MAIN\nLL V.E.NAME\nM30",
         "%L S\nZ[COMP ON FRICT]\nM17\n%MAIN\n$IF V.E.B == 1\nLL V.E.NAME\n/2 $ELSE\n$ENDIF\nM30",
+        "%L S\n\"A\"\nM17\n%MAIN\n\"A\" = \"Z[COMP ON FRICT] X=P99\"\n$IF V.E.B == 1\nLL S\n/2 $ELSE\n$ENDIF\nM30",
         "L SEQUENCE [N[V.E.A] N30]\nM30\nN20 Z[COMP ON FRICT]\nN30 M30",
         "L SEQUENCE [N20 N30 REPEAT=V.E.A]\nM30\nN20 Z[COMP ON FRICT]\nN30 M30",
         "%L S\nM17 [MAIN N[V.E.A]]\n%MAIN\nLL S\nM30\nN20: Z[COMP ON FRICT]\nM30",

@@ -16,4 +16,5 @@ pub(super) mod resolve;
 pub(super) mod sequence;
 pub(super) mod skipping;
 pub(super) mod travel;
+pub(super) mod trying;
 pub(super) mod words;

@@ -189,10 +189,7 @@ impl Builder {
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
         let block = self.place_of(entry);
-        let place = |span| Place {
-            span,
-            ..block.clone()
-        };
+        let place = |span| Place::in_block(&block.file, &block.text, block.first_line, span);
         let at = place(fault.span);
         let diagnostic = fault.into_diagnostic(at, |span| Some(place(span)));
         self.index.refused.push(diagnostic);

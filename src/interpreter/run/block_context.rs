@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::programs::unit::Parsed;
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Fault, RawBlock, Remark};
-use crate::text::{Place, Span};
+use crate::text::{MAX_WHOLE, Place, Span};
 
 /// The place of a block, and what is known about it besides its tree.
 pub(in crate::interpreter) struct BlockContext<'a> {
@@ -48,6 +48,8 @@ struct Lines {
     /// The number of the first of them.
     number: u32,
     text: Arc<str>,
+    /// The offsets of the first and the last line end between them.
+    breaks: Option<(usize, usize)>,
 }
 
 impl Shown {
@@ -60,9 +62,7 @@ impl Shown {
         };
         let (start, end) = (clamped(span.start), clamped(span.end.max(span.start)));
         let mut last = self.0.borrow_mut();
-        let held = last
-            .as_ref()
-            .filter(|lines| lines.from <= start && start <= lines.to && end <= lines.to);
+        let held = last.as_ref().filter(|lines| lines.show(start, end));
         let lines = if let Some(held) = held {
             held
         } else {
@@ -80,6 +80,9 @@ impl Shown {
                 to,
                 number: number.saturating_add(u32::try_from(breaks).unwrap_or(u32::MAX)),
                 text: text.get(from..to).unwrap_or(text).into(),
+                breaks: memchr::memchr(b'\n', &bytes[from..to])
+                    .zip(memchr::memrchr(b'\n', &bytes[from..to]))
+                    .map(|(first, last)| (from + first, from + last)),
             })
         };
         Place {
@@ -88,6 +91,18 @@ impl Shown {
             first_line: lines.number,
             span: Span::new(start - lines.from, end - lines.from),
         }
+    }
+}
+
+impl Lines {
+    /// Whether what stands between two offsets is shown with these lines.
+    fn show(&self, start: usize, end: usize) -> bool {
+        let is_within = self.from <= start && start <= self.to && end <= self.to;
+        let touches_all = || {
+            self.breaks
+                .is_none_or(|(first, last)| start <= first && last < end)
+        };
+        is_within && (self.text.len() <= MAX_WHOLE || touches_all())
     }
 }
 

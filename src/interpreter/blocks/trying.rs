@@ -1,0 +1,149 @@
+//! Blocks that the dry run does not execute and the control perhaps does: what it would refuse there is
+//! said (R2.51, R2.52).
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_scratch::PassedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::values::cause::unknown_value;
+use crate::syntax::ast::Item;
+use crate::syntax::control_part;
+
+impl Interpreter {
+    /// Says what the control refuses if it executes the block.
+    pub(in crate::interpreter) fn perhaps_refused(&mut self, cause: &str, at: &BlockContext<'_>) {
+        let said = self.try_out(cause, at, |run| {
+            let mut outcome = BlockOutcome::default();
+            for word in &at.block.words {
+                if let Err(fault) = run.word(word, at, &mut outcome) {
+                    run.scratch.complain(*fault, at);
+                }
+            }
+            // What decides which blocks are executed decides nothing here.
+            let decides = |item: &Item| {
+                matches!(item, Item::Flow(..)) || control_part(at.block, item).is_some()
+            };
+            for item in at.block.items.iter().filter(|item| !decides(item)) {
+                if let Err(fault) = run.item(item, at, &mut outcome) {
+                    run.scratch.complain(*fault, at);
+                }
+            }
+        });
+        self.scratch.of_some_ways.extend(said);
+    }
+
+    /// Says what the control refuses if it executes the blocks that were passed over (R2.51), once for
+    /// each of them. The parameters of called programs are not known: of these only COMP commands are tried.
+    pub(in crate::interpreter) fn try_passed(&mut self) {
+        let passed = std::mem::take(&mut self.scratch.passed);
+        if !self.options.follows_ways() {
+            return;
+        }
+        for passed in passed {
+            let unit = self.programs.unit_mut(passed.unit);
+            for entry in unit.take_untried(passed.blocks).into_iter().flatten() {
+                let place = (passed.unit, entry);
+                let was_read = self.programs.was_read(passed.unit, entry);
+                match passed.by {
+                    PassedBy::Way | PassedBy::Call if was_read => {}
+                    PassedBy::Way | PassedBy::Branch => self.try_block(place, &passed.cause),
+                    PassedBy::Call => self.try_called(place, &passed.cause),
+                }
+            }
+        }
+    }
+
+    fn try_block(&mut self, (unit, entry): (usize, EntryIndex), cause: &str) {
+        let block = self.programs.parsed(unit, entry);
+        if self.is_skipped(&block.block) {
+            return;
+        }
+        let frames = &self.state.control.frames;
+        let is_own = frames.program().is_some_and(|own| {
+            let section = self.programs.section(own);
+            own.unit == unit && (section.start..section.end).contains(&entry)
+        });
+        let shown = Shown::default();
+        let at = BlockContext::of_parsed(&block, frames.level(), &shown);
+        if is_own {
+            self.perhaps_refused(cause, &at);
+        } else {
+            let said = self.refused_comp(cause, &at);
+            self.scratch.of_some_ways.extend(said);
+        }
+        let own = self.scratch.diagnostics.len();
+        self.take_faults(&at, false);
+        let faults = self.scratch.diagnostics.drain(own..);
+        self.scratch.of_some_ways.extend(faults);
+    }
+
+    /// Keeps what the control refuses in a block for the end of the program: until then the dry run may
+    /// have executed it.
+    fn try_called(&mut self, place: (usize, EntryIndex), cause: &str) {
+        let block = self.programs.looked_at(place.0, place.1);
+        if self.is_skipped(&block.block) {
+            return;
+        }
+        let shown = Shown::default();
+        let at = BlockContext::of_parsed(&block, self.state.control.frames.level(), &shown);
+        let said = self.refused_comp(cause, &at);
+        self.held.extend(said.into_iter().map(|said| (place, said)));
+    }
+
+    /// What was kept for the end of the program of blocks that the dry run did not execute.
+    pub(in crate::interpreter) fn take_held(&mut self) -> Vec<Diagnostic> {
+        let held = std::mem::take(&mut self.held).into_iter();
+        let unread = held.filter(|((unit, entry), _)| !self.programs.was_read(*unit, *entry));
+        unread.map(|(_, said)| said).collect()
+    }
+
+    /// What the control refuses of the COMP commands of a block, those of its macros included, whose other
+    /// words depend on values that are not known.
+    fn refused_comp(&mut self, cause: &str, at: &BlockContext<'_>) -> Vec<Diagnostic> {
+        let items = at.block.items.iter();
+        let (macros, commands): (Vec<_>, Vec<_>) = items
+            .filter(|item| matches!(item, Item::Comp(_) | Item::MacroUse(_)))
+            .partition(|item| matches!(item, Item::MacroUse(_)));
+        let mut attempt = |items: Vec<&Item>| {
+            self.try_out(cause, at, |run| {
+                for item in items {
+                    let _ = run.item(item, at, &mut BlockOutcome::default());
+                }
+            })
+        };
+        let mut said = attempt(commands);
+        if !macros.is_empty() {
+            let refused = |said: &Diagnostic| said.code == Code::PErr70495;
+            said.extend(attempt(macros).into_iter().filter(refused));
+        }
+        said
+    }
+
+    /// Does something of a block for what is said of it, and leaves all else as it is.
+    fn try_out(
+        &mut self,
+        cause: &str,
+        at: &BlockContext<'_>,
+        attempt: impl FnOnce(&mut Self),
+    ) -> Vec<Diagnostic> {
+        let before = (self.state.control.clone(), self.state.track.clone());
+        let scratch = std::mem::take(&mut self.scratch);
+        let sides = std::mem::take(&mut self.sides);
+        let (called, departing) = (self.pending.len(), self.departing.len());
+        attempt(self);
+        self.say_unsaid(at);
+        self.sides = sides;
+        self.pending.truncate(called);
+        self.departing.truncate(departing);
+        let mut said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
+        for said in said.iter_mut().filter(|said| !said.code.is_about_text()) {
+            let value = unknown_value(cause);
+            let message = &mut said.message;
+            *message = format!("{message}; whether the block is executed depends on {value}");
+        }
+        (self.state.control, self.state.track) = before;
+        said
+    }
+}

@@ -287,13 +287,11 @@ mod tests {
         std::fs::create_dir(path("sub")).unwrap();
         std::fs::write(path("a.nc"), "").unwrap();
         std::fs::hard_link(path("a.nc"), path("hard")).unwrap();
-        let mut names = vec![path("a.nc"), path("sub/../a.nc"), path("hard")];
         #[cfg(unix)]
-        {
-            std::os::unix::fs::symlink(path("a.nc"), path("soft")).unwrap();
-            names.push(path("soft"));
-        }
-        for name in &names {
+        std::os::unix::fs::symlink(path("a.nc"), path("soft")).unwrap();
+        let soft = cfg!(unix).then_some("soft");
+        for name in ["a.nc", "sub/../a.nc", "hard"].into_iter().chain(soft) {
+            let name = &path(name);
             let said = refused(&[&path("a.nc")], &[name]).unwrap();
             assert!(said.contains("would overwrite the program"), "{said}");
         }

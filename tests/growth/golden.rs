@@ -12,7 +12,6 @@ use crate::measure::{TWICE, excess};
 const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
     writer: "golden --update",
-    tolerance_um: 0.0,
 };
 
 /// Folders with a program each, and what was agreed on beside it.
@@ -50,7 +49,7 @@ impl Archive {
 
     /// Agrees on another result of each program.
     fn update(&self, result: &str) {
-        let now = |_: &Input| Ok::<_, HostError>(result.to_owned());
+        let now = |_: &Input, _: Option<&str>| Ok::<_, HostError>(result.to_owned());
         let updated = self.agreed.update(&self.files, &self.registry, now);
         for folder in updated.expect("nothing stands in its way") {
             assert!(folder.failures.is_empty(), "{:?}", folder.failures);

@@ -16,7 +16,7 @@ use frictcomp::machine::{AxisSet, AxisType, Origin, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
-use frictcomp_report::visible_line;
+use frictcomp_report::{Table, visible_line};
 
 /// Show the configuration of the machine
 #[derive(Debug, Subcommand)]
@@ -123,10 +123,8 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     if !harmless.is_empty() {
         let _ = writeln!(output, "harmless       {}", harmless.join(", "));
     }
-    let _ = writeln!(
-        output,
-        "\naxis      type  at start      P-AXIS-00522  value list"
-    );
+    let columns = ["axis", "type", "at start", "P-AXIS-00522", "value list"];
+    let mut table = columns.into_iter().fold(Table::default(), Table::left);
     let comp = machine.compensation();
     for (position, axis) in machine.axes.iter().enumerate() {
         let state = comp.state(AxisIndex::new(position), Kind::Frict);
@@ -150,14 +148,15 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
             Parameterisation::Assumed => "assumed".to_owned(),
             Parameterisation::Accepted(list) => format!("{} points", list.table.len()),
         };
-        let _ = writeln!(
-            output,
-            "{:<8}  {kind:<4}  {:<12}  {:<12}  {list}",
-            axis.name,
-            state.as_str(),
-            format!("{value} {origin}"),
-        );
+        table.row(&[
+            &axis.name,
+            &kind,
+            &state.as_str(),
+            &format_args!("{value} {origin}"),
+            &list,
+        ]);
     }
+    let _ = write!(output, "\n{table}");
     if machine.axis_set == AxisSet::AsTheyOccur {
         output.push_str("\nWithout a configuration these axes are taken as they occur.\n");
     }

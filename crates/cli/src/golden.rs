@@ -22,13 +22,12 @@ use frictcomp_host::{
     LoadedMachine, Machines, Naming, SingleRun, drive_contour, find_programs, run_alone,
 };
 use frictcomp_physics::contour::BlockDeviations;
-use frictcomp_report::contour::{GoldenContour, render_agreed};
+use frictcomp_report::contour::{AgreedContour, GoldenContour, agreed_contour};
 use frictcomp_report::{Report, Text, TextChange, TextOptions, render_unified};
 
 const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
     writer: "golden --update",
-    tolerance_um: 0.0,
 };
 
 /// Compare each program's timeline with the `.timeline` file beside it
@@ -120,13 +119,10 @@ impl Bench<'_> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();
         for file in &self.files {
-            let now = result(
-                &file.program,
-                (self.args, &mut self.machines),
-                &self.registry,
-            );
+            let (bench, registry) = ((self.args, &mut self.machines), &self.registry);
+            let now = |agreed: Option<&str>| result((&file.program, agreed), bench, registry);
             let name = shown(&file.path);
-            match now.and_then(|now| Ok(self.agreed.compare(file, now)?)) {
+            match self.agreed.compare(file, now) {
                 Ok(GoldenDrift::AsAgreed) => {}
                 Ok(GoldenDrift::Missing { .. }) => {
                     missing += 1;
@@ -166,7 +162,9 @@ impl Bench<'_> {
     fn update(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         let mut written = 0;
         let (args, registry) = (self.args, &self.registry);
-        let now = |program: &Input| result(program, (args, &mut self.machines), registry);
+        let now = |program: &Input, agreed: Option<&str>| {
+            result((program, agreed), (args, &mut self.machines), registry)
+        };
         for updated in self.agreed.update::<Failure>(&self.files, registry, now)? {
             for path in &updated.written {
                 console.remark(&format!("wrote `{}`", shown_path(path)));
@@ -199,7 +197,6 @@ impl GoldenArgs {
         GoldenKind {
             extension: "contour",
             writer: "golden --contour --update",
-            tolerance_um: self.tolerance.unwrap_or_default().um(),
         }
     }
 
@@ -212,15 +209,20 @@ impl GoldenArgs {
     }
 }
 
-/// Returns the agreed result of one program.
+/// Returns the result of one program, which keeps what was agreed on where the tolerance allows it.
 fn result(
-    program: &Input,
+    (program, agreed): (&Input, Option<&str>),
     (args, machines): (&GoldenArgs, &mut Machines),
     registry: &FileRegistry,
 ) -> Result<String, Failure> {
     let loaded = machines.for_folder(program.folder())?;
     if args.contour {
-        contour(program, (args, &loaded), registry)
+        let contour = contour(program, (args, &loaded), registry)?;
+        let tolerance_um = args.tolerance.unwrap_or_default().um();
+        Ok(agreed.map_or_else(
+            || contour.to_string(),
+            |agreed| contour.keeping(agreed, tolerance_um),
+        ))
     } else {
         Ok(timeline(program, &loaded, &args.execution)?)
     }
@@ -231,7 +233,7 @@ fn contour(
     program: &Input,
     (args, loaded): (&GoldenArgs, &LoadedMachine),
     registry: &FileRegistry,
-) -> Result<String, Failure> {
+) -> Result<AgreedContour, Failure> {
     let simulation = &args.simulation;
     let of = (loaded, Naming::FileName);
     let setup = simulation.setup(of, &args.execution, registry)?;
@@ -241,7 +243,7 @@ fn contour(
         plant: simulation.plant().to_owned(),
         start: simulation.start.given().to_vec(),
     };
-    Ok(render_agreed(&mut contour, &subject))
+    Ok(agreed_contour(&mut contour, &subject))
 }
 
 /// The timeline of one program, the same on every machine and in every folder.

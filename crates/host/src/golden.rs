@@ -5,7 +5,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::HostError;
-use super::figures::diff_with_tolerance;
 use super::input::Input;
 use super::open_text::OpenText;
 use super::outputs::OutputFiles;
@@ -13,15 +12,12 @@ use super::read::read_bytes;
 use super::registry::{FileRegistry, Replaces, folder};
 
 /// A kind of result that is agreed on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GoldenKind {
     /// Extension after the name of the program, `timeline`.
     pub extension: &'static str,
     /// Name of the writer of the files in errors.
     pub writer: &'static str,
-    /// Tolerance of its figures in µm: within it a figure is unchanged, and stays as it was agreed
-    /// on.
-    pub tolerance_um: f64,
 }
 
 /// The results of one kind, in the folders that the user handed over.
@@ -106,27 +102,29 @@ impl GoldenResults {
         })
     }
 
-    /// Compares the result of today with the one that was agreed on.
+    /// Compares the result of today with the one that was agreed on. `now` gives the result of
+    /// today, and is told what was agreed on.
     ///
     /// # Errors
-    /// The file cannot be read, or is a link that leads out of the folders (R9.77).
-    pub fn compare(&self, agreed: &GoldenFile, now: String) -> Result<GoldenDrift, HostError> {
+    /// The file cannot be read, or is a link that leads out of the folders (R9.77); or there is no
+    /// result of today.
+    pub fn compare<E: From<HostError>>(
+        &self,
+        agreed: &GoldenFile,
+        now: impl FnOnce(Option<&str>) -> Result<String, E>,
+    ) -> Result<GoldenDrift, E> {
         self.stay_inside(&agreed.path)?;
-        Ok(match read_agreed(&agreed.path)? {
+        let before = read_agreed(&agreed.path)?;
+        let now = now(before.as_deref())?;
+        Ok(match before {
             None => GoldenDrift::Missing { now },
-            Some(before) => {
-                let now = diff_with_tolerance(&before, now, self.kind.tolerance_um);
-                if before == now {
-                    GoldenDrift::AsAgreed
-                } else {
-                    GoldenDrift::Drifted { before, now }
-                }
-            }
+            Some(before) if before == now => GoldenDrift::AsAgreed,
+            Some(before) => GoldenDrift::Drifted { before, now },
         })
     }
 
     /// Writes the files that drifted, folder by folder as the iterator is asked: all of a folder or
-    /// none (R9.77). `now` gives the result of a program.
+    /// none (R9.77). `now` gives the result of a program, and is told what was agreed on.
     ///
     /// # Errors
     /// A file is one that the work reads.
@@ -134,7 +132,7 @@ impl GoldenResults {
         &'a self,
         files: &'a [GoldenFile],
         registry: &'a FileRegistry,
-        mut now: impl FnMut(&Input) -> Result<String, E> + 'a,
+        mut now: impl FnMut(&Input, Option<&str>) -> Result<String, E> + 'a,
     ) -> Result<impl Iterator<Item = UpdatedFolder<'a, E>>, HostError> {
         let mut all = OutputFiles::new(registry);
         for file in files {
@@ -154,10 +152,8 @@ impl GoldenResults {
             };
             let mut outputs = OutputFiles::part_of(&all);
             for file in files {
-                let done = now(&file.program).and_then(|now| {
-                    self.write(file, now, &mut outputs)?;
-                    Ok(())
-                });
+                let drift = self.compare(file, |agreed| now(&file.program, agreed));
+                let done = drift.and_then(|drift| Ok(self.write(file, drift, &mut outputs)?));
                 updated.failures.extend(done.err());
             }
             if updated.failures.is_empty() {
@@ -172,12 +168,10 @@ impl GoldenResults {
     fn write(
         &self,
         file: &GoldenFile,
-        now: String,
+        drift: GoldenDrift,
         outputs: &mut OutputFiles,
     ) -> Result<(), HostError> {
-        let (GoldenDrift::Missing { now } | GoldenDrift::Drifted { now, .. }) =
-            self.compare(file, now)?
-        else {
+        let (GoldenDrift::Missing { now } | GoldenDrift::Drifted { now, .. }) = drift else {
             return Ok(());
         };
         let mut output = outputs.create(self.kind.writer, &file.path, Replaces::Results)?;

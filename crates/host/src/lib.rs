@@ -39,7 +39,6 @@ mod disk;
 mod dry_run;
 mod encoded_text;
 mod error;
-mod figures;
 mod file_kind;
 mod finder;
 mod first_look;

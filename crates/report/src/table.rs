@@ -13,8 +13,8 @@ enum Alignment {
 
 /// A table whose columns are as wide as their widest cell, two blanks apart, without blanks at the end of a line. The
 /// first line has the headings; a row may have fewer cells than there are columns.
-#[derive(Debug, Default)]
-pub(crate) struct Table {
+#[derive(Debug, Clone, Default)]
+pub struct Table {
     headings: Vec<String>,
     alignments: Vec<Alignment>,
     rows: Vec<Vec<String>>,
@@ -22,17 +22,17 @@ pub(crate) struct Table {
 
 impl Table {
     /// A table whose columns have numbers.
-    pub(crate) fn of_numbers<const N: usize>(headings: [&str; N]) -> Self {
+    pub fn of_numbers<const N: usize>(headings: [&str; N]) -> Self {
         headings.into_iter().fold(Self::default(), Self::right)
     }
 
     /// Adds a column of numbers: they end below one another.
-    pub(crate) fn right(self, heading: impl Display) -> Self {
+    pub fn right(self, heading: impl Display) -> Self {
         self.column(heading, Alignment::Right)
     }
 
     /// Adds a column of words.
-    pub(crate) fn left(self, heading: impl Display) -> Self {
+    pub fn left(self, heading: impl Display) -> Self {
         self.column(heading, Alignment::Left)
     }
 
@@ -43,12 +43,12 @@ impl Table {
     }
 
     /// Adds a row.
-    pub(crate) fn row(&mut self, cells: &[&dyn Display]) {
+    pub fn row(&mut self, cells: &[&dyn Display]) {
         self.cells(cells.iter().map(ToString::to_string).collect());
     }
 
     /// Adds a row of which only its data say how many cells it has.
-    pub(crate) fn cells(&mut self, cells: Vec<String>) {
+    pub fn cells(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }
 

@@ -593,6 +593,7 @@ sent! {
     report::commission::ValueListUsed,
     report::compare::ContoursReport,
     report::compare::VersionsReport,
+    report::contour::AgreedContour,
     report::contour::ContourRecorder<'_>,
     report::contour::ContourSubject,
     report::contour::GoldenContour,

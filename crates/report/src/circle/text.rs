@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::assumptions::{not_modelled, not_modelled_line};
 use super::super::stiction::guideline;
+use super::super::table::Table;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use frictcomp::diagnostic::{Rounded, Shown};
 use frictcomp_physics::circle::{
@@ -20,15 +21,18 @@ pub fn render_text(report: &CircleReport) -> String {
         let _ = writeln!(out, "{line}");
     }
     let columns = columns(report);
-    let _ = writeln!(out);
-    header(&mut out, &columns);
+    let mut table = columns
+        .iter()
+        .map(Column::name)
+        .fold(Table::default().left("µm"), Table::right);
     for row in figure_rows(&columns) {
-        row.append(&mut out);
+        table.cells(row.cells());
     }
-    let _ = writeln!(out);
+    table.cells(Vec::new());
     for row in shape_rows(&columns) {
-        row.append(&mut out);
+        table.cells(row.cells());
     }
+    let _ = write!(out, "\n{table}");
     if let Some(line) = no_glitches(report) {
         let _ = writeln!(out, "{line}");
     }
@@ -45,7 +49,7 @@ pub fn render_text(report: &CircleReport) -> String {
 }
 
 /// The figures of all paths, in µm.
-pub(crate) struct Table {
+pub(crate) struct FigureTable {
     /// `off ccw`, `on cw`.
     pub(crate) columns: Vec<String>,
     /// The figures of ISO 230-4, then the glitches.
@@ -60,11 +64,11 @@ pub(crate) struct Row {
 }
 
 /// The figures as a table.
-pub(crate) fn table(report: &CircleReport) -> Table {
+pub(crate) fn table(report: &CircleReport) -> FigureTable {
     let columns = columns(report);
     let mut rows = figure_rows(&columns);
     rows.extend(shape_rows(&columns));
-    Table {
+    FigureTable {
         columns: columns.iter().map(Column::name).collect(),
         rows,
     }
@@ -334,14 +338,6 @@ fn other_turns(turns: WholeTurns) -> String {
     }
 }
 
-fn header(out: &mut String, columns: &[Column<'_>]) {
-    let _ = write!(out, "{:<34}", "µm");
-    for column in columns {
-        let _ = write!(out, "{:>13}", column.name());
-    }
-    let _ = writeln!(out);
-}
-
 /// A figure of one path by its name.
 type Figure = (&'static str, fn(&PathFigures) -> Option<f64>);
 
@@ -419,15 +415,11 @@ impl Row {
         self.values.iter().any(Option::is_some)
     }
 
-    fn append(&self, out: &mut String) {
-        let mut line = format!("{:<33}", self.name);
-        for value in &self.values {
-            let text = value
-                .map(|value| Rounded(value, 3).to_string())
-                .unwrap_or_default();
-            let _ = write!(line, "{text:>13}");
-        }
-        let _ = writeln!(out, "{}", line.trim_end());
+    fn cells(&self) -> Vec<String> {
+        let values = self.values.iter();
+        let values = values.map(|value| value.map(|value| Rounded(value, 3).to_string()));
+        let name = [self.name.clone()].into_iter();
+        name.chain(values.map(Option::unwrap_or_default)).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! A contour in every format (R11.4, R11.6).
 
+mod agreed;
 mod document;
 mod golden;
 pub(crate) mod places;
@@ -8,8 +9,9 @@ mod records;
 mod remarks;
 mod text;
 
+pub use agreed::AgreedContour;
 pub use document::{document, summary_record};
-pub use golden::{GoldenContour, render_agreed};
+pub use golden::{GoldenContour, agreed_contour};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
 pub use remarks::{contour_remarks, exceeded};

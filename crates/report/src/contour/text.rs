@@ -311,32 +311,40 @@ fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
     if worst.is_empty() {
         return;
     }
-    let _ = writeln!(
-        out,
-        "\nworst reversals, glitch in µm, feeds in mm/min\n{:>7}  {:<4} {:<12} {:>7} {:>9} {:>9} {:>11} {:>9} {:>9}  block",
-        "line", "axis", "state", "F", "reached", "mm/s²", "programmed", "all on", "all off"
-    );
+    let mut table = Table::default().right("line").left("axis").left("state");
+    for heading in ["F", "reached", "mm/s²", "programmed", "all on", "all off"] {
+        table = table.right(heading);
+    }
+    table = table.left("block");
     for reversal in worst {
         let glitch = &reversal.glitch_um;
-        let glitches = if reversal.figure == GlitchFigure::Measured {
-            format!(
-                "{:>11.2} {:>9.2} {:>9.2}",
-                glitch.programmed, glitch.all_on, glitch.all_off
-            )
-        } else {
-            format!("{:>31}", glitch_in_words(reversal))
+        let is_measured = reversal.figure == GlitchFigure::Measured;
+        let glitches = [glitch.programmed, glitch.all_on, glitch.all_off];
+        let [programmed, all_on, all_off] = glitches.map(|um| match is_measured {
+            true => format!("{um:.2}"),
+            false => "-".to_owned(),
+        });
+        let block = Block::from(reversal).beside(program);
+        let why = match is_measured {
+            true => String::new(),
+            false => format!(" ({})", glitch_in_words(reversal)),
         };
-        let programmed = reversal.programmed_mm_per_min;
-        let row = format!(
-            "{:>7}  {:<4} {:<12} {:>7} {:>9.0} {:>9.0} {glitches}  {}",
-            reversal.line,
-            visible_line(&reversal.axis),
-            reversal.state.as_str(),
-            programmed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
-            reversal.feed_mm_per_min,
-            reversal.acceleration_mm_per_s2.round() + 0.0,
-            Block::from(reversal).beside(program)
-        );
-        let _ = writeln!(out, "{}", row.trim_end());
+        let feed = reversal.programmed_mm_per_min;
+        table.row(&[
+            &reversal.line,
+            &visible_line(&reversal.axis),
+            &reversal.state.as_str(),
+            &feed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
+            &format_args!("{:.0}", reversal.feed_mm_per_min),
+            &format_args!("{:.0}", reversal.acceleration_mm_per_s2.round() + 0.0),
+            &programmed,
+            &all_on,
+            &all_off,
+            &format_args!("{block}{why}"),
+        ]);
     }
+    let _ = write!(
+        out,
+        "\nworst reversals, glitch in µm, feeds in mm/min\n{table}"
+    );
 }

@@ -46,18 +46,18 @@ impl AgreedContour {
         let before: Vec<Line> = before.lines().map(Line::read).collect();
         let words = |lines: &[Line]| lines.iter().map(Line::words).collect::<Vec<_>>();
         let (old, new) = (words(&before), words(&self.0));
-        let mut kept: Vec<&Line> = self.0.iter().collect();
+        let mut kept = self.0.clone();
         for operation in capture_diff_slices(Algorithm::Myers, &old, &new) {
             if let DiffOp::Equal { .. } = operation {
                 let pairs = operation.old_range().zip(operation.new_range());
                 for (old, new) in pairs {
                     if before[old].is_near(&self.0[new], tolerance_um) {
-                        kept[new] = &before[old];
+                        kept[new] = before[old].clone();
                     }
                 }
             }
         }
-        kept.iter().map(|line| format!("{}\n", line.text)).collect()
+        Self(kept).to_string()
     }
 }
 

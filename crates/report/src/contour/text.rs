@@ -320,14 +320,18 @@ fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
         let glitch = &reversal.glitch_um;
         let is_measured = reversal.figure == GlitchFigure::Measured;
         let glitches = [glitch.programmed, glitch.all_on, glitch.all_off];
-        let [programmed, all_on, all_off] = glitches.map(|um| match is_measured {
-            true => format!("{um:.2}"),
-            false => "-".to_owned(),
+        let [programmed, all_on, all_off] = glitches.map(|um| {
+            if is_measured {
+                format!("{um:.2}")
+            } else {
+                "-".to_owned()
+            }
         });
         let block = Block::from(reversal).beside(program);
-        let why = match is_measured {
-            true => String::new(),
-            false => format!(" ({})", glitch_in_words(reversal)),
+        let why = if is_measured {
+            String::new()
+        } else {
+            format!(" ({})", glitch_in_words(reversal))
         };
         let feed = reversal.programmed_mm_per_min;
         table.row(&[

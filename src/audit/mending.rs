@@ -10,7 +10,7 @@ use super::numbering::Numbering;
 use super::observation::Observation;
 use super::places::places;
 use super::program::{Auditor, AxisAudit};
-use super::runs::Runs;
+use super::runs::ProgramRuns;
 
 use crate::interpreter::{Interpreter, Observer};
 
@@ -81,7 +81,7 @@ pub fn mend<E>(
     mut run: impl FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
 ) -> Result<Mended, E> {
     let before = (0..programs.len()).map(|at| observe(&programs[at], (at, text), &mut run));
-    let before = before.collect::<Result<Vec<Runs>, E>>()?;
+    let before = before.collect::<Result<Vec<ProgramRuns>, E>>()?;
     let mut trial = Trial {
         text,
         programs,
@@ -107,7 +107,7 @@ fn observe<E>(
     program: &Affected<'_>,
     (at, text): (usize, &str),
     run: &mut impl RunWith<E>,
-) -> Result<Runs, E> {
+) -> Result<ProgramRuns, E> {
     let run = &mut |interpreter: &mut Interpreter, listen: &mut dyn Observer| {
         run(at, text, interpreter, listen)
     };
@@ -119,9 +119,9 @@ struct Trial<'a, R> {
     text: &'a str,
     programs: &'a [Affected<'a>],
     /// The runs of the programs without any block.
-    before: Vec<Runs>,
+    before: Vec<ProgramRuns>,
     /// Those with the blocks that are accepted, where there are any.
-    now: Option<Vec<Runs>>,
+    now: Option<Vec<ProgramRuns>>,
     accepted: Mended,
     run: R,
 }
@@ -129,7 +129,7 @@ struct Trial<'a, R> {
 /// Blocks at one place, as far as they harm nothing.
 struct Attempt {
     insertions: Vec<Insertion>,
-    runs: Vec<Runs>,
+    runs: Vec<ProgramRuns>,
     cured: Vec<usize>,
 }
 
@@ -227,7 +227,7 @@ impl<R> Trial<'_, R> {
     }
 
     /// Returns the objection to blocks, seen from one program.
-    fn harm(&self, at: usize, after: &Runs) -> Option<WhyMissed> {
+    fn harm(&self, at: usize, after: &ProgramRuns) -> Option<WhyMissed> {
         if !self.keeps_motions(at, after) {
             let name = Arc::clone(&self.programs[at].name);
             return Some(WhyMissed::ChangesMotion(name));
@@ -236,7 +236,7 @@ impl<R> Trial<'_, R> {
             .then_some(WhyMissed::NotCured)
     }
 
-    fn now(&self) -> &[Runs] {
+    fn now(&self) -> &[ProgramRuns] {
         self.now.as_ref().unwrap_or(&self.before)
     }
 
@@ -259,7 +259,7 @@ impl<R> Trial<'_, R> {
 
     /// Whether every motion keeps its state from the start-up state, and from another state becomes at
     /// most that of the start-up.
-    fn keeps_motions(&self, program: usize, after: &Runs) -> bool {
+    fn keeps_motions(&self, program: usize, after: &ProgramRuns) -> bool {
         let before = &self.before[program];
         let scope = self.programs[program].auditor.scope();
         (0..scope.subjects().len()).all(|at| {
@@ -279,7 +279,7 @@ impl<R> Trial<'_, R> {
     }
 
     /// Whether a program comes to leave an axis away from its start-up state, or may.
-    fn brings_a_hazard(&self, program: usize, after: &Runs) -> bool {
+    fn brings_a_hazard(&self, program: usize, after: &ProgramRuns) -> bool {
         let auditor = self.programs[program].auditor;
         let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();
         let pairs = auditor.axes(&self.before[program]);
@@ -288,7 +288,7 @@ impl<R> Trial<'_, R> {
     }
 
     /// Whether a program has lost its part in the hazards.
-    fn is_cured(&self, program: usize, runs: &Runs, mending: Mending) -> bool {
+    fn is_cured(&self, program: usize, runs: &ProgramRuns, mending: Mending) -> bool {
         let audit = &self.programs[program].auditor.axes(runs)[mending.at];
         match mending.cure {
             Cure::Inheritors => audit.inherits == Inherits::No,

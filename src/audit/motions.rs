@@ -33,13 +33,13 @@ impl Stood {
 
 /// The selection of one kind on one axis at every motion, in the order of the run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Motions {
+pub(super) struct SelectionAtMotions {
     stretches: Vec<(Stood, u64)>,
     /// A digest of what is not kept.
     rest: u64,
 }
 
-impl Motions {
+impl SelectionAtMotions {
     #[inline]
     pub(super) fn note(&mut self, stood: Stood) {
         match self.stretches.last_mut() {
@@ -89,8 +89,8 @@ impl Motions {
 mod tests {
     use super::*;
 
-    fn of(text: &str) -> Motions {
-        let mut motions = Motions::default();
+    fn of(text: &str) -> SelectionAtMotions {
+        let mut motions = SelectionAtMotions::default();
         for letter in text.chars() {
             let selected = match letter {
                 '1' => Selected::On,

@@ -10,7 +10,7 @@ const USUAL_STEP: u64 = 10;
 
 /// The block number of a line.
 #[derive(Debug, Clone, Copy)]
-struct Number<'a> {
+struct LineNumber<'a> {
     /// Text before the digits: blanks and `N`.
     before: &'a str,
     /// With leading zeros.
@@ -113,12 +113,12 @@ impl<'a> Numbering<'a> {
 }
 
 /// The block number at the start of a line.
-fn number(line: &str) -> Option<Number<'_>> {
+fn number(line: &str) -> Option<LineNumber<'_>> {
     let blanks = line.len() - line.trim_start().len();
     let rest = line[blanks..].strip_prefix(['N', 'n'])?;
     let length = rest.bytes().take_while(u8::is_ascii_digit).count();
     let digits = &rest[..length];
-    Some(Number {
+    Some(LineNumber {
         before: &line[..=blanks],
         digits,
         value: digits.parse().ok().filter(|value| *value <= MOST)?,

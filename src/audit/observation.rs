@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
-use super::motions::{Motions, Stood};
+use super::motions::{SelectionAtMotions, Stood};
 use super::scope::{AuditedKind, Scope, Selected};
 use super::within::Within;
 use crate::comp::{AxisIndex, Compensation, KindSet};
@@ -17,7 +17,7 @@ use crate::text::Place;
 
 /// Origin of the present state of a selection.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Deed {
+pub(super) enum SelectionOrigin {
     /// A command that was executed.
     Command(Site),
     /// Something that is not known offline.
@@ -37,7 +37,7 @@ pub(super) struct Moved {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observed {
     /// The last that changed it or set it anew.
-    pub(super) last: Option<Deed>,
+    pub(super) last: Option<SelectionOrigin>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
     /// The first motion in the state that the program found: the first that is sure, else the first that is
@@ -46,7 +46,7 @@ pub(super) struct Observed {
     /// The first motion word away from its start-up state.
     pub(super) astray: Option<Moved>,
     /// The selection at every motion.
-    pub(super) motions: Motions,
+    pub(super) motions: SelectionAtMotions,
     /// The selection after the last block that may have changed it.
     standing: Option<Selected>,
 }
@@ -216,7 +216,7 @@ impl Observation {
             if kinds.contains(scope.subjects()[at].kind) {
                 let observed = &mut self.observed[at];
                 observed.commanded = true;
-                observed.last = Some(Deed::Command(Site {
+                observed.last = Some(SelectionOrigin::Command(Site {
                     file: Arc::clone(executed.file),
                     line: executed.line,
                 }));
@@ -245,7 +245,7 @@ impl Observation {
                         line: executed.line,
                     }),
                 });
-                self.observed[at].last = Some(Deed::Doubt(reason));
+                self.observed[at].last = Some(SelectionOrigin::Doubt(reason));
             }
         }
     }
@@ -317,9 +317,9 @@ impl Observation {
         }
         let ends = self.left.iter().zip(&self.possible);
         for (observed, (left, possible)) in self.observed.iter_mut().zip(ends) {
-            let is_doubt = matches!(observed.last, Some(Deed::Doubt(_)));
+            let is_doubt = matches!(observed.last, Some(SelectionOrigin::Doubt(_)));
             if *left == Selected::Unknown && possible.is_none() && !is_doubt {
-                observed.last = self.doubt.clone().map(Deed::Doubt);
+                observed.last = self.doubt.clone().map(SelectionOrigin::Doubt);
             }
         }
     }

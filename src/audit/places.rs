@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::cure::{Cure, Mending};
 use super::numbering::Numbering;
 use super::observation::Observation;
-use super::runs::Runs;
+use super::runs::ProgramRuns;
 use crate::interpreter::EndedBy;
 
 /// Places that are tried at most.
@@ -15,9 +15,9 @@ const MOST: usize = 16;
 pub(super) fn places<'a>(
     text: &str,
     mending: Mending,
-    runs: impl Iterator<Item = &'a Runs> + Clone,
+    runs: impl Iterator<Item = &'a ProgramRuns> + Clone,
 ) -> Vec<Vec<u32>> {
-    let observations = runs.flat_map(|Runs { start_up, away, .. }| [start_up, away]);
+    let observations = runs.flat_map(|ProgramRuns { start_up, away, .. }| [start_up, away]);
     let mut places = match mending.cure {
         Cure::Inheritors => before_motions(mending.at, observations),
         Cure::Leavers | Cure::None => before_ends(text, &observations),

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::cure::Cure;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::Observation;
-use super::runs::{Runs, Start};
+use super::runs::{ProgramRuns, RunStart};
 use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet, State};
 use crate::diagnostic::Code;
@@ -211,10 +211,10 @@ impl Auditor {
         &self,
         called: Option<&Arc<str>>,
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
-    ) -> Result<Runs, E> {
-        let mut runs = Runs {
-            start_up: self.observe_from((&Start::new(false), called), run)?,
-            away: self.observe_from((&Start::new(true), called), run)?,
+    ) -> Result<ProgramRuns, E> {
+        let mut runs = ProgramRuns {
+            start_up: self.observe_from((&RunStart::new(false), called), run)?,
+            away: self.observe_from((&RunStart::new(true), called), run)?,
             between: BTreeMap::new(),
         };
         loop {
@@ -231,7 +231,7 @@ impl Auditor {
 
     fn observe_from<E>(
         &self,
-        (start, called): (&Start, Option<&Arc<str>>),
+        (start, called): (&RunStart, Option<&Arc<str>>),
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<Observation, E> {
         let from = self.scope.found(|at| start.is_away(at));
@@ -246,7 +246,7 @@ impl Auditor {
     }
 
     /// Returns the effect that the runs show, subject by subject.
-    pub(super) fn axes(&self, runs: &Runs) -> Vec<AxisAudit> {
+    pub(super) fn axes(&self, runs: &ProgramRuns) -> Vec<AxisAudit> {
         let subjects = self.scope.subjects().iter().enumerate();
         let name = |at: usize| {
             let AuditedKind { axis, kind } = self.scope.subjects()[at];

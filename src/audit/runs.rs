@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
-use super::observation::{Deed, Observation};
+use super::observation::{Observation, SelectionOrigin};
 use super::scope::{Scope, Selected};
 use crate::interpreter::EndedBy;
 use crate::readings::QuestionSet;
@@ -15,14 +15,14 @@ const MOST_ASKED: usize = 3;
 
 /// States and conditions at the beginning of a run.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Start {
+pub(super) struct RunStart {
     /// Whether the subjects that are not apart start away from the start-up state.
     pub(super) is_away: bool,
     /// The subjects that start otherwise than the others.
     pub(super) apart: BTreeSet<usize>,
 }
 
-impl Start {
+impl RunStart {
     pub(super) const fn new(is_away: bool) -> Self {
         Self {
             is_away,
@@ -48,30 +48,30 @@ impl Start {
 /// The runs of a program: from the start-up state, from the state away from it, and, where the program
 /// asks for states that it finds, from those in between (R10.10).
 #[derive(Debug, Clone)]
-pub(super) struct Runs {
+pub(super) struct ProgramRuns {
     pub(super) start_up: Observation,
     pub(super) away: Observation,
-    pub(super) between: BTreeMap<Start, Observation>,
+    pub(super) between: BTreeMap<RunStart, Observation>,
 }
 
 /// Beginning of the run from the start-up states.
-static START_UP: Start = Start::new(false);
-static AWAY: Start = Start::new(true);
+static START_UP: RunStart = RunStart::new(false);
+static AWAY: RunStart = RunStart::new(true);
 
-impl Runs {
+impl ProgramRuns {
     fn all(&self) -> impl Iterator<Item = &Observation> {
         self.starts().map(|(_, run)| run)
     }
 
     /// The runs, each with where it starts.
-    pub(super) fn starts(&self) -> impl Iterator<Item = (&Start, &Observation)> {
+    pub(super) fn starts(&self) -> impl Iterator<Item = (&RunStart, &Observation)> {
         [(&START_UP, &self.start_up), (&AWAY, &self.away)]
             .into_iter()
             .chain(&self.between)
     }
 
     /// The run from a start.
-    pub(super) fn from(&self, start: &Start, scope: &Scope) -> Option<&Observation> {
+    pub(super) fn from(&self, start: &RunStart, scope: &Scope) -> Option<&Observation> {
         let is_away = start.is_away != (start.apart.len() == scope.subjects().len());
         if start.apart.is_empty() || start.apart.len() == scope.subjects().len() {
             return Some(if is_away { &self.away } else { &self.start_up });
@@ -102,7 +102,7 @@ impl Runs {
 
     /// The starts that are still to be tried: whatever the program asks for may be either, whatever the
     /// others are.
-    pub(super) fn missing(&self, scope: &Scope) -> Vec<Start> {
+    pub(super) fn missing(&self, scope: &Scope) -> Vec<RunStart> {
         let asked: Vec<usize> = self.asked().into_keys().collect();
         if asked.len() > MOST_ASKED || scope.subjects().len() < 2 {
             return Vec::new();
@@ -113,7 +113,7 @@ impl Runs {
             let apart = apart.filter(|(place, _)| some >> place & 1 == 1);
             let apart: BTreeSet<usize> = apart.map(|(_, at)| *at).collect();
             for is_away in [false, true] {
-                let start = Start {
+                let start = RunStart {
                     is_away,
                     apart: apart.clone(),
                 };
@@ -146,7 +146,7 @@ impl Runs {
         if self.all().any(is_lost) {
             return ProgramEffect::Unknown;
         }
-        let keeps = |(start, run): (&Start, &Observation)| {
+        let keeps = |(start, run): (&RunStart, &Observation)| {
             scope.selected_at_start(subject, start.is_away(at)) == run.left[at]
         };
         if self.starts().all(keeps) {
@@ -171,8 +171,8 @@ impl Runs {
         }
         let lasts = self.all().map(|run| run.observed[at].last.as_ref());
         let doubt = lasts.flatten().find_map(|last| match last {
-            Deed::Doubt(reason) => Some(reason.clone()),
-            Deed::Command(_) => None,
+            SelectionOrigin::Doubt(reason) => Some(reason.clone()),
+            SelectionOrigin::Command(_) => None,
         });
         if let Some(doubt) = doubt {
             return doubt;
@@ -198,8 +198,8 @@ impl Runs {
     pub(super) fn command(&self, at: usize) -> Option<Site> {
         let lasts = self.all().map(|run| run.observed[at].last.as_ref());
         lasts.flatten().find_map(|last| match last {
-            Deed::Command(site) => Some(site.clone()),
-            Deed::Doubt(_) => None,
+            SelectionOrigin::Command(site) => Some(site.clone()),
+            SelectionOrigin::Doubt(_) => None,
         })
     }
 

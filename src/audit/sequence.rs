@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
-use super::observation::{Deed, Observation};
+use super::observation::{Observation, SelectionOrigin};
 use super::program::Auditor;
 use super::scope::Selected;
 use crate::comp::Kind;
@@ -116,7 +116,7 @@ impl<'a> Sequence<'a> {
                 possible: observation.possible[at].clone(),
                 start_up,
                 by: match &observed.last {
-                    Some(Deed::Command(site)) => Some(site.clone()),
+                    Some(SelectionOrigin::Command(site)) => Some(site.clone()),
                     _ => None,
                 },
                 away: away.map(|moved| moved.motion.clone()),

@@ -1,7 +1,7 @@
 //! On which ways a program leaves an axis away from its start-up state (R10.10, R14.6).
 
 use super::observation::Observation;
-use super::runs::{Runs, Start};
+use super::runs::{ProgramRuns, RunStart};
 use super::scope::{Scope, Selected};
 use crate::interpreter::{PossibleState, PossibleStates, WayCondition};
 
@@ -17,7 +17,7 @@ enum Left<'a> {
     Either(&'a PossibleStates),
 }
 
-impl Runs {
+impl ProgramRuns {
     /// The states that the program leaves a subject in that it found in its start-up state, each with the
     /// ways to it; `None` where that is the start-up state on all of them. `found` names what a subject
     /// was found in.
@@ -27,7 +27,7 @@ impl Runs {
         at: usize,
         found: &dyn Fn(usize, bool) -> WayCondition,
     ) -> Option<PossibleStates> {
-        let starts: Vec<(&Start, &Observation)> = self
+        let starts: Vec<(&RunStart, &Observation)> = self
             .starts()
             .filter(|(start, _)| !start.is_away(at))
             .collect();

@@ -26,7 +26,7 @@ pub(crate) struct ConfigFile {
     /// The change that adds an axis.
     pub(crate) one_more_axis: Option<NamedFix>,
     /// `[variables]`.
-    pub(crate) variables: Vec<(String, Variable)>,
+    pub(crate) variables: Vec<(String, ConfiguredVariable)>,
     /// Variables of the machine that keep their values while a program runs.
     pub(crate) stable: Vec<String>,
     /// `[lint]`.
@@ -39,7 +39,7 @@ pub(crate) struct ConfigFile {
 
 /// The value of a variable.
 #[derive(Debug, Clone)]
-pub(crate) enum Variable {
+pub(crate) enum ConfiguredVariable {
     /// A number.
     Number(f64),
     /// A text.
@@ -153,7 +153,7 @@ fn stable(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     variables.strings(STABLE)?.into_iter().map(name).collect()
 }
 
-fn variables(root: &Section<'_>) -> Result<Vec<(String, Variable)>, ConfigError> {
+fn variables(root: &Section<'_>) -> Result<Vec<(String, ConfiguredVariable)>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {
         return Ok(Vec::new());
     };
@@ -167,9 +167,9 @@ fn variables(root: &Section<'_>) -> Result<Vec<(String, Variable)>, ConfigError>
                         ..
                     },
                 ..
-            }) => Variable::Number(number.to_f64()),
+            }) => ConfiguredVariable::Number(number.to_f64()),
             _ => match variables.string(name.value) {
-                Ok(Some(text)) => Variable::Text(text.value),
+                Ok(Some(text)) => ConfiguredVariable::Text(text.value),
                 _ => return Err(no_variable(&variables, &name)),
             },
         };

@@ -20,7 +20,7 @@ mod section;
 pub use advice::example;
 pub(crate) use axis::AxisTable;
 pub use error::ConfigError;
-pub(crate) use file::{ConfigFile, Variable};
+pub(crate) use file::{ConfigFile, ConfiguredVariable};
 #[cfg(feature = "unstable")]
 pub use forms::{CONFIG_FORMS, Form, KeyForm, TableForm};
 #[cfg(feature = "unstable")]

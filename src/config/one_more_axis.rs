@@ -5,7 +5,7 @@ use crate::diagnostic::NamedFix;
 use crate::text::Span;
 
 /// A replacement in the file, with the text around the name of the axis.
-struct Change {
+struct Replacement {
     span: Span,
     before: String,
     after: &'static str,
@@ -31,7 +31,7 @@ pub(super) fn one_more_axis(root: &Section<'_>) -> Option<NamedFix> {
 
 /// A table `[[axis]]` after the last one, and after comments that close it: those with an empty line
 /// or the end of the file below them.
-fn after_table(text: &str, last: Span) -> Change {
+fn after_table(text: &str, last: Span) -> Replacement {
     let line_end = |from: usize| from + text[from..].lines().next().unwrap_or_default().len();
     let table_end = line_end(last.end as usize);
     let (mut end, mut comments_end) = (table_end, table_end);
@@ -50,7 +50,7 @@ fn after_table(text: &str, last: Span) -> Change {
         }
         comments_end = line_end(start);
     }
-    Change {
+    Replacement {
         span: Span::new(end, end),
         before: "\n\n[[axis]]\nname = \"".to_owned(),
         after: "\"",
@@ -59,11 +59,11 @@ fn after_table(text: &str, last: Span) -> Change {
 
 /// An entry `{ name = "X" }` after the last one of an array: in its line, or below it where the array
 /// has lines.
-fn in_array(text: &str, last: Span, array: Span) -> Change {
+fn in_array(text: &str, last: Span, array: Span) -> Replacement {
     let (start, end) = (last.start as usize, last.end as usize);
     let gap = &text[end..array.end as usize - 1];
     let Some(line_end) = gap.find('\n') else {
-        return Change {
+        return Replacement {
             span: Span::new(end, end),
             before: ", { name = \"".to_owned(),
             after: "\" }",
@@ -77,7 +77,7 @@ fn in_array(text: &str, last: Span, array: Span) -> Change {
     };
     let line = &text[text[..start].rfind('\n').map_or(0, |at| at + 1)..start];
     let indent = &line[..line.len() - line.trim_start().len()];
-    Change {
+    Replacement {
         span: Span::new(end, end + rest.len()),
         before: format!("{comma}{rest}\n{indent}{{ name = \""),
         after,

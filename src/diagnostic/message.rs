@@ -177,7 +177,7 @@ impl Diagnostic {
 
 /// A program end in a record.
 #[derive(Serialize)]
-struct End<'a> {
+struct EndRecord<'a> {
     file: &'a str,
     line: u32,
 }
@@ -201,7 +201,7 @@ impl Serialize for Diagnostic {
             let ends = self.ends.iter().map(|place| {
                 let line = place.start().line;
                 let file = &*place.file;
-                End { file, line }
+                EndRecord { file, line }
             });
             object.serialize_field("ends", &ends.collect::<Vec<_>>())?;
         }

@@ -3,9 +3,9 @@
 use std::fmt;
 
 /// A number in a message: very large and very small ones with an exponent (R9.78).
-pub struct Shown(pub f64);
+pub struct ReadableNumber(pub f64);
 
-impl fmt::Display for Shown {
+impl fmt::Display for ReadableNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
         if size != 0.0 && size.is_finite() && !(1e-9..1e12).contains(&size) {
@@ -39,13 +39,13 @@ mod tests {
         assert_eq!(Rounded(-0.000_500_1, 3).to_string(), "-0.001");
         assert_eq!(format!("{:>8}", Rounded(-0.4, 0)), "       0");
         assert_eq!(format!("{:>8}", Rounded(-1.25, 1)), "    -1.2");
-        assert_eq!(Shown(-0.0).to_string(), "0");
+        assert_eq!(ReadableNumber(-0.0).to_string(), "0");
     }
 
     #[test]
     fn numbers_in_messages_stay_short() {
         // R9.78
-        let shown = |number| Shown(number).to_string();
+        let shown = |number| ReadableNumber(number).to_string();
         assert_eq!(shown(1e308), "1e308");
         assert_eq!(shown(-2.5), "-2.5");
         assert_eq!(shown(1e-300), "1e-300");

@@ -30,7 +30,7 @@ pub enum DriveType {
 }
 
 /// Names of a drive type.
-struct Names {
+struct DriveTypeNames {
     drive_type: DriveType,
     number: i64,
     /// The word that stands for the number (TwinCAT CNC axis parameters, table 3-1).
@@ -43,8 +43,8 @@ const fn names(
     number: i64,
     word: &'static str,
     name: &'static str,
-) -> Names {
-    Names {
+) -> DriveTypeNames {
+    DriveTypeNames {
         drive_type,
         number,
         word,
@@ -53,7 +53,7 @@ const fn names(
 }
 
 /// P-AXIS-00020.
-const NAMES: [Names; 10] = [
+const NAMES: [DriveTypeNames; 10] = [
     names(DriveType::Conventional, 1, "ANTR_TYP_KONV", "conventional"),
     names(DriveType::Sercos, 2, "ANTR_TYP_SERCOS", "SERCOS"),
     names(

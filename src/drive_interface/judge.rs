@@ -97,7 +97,7 @@ pub struct DriveReport {
 }
 
 /// Statement of one source about a value.
-enum Says {
+enum SourceStatement {
     Nothing,
     Present(Place),
     Missing(Place),
@@ -201,7 +201,7 @@ impl Judge<'_> {
         let list = self.list_says(signal);
         let network = self.network_says(signal);
         match (list, network) {
-            (Says::Present(listed), Says::Missing(place)) => {
+            (SourceStatement::Present(listed), SourceStatement::Missing(place)) => {
                 let reason = format!(
                     "`{}` has the {signal}, but `{}` does not map it",
                     listed.file, place.file
@@ -209,17 +209,17 @@ impl Judge<'_> {
                 self.ask(signal, &reason, Some(listed));
                 Presence::Unknown { reason }
             }
-            (Says::Present(place), _) | (Says::Nothing, Says::Present(place)) => {
-                Presence::Present {
-                    evidence: shown(&place),
-                }
-            }
-            (Says::Missing(place), _) | (Says::Nothing, Says::Missing(place)) => {
+            (SourceStatement::Present(place), _)
+            | (SourceStatement::Nothing, SourceStatement::Present(place)) => Presence::Present {
+                evidence: shown(&place),
+            },
+            (SourceStatement::Missing(place), _)
+            | (SourceStatement::Nothing, SourceStatement::Missing(place)) => {
                 let evidence = shown(&place);
                 self.miss(signal, place);
                 Presence::Missing { evidence }
             }
-            (_, Says::Undecided(reason, place)) => {
+            (_, SourceStatement::Undecided(reason, place)) => {
                 self.ask(signal, &reason, Some(place));
                 Presence::Unknown { reason }
             }
@@ -231,17 +231,19 @@ impl Judge<'_> {
         }
     }
 
-    fn list_says(&self, signal: Signal) -> Says {
+    fn list_says(&self, signal: Signal) -> SourceStatement {
         match self.settings.telegram(signal) {
-            Telegram::Silent => Says::Nothing,
-            Telegram::Holds(place) => Says::Present(place),
-            Telegram::Lacks(place) | Telegram::HoldsCommand(place) => Says::Missing(place),
+            Telegram::Silent => SourceStatement::Nothing,
+            Telegram::Holds(place) => SourceStatement::Present(place),
+            Telegram::Lacks(place) | Telegram::HoldsCommand(place) => {
+                SourceStatement::Missing(place)
+            }
         }
     }
 
-    fn network_says(&self, signal: Signal) -> Says {
+    fn network_says(&self, signal: Signal) -> SourceStatement {
         let Some(network) = &self.evidence.network else {
-            return Says::Nothing;
+            return SourceStatement::Nothing;
         };
         let given = |slave: &&SlaveOfAxis| slave.axis == self.axis;
         if let Some(given) = self.evidence.slaves.iter().find(given) {
@@ -251,7 +253,7 @@ impl Judge<'_> {
                 .find(|slave| slave.name == given.slave)
             {
                 Some(slave) => assigned(network, slave, given.channel, signal),
-                None => Says::Undecided(
+                None => SourceStatement::Undecided(
                     format!("there is no device `{}` in the network", given.slave),
                     network.place("EtherCATConfig", 1),
                 ),
@@ -377,7 +379,12 @@ impl Judge<'_> {
 }
 
 /// Returns the statement of the device that the user named.
-fn assigned(network: &Network, slave: &Slave, channel: Option<u8>, signal: Signal) -> Says {
+fn assigned(
+    network: &Network,
+    slave: &Slave,
+    channel: Option<u8>,
+    signal: Signal,
+) -> SourceStatement {
     let place = network.place(&slave.path, slave.line);
     let channels: Vec<u8> = match channel {
         Some(channel) => vec![channel],
@@ -388,47 +395,49 @@ fn assigned(network: &Network, slave: &Slave, channel: Option<u8>, signal: Signa
         .map(|&channel| slave.maps(signal, channel))
         .collect();
     if slave.axes == 0 {
-        return Says::Undecided(format!("`{}` is no drive", slave.name), place);
+        return SourceStatement::Undecided(format!("`{}` is no drive", slave.name), place);
     }
     if !slave.assigns {
         let reason = format!(
             "the network does not say which process data objects `{}` exchanges",
             slave.name
         );
-        return Says::Undecided(reason, place);
+        return SourceStatement::Undecided(reason, place);
     }
     if channel.is_some_and(|channel| !(1..=slave.axes).contains(&channel)) {
         let reason = format!("`{}` drives {} axes", slave.name, slave.axes);
-        return Says::Undecided(reason, place);
+        return SourceStatement::Undecided(reason, place);
     }
     match maps.as_slice() {
         [Some(first), rest @ ..] if rest.iter().all(Option::is_some) => {
-            Says::Present(network.place(&first.path, first.line))
+            SourceStatement::Present(network.place(&first.path, first.line))
         }
-        maps if maps.iter().all(Option::is_none) => Says::Missing(place),
-        _ => Says::Undecided(format!("only some axes of `{}` have it", slave.name), place),
+        maps if maps.iter().all(Option::is_none) => SourceStatement::Missing(place),
+        _ => {
+            SourceStatement::Undecided(format!("only some axes of `{}` have it", slave.name), place)
+        }
     }
 }
 
 /// Returns the statement on which all candidate drives of the network agree.
-fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> Says {
+fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> SourceStatement {
     let may_be = |slave: &&Slave| protocol.is_none_or(|protocol| slave.protocol == protocol);
     let mut drives = network.drives().filter(may_be);
     let whole = network.place("EtherCATConfig", 1);
     let Some(first) = drives.next() else {
         let reason = "the network has no drive of the type that the axis list gives";
-        return Says::Undecided(reason.to_owned(), whole);
+        return SourceStatement::Undecided(reason.to_owned(), whole);
     };
     let says = assigned(network, first, None, signal);
-    let same = |other: Says| match says {
-        Says::Present(_) => matches!(other, Says::Present(_)),
-        Says::Missing(_) => matches!(other, Says::Missing(_)),
+    let same = |other: SourceStatement| match says {
+        SourceStatement::Present(_) => matches!(other, SourceStatement::Present(_)),
+        SourceStatement::Missing(_) => matches!(other, SourceStatement::Missing(_)),
         _ => false,
     };
     if drives.all(|slave| same(assigned(network, slave, None, signal))) {
         return says;
     }
-    Says::Undecided("only some drives of the network have it".to_owned(), whole)
+    SourceStatement::Undecided("only some drives of the network have it".to_owned(), whole)
 }
 
 /// A place as `file:line`, with the path of an element.

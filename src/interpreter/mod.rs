@@ -22,9 +22,9 @@ pub use coordinates::arc::{ArcShape, SAME_PLACE};
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::contouring::{Contouring, Joining};
 pub use coordinates::group::Group;
-pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};
+pub use coordinates::modal::{AxisPosition, GFunctions, Modal, PositionFrame};
 pub use coordinates::motion::{
-    Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
+    Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
 };
 pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;
@@ -41,8 +41,8 @@ pub use run::limits::Limits;
 pub use run::options::{Branches, Options, RunOutcome, StopPolicy};
 pub use run::possible_state::{PossibleState, PossibleStates};
 pub use run::search::{NoSearchedBlock, SearchedBlock};
-pub(crate) use run::untouched::{Found, FoundOn};
-pub use run::way_condition::{Asked, WayChange, WayCondition};
+pub(crate) use run::untouched::{FoundOn, UntouchedOn};
+pub use run::way_condition::{BlockCondition, WayChange, WayCondition};
 pub(crate) use run::way_condition::{limit_to, unless, ways_in_words};
 pub use values::carried::{ArrayShape, Carried};
 pub use values::value::Value;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::memory::{Memory, Site};
+use super::memory::{BlockSite, ProgramEffects};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 
 /// A block is remembered with so many characters of its text.
@@ -24,7 +24,7 @@ pub struct Maker {
 }
 
 impl Maker {
-    fn new(program: &str, site: &Site) -> Self {
+    fn new(program: &str, site: &BlockSite) -> Self {
         let place = &site.place;
         Self {
             program: program.to_owned(),
@@ -37,7 +37,7 @@ impl Maker {
 
 /// Whether the user has been told that a state is left away from its start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Told {
+pub(crate) enum LeftAwayNotice {
     /// It was not said.
     #[default]
     No,
@@ -51,7 +51,7 @@ pub(crate) enum Told {
 #[derive(Debug, Clone, Default)]
 struct Away {
     maker: Option<Maker>,
-    told: Told,
+    told: LeftAwayNotice,
 }
 
 /// States left by the programs of a session, and the states at the start of the control.
@@ -82,11 +82,11 @@ impl History {
         self.axes[axis.get()][kind as usize].maker.as_ref()
     }
 
-    pub(crate) fn told(&self, axis: AxisIndex, kind: Kind) -> Told {
+    pub(crate) fn told(&self, axis: AxisIndex, kind: Kind) -> LeftAwayNotice {
         self.axes[axis.get()][kind as usize].told
     }
 
-    pub(crate) fn set_told(&mut self, axis: AxisIndex, kind: Kind, told: Told) {
+    pub(crate) fn set_told(&mut self, axis: AxisIndex, kind: Kind, told: LeftAwayNotice) {
         self.axes[axis.get()][kind as usize].told = told;
     }
 
@@ -106,7 +106,12 @@ impl History {
     }
 
     /// Takes over what a program did that leaves a state.
-    pub(super) fn program_ended(&mut self, program: &str, did: &Memory, left: &Compensation) {
+    pub(super) fn program_ended(
+        &mut self,
+        program: &str,
+        did: &ProgramEffects,
+        left: &Compensation,
+    ) {
         for (position, kinds) in self.axes.iter_mut().enumerate() {
             let axis = AxisIndex::new(position);
             for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
@@ -118,7 +123,7 @@ impl History {
                 } else if let Some((_, site)) = &did.axis(axis).kind(kind).last {
                     *away = Away {
                         maker: Some(Maker::new(program, site)),
-                        told: Told::No,
+                        told: LeftAwayNotice::No,
                     };
                 }
             }

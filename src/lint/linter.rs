@@ -1,7 +1,7 @@
 //! State and messages of the lints.
 
-use super::history::{History, Told};
-use super::memory::{Jump, Memory};
+use super::history::{History, LeftAwayNotice};
+use super::memory::{ProgramEffects, SwitchAfterMove};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Executed, Outcome, WayCondition};
@@ -40,7 +40,7 @@ pub(crate) struct Linter<'m> {
     pub(super) history: &'m mut History,
     /// The name of the program after `%`, or else its file.
     pub(super) program: String,
-    pub(super) memory: Memory,
+    pub(super) memory: ProgramEffects,
     /// The file of the program.
     pub(super) file: String,
     /// Place of the first block.
@@ -48,7 +48,7 @@ pub(crate) struct Linter<'m> {
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
     /// Changes of friction compensation on axes that moved right before.
-    pub(super) jumps: Vec<Jump>,
+    pub(super) jumps: Vec<SwitchAfterMove>,
     /// The way on which the last block was executed.
     pub(super) branch: Option<Vec<Vec<WayCondition>>>,
 }
@@ -57,7 +57,7 @@ impl<'m> Linter<'m> {
     /// A program begins.
     pub(crate) fn new(machine: &'m Machine, history: &'m mut History, file: &str) -> Self {
         Self {
-            memory: Memory::new(machine.axes.len()),
+            memory: ProgramEffects::new(machine.axes.len()),
             machine,
             history,
             program: file.to_owned(),
@@ -119,7 +119,7 @@ impl<'m> Linter<'m> {
     }
 
     /// Records the outcome of a note of [`end`](Self::end).
-    pub(crate) fn settle(&mut self, left: &LeftAway, told: Told) {
+    pub(crate) fn settle(&mut self, left: &LeftAway, told: LeftAwayNotice) {
         self.history.set_told(left.axis, left.kind, told);
     }
 

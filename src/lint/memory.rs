@@ -10,7 +10,7 @@ use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
 #[derive(Debug, Clone)]
-pub(super) struct Site {
+pub(super) struct BlockSite {
     /// The executed block.
     pub(super) seq: u64,
     /// The words that are meant.
@@ -19,7 +19,7 @@ pub(super) struct Site {
     ways: Vec<Vec<WayCondition>>,
 }
 
-impl Site {
+impl BlockSite {
     pub(super) fn new(executed: &Executed<'_>, span: Span) -> Self {
         Self {
             seq: executed.seq,
@@ -56,7 +56,7 @@ pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
 
 /// Effect of a block on a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deed {
+pub(super) enum KindEffect {
     /// A command switched it on.
     On,
     /// A command switched it off.
@@ -67,7 +67,7 @@ pub(super) enum Deed {
     Lost,
 }
 
-impl From<Selection> for Deed {
+impl From<Selection> for KindEffect {
     fn from(selection: Selection) -> Self {
         match selection {
             Selection::On(_) => Self::On,
@@ -79,7 +79,7 @@ impl From<Selection> for Deed {
 /// A motion in the state that the program found.
 #[derive(Debug, Clone)]
 pub(super) struct MovedBefore {
-    pub(super) site: Arc<Site>,
+    pub(super) site: Arc<BlockSite>,
     /// The ways on which this motion or a later one is such.
     on: FoundOn,
     /// The same as data; none where it is on all ways.
@@ -92,18 +92,23 @@ pub(super) struct KindMemory {
     /// Whether a command of the program was about it.
     pub(super) is_commanded: bool,
     /// The last effect; one site for all kinds of a command.
-    pub(super) last: Option<(Deed, Arc<Site>)>,
+    pub(super) last: Option<(KindEffect, Arc<BlockSite>)>,
     /// The first block that moved the axis for sure, homing apart, while it was as the program found
     /// it, or may have been.
     pub(super) moved_before: Option<MovedBefore>,
     /// Whether the control refused to move the axis while it was as the program found it (R1.36).
     pub(super) refused: bool,
     /// The last command that switched it off, and the last that switched it on.
-    pub(super) switched: [Option<Arc<Site>>; 2],
+    pub(super) switched: [Option<Arc<BlockSite>>; 2],
 }
 
 impl KindMemory {
-    fn move_found(&mut self, site: &Arc<Site>, of: (AxisIndex, Kind), executed: &Executed<'_>) {
+    fn move_found(
+        &mut self,
+        site: &Arc<BlockSite>,
+        of: (AxisIndex, Kind),
+        executed: &Executed<'_>,
+    ) {
         if !executed.found.has(of.0, of.1) {
             return;
         }
@@ -121,14 +126,14 @@ impl KindMemory {
 /// A motion of an axis in any way.
 #[derive(Debug, Clone)]
 pub(super) struct Touch {
-    pub(super) site: Site,
+    pub(super) site: BlockSite,
     pub(super) kind: MotionKind,
     pub(super) certainty: Certainty,
 }
 
 /// A command that changed friction compensation after a feed move of the axis.
 #[derive(Debug, Clone)]
-pub(super) struct Jump {
+pub(super) struct SwitchAfterMove {
     pub(super) axis: AxisIndex,
     /// Whether the axis moved to larger coordinates.
     pub(super) rises: bool,
@@ -167,13 +172,13 @@ impl AxisMemory {
         &self.kinds[kind as usize]
     }
 
-    fn note(&mut self, kinds: KindSet, deed: Deed, site: &Arc<Site>) {
+    fn note(&mut self, kinds: KindSet, deed: KindEffect, site: &Arc<BlockSite>) {
         for kind in kinds.iter() {
             let memory = &mut self.kinds[kind as usize];
             match deed {
-                Deed::Off => memory.switched[0] = Some(Arc::clone(site)),
-                Deed::On => memory.switched[1] = Some(Arc::clone(site)),
-                Deed::Unknown | Deed::Lost => {}
+                KindEffect::Off => memory.switched[0] = Some(Arc::clone(site)),
+                KindEffect::On => memory.switched[1] = Some(Arc::clone(site)),
+                KindEffect::Unknown | KindEffect::Lost => {}
             }
             memory.last = Some((deed, Arc::clone(site)));
         }
@@ -192,7 +197,7 @@ fn is_of_a_kind(motion: &MovedAxis) -> bool {
 
 /// Effects of the program.
 #[derive(Debug, Clone)]
-pub(super) struct Memory {
+pub(super) struct ProgramEffects {
     axes: Vec<AxisMemory>,
     /// The axes that have moved, a bit each by their positions modulo 64.
     moved: u64,
@@ -200,7 +205,7 @@ pub(super) struct Memory {
     is_alone: bool,
 }
 
-impl Memory {
+impl ProgramEffects {
     pub(super) fn new(axes: usize) -> Self {
         Self {
             axes: vec![AxisMemory::default(); axes],
@@ -215,7 +220,7 @@ impl Memory {
 
     /// A command that the control took.
     pub(super) fn command(&mut self, axis: AxisIndex, outcome: &Outcome, executed: &Executed<'_>) {
-        let site = Arc::new(Site::new(executed, outcome.command.span));
+        let site = Arc::new(BlockSite::new(executed, outcome.command.span));
         let selection = outcome.command.selection;
         let memory = &mut self.axes[axis.get()];
         memory.commanded = true;
@@ -227,14 +232,14 @@ impl Memory {
 
     /// The states that no command made unknown, but what this block contains.
     pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
-        let site = Arc::new(Site::new(executed, Span::new(0, executed.text.len())));
+        let site = Arc::new(BlockSite::new(executed, Span::new(0, executed.text.len())));
         let lost = |change: &&Change| change.to == State::Unknown;
         for change in executed.changes.iter().filter(lost) {
             let kinds = KindSet::from_iter([change.kind]);
-            self.axes[change.axis.get()].note(kinds, Deed::Lost, &site);
+            self.axes[change.axis.get()].note(kinds, KindEffect::Lost, &site);
         }
         for &(axis, kinds) in executed.doubted {
-            self.axes[axis.get()].note(kinds, Deed::Unknown, &site);
+            self.axes[axis.get()].note(kinds, KindEffect::Unknown, &site);
         }
     }
 
@@ -265,7 +270,7 @@ impl Memory {
             } else {
                 whole
             };
-            Site::new(executed, span)
+            BlockSite::new(executed, span)
         };
         // On the same ways a later motion finds no state that the earlier one did not.
         let is_known = memory

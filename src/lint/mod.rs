@@ -9,6 +9,6 @@ mod linter;
 mod memory;
 
 pub use history::Maker;
-pub(crate) use history::{History, Told};
+pub(crate) use history::{History, LeftAwayNotice};
 pub use linter::EndNote;
 pub(crate) use linter::Linter;

@@ -10,7 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 
 /// The quantity of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Quantity {
+enum DynamicQuantity {
     /// µm/s or 0.001°/s.
     Velocity,
     /// mm/s² or °/s².
@@ -22,8 +22,8 @@ enum Quantity {
 }
 
 /// The keys, each with the number of its parameter.
-const KEYS: [(&str, &str, Quantity); 18] = {
-    use Quantity::{Acceleration, Ramp, Velocity, Weight};
+const KEYS: [(&str, &str, DynamicQuantity); 18] = {
+    use DynamicQuantity::{Acceleration, Ramp, Velocity, Weight};
     [
         ("P-AXIS-00008", "dynamik.a_max", Acceleration),
         ("P-AXIS-00212", "dynamik.vb_max", Velocity),
@@ -93,7 +93,7 @@ impl DynamicsDraft {
         }
         let given = entry.number();
         let is_possible =
-            |value: f64| value > 0.0 || (*quantity == Quantity::Weight && value == 0.0);
+            |value: f64| value > 0.0 || (*quantity == DynamicQuantity::Weight && value == 0.0);
         let possible = given.value.number;
         let possible = possible.filter(|value| is_possible(value.to_f64()));
         if let Some(value) = possible {
@@ -160,11 +160,11 @@ impl DynamicsDraft {
         let rows = self.0.iter().map(|(&number, (key, given))| {
             let quantity = KEYS.iter().find(|(known, ..)| *known == number);
             let unit = match quantity.map(|(_, _, quantity)| quantity) {
-                Some(Quantity::Velocity) if linear => "µm/s",
-                Some(Quantity::Velocity) => "0.001°/s",
-                Some(Quantity::Acceleration) if linear => "mm/s²",
-                Some(Quantity::Acceleration) => "°/s²",
-                Some(Quantity::Ramp) => "µs",
+                Some(DynamicQuantity::Velocity) if linear => "µm/s",
+                Some(DynamicQuantity::Velocity) => "0.001°/s",
+                Some(DynamicQuantity::Acceleration) if linear => "mm/s²",
+                Some(DynamicQuantity::Acceleration) => "°/s²",
+                Some(DynamicQuantity::Ramp) => "µs",
                 _ => "‰",
             };
             Parameter {

@@ -129,7 +129,7 @@ impl Entries {
 }
 
 /// Kind of a line.
-enum Line {
+enum LineKind {
     /// Nothing, or a comment.
     Blank,
     /// `Ende`.
@@ -162,14 +162,14 @@ impl Reader<'_> {
             let span = lines.line_span(text, number);
             self.look_at(span);
             match self.line(span) {
-                Line::Blank => {}
-                Line::End => {
+                LineKind::Blank => {}
+                LineKind::End => {
                     ended = true;
                     break;
                 }
-                Line::Entry(entry) => self.lines.push(entry),
-                Line::Lost(written, key) => self.lost.push((written, key)),
-                Line::Odd(why) => {
+                LineKind::Entry(entry) => self.lines.push(entry),
+                LineKind::Lost(written, key) => self.lost.push((written, key)),
+                LineKind::Odd(why) => {
                     odd.push(span);
                     if odd.len() <= MAX_ODD {
                         self.pass_over(span, why);
@@ -245,34 +245,34 @@ impl Reader<'_> {
         );
     }
 
-    fn line(&self, span: Span) -> Line {
+    fn line(&self, span: Span) -> LineKind {
         let whole = span.of(self.source.text());
         let whole = whole.trim_end();
         let mut line = whole.trim_start_matches('\u{feff}').trim_start();
         while let Some(comment) = line.strip_prefix("/*") {
             match comment.split_once("*/") {
                 Some((_, after)) => line = after.trim_start(),
-                None => return Line::Odd("a comment is not closed on its line"),
+                None => return LineKind::Odd("a comment is not closed on its line"),
             }
         }
         // Printed samples write `:` or `...` for entries that they leave out (R3.2).
         let left_out = |c: char| matches!(c, ':' | '.' | '\u{2026}' | ' ' | '\t');
         if line.starts_with('#') || line.chars().all(left_out) {
-            return Line::Blank;
+            return LineKind::Blank;
         }
         let first = line
             .split(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
             .next()
             .unwrap_or_default();
         if first.eq_ignore_ascii_case("Ende") || first.eq_ignore_ascii_case("End") {
-            return Line::End;
+            return LineKind::End;
         }
         let start = span.range().start + (whole.len() - line.len());
         self.entry(line, start)
     }
 
     /// Reads an entry. `line` begins with its key and lies at `start` of the text.
-    fn entry(&self, line: &str, start: usize) -> Line {
+    fn entry(&self, line: &str, start: usize) -> LineKind {
         let mut pattern = String::new();
         let mut indices = Vec::new();
         let mut rest = line;
@@ -289,12 +289,12 @@ impl Reader<'_> {
                 break;
             }
             let Some((index, after)) = bracket.split_once(']') else {
-                return Line::Odd("an index is not closed");
+                return LineKind::Odd("an index is not closed");
             };
             let index = index.trim();
             match index.parse() {
                 Ok(index) if !pattern.ends_with('.') => indices.push(index),
-                _ => return Line::Odd("this is not a valid table index"),
+                _ => return LineKind::Odd("this is not a valid table index"),
             }
             pattern.push_str("[]");
             rest = after;
@@ -305,13 +305,13 @@ impl Reader<'_> {
         let is_path = pattern.contains(['.', '[', '_']);
         let opens = pattern.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         if !opens {
-            return Line::Odd("this is not a list key");
+            return LineKind::Odd("this is not a list key");
         }
         if !separated {
-            return Line::Odd("there is no blank between the key and its value");
+            return LineKind::Odd("there is no blank between the key and its value");
         }
         if value.is_empty() && !is_path {
-            return Line::Odd("the key has no value");
+            return LineKind::Odd("the key has no value");
         }
         let value_start = if value.is_empty() {
             key_end
@@ -320,10 +320,10 @@ impl Reader<'_> {
         };
         let is_odd = value.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_known(&pattern);
         if let Some(found) = is_odd.then(|| blanked(line)).flatten() {
-            return Line::Lost(Span::new(start, start + found.length), found.pattern);
+            return LineKind::Lost(Span::new(start, start + found.length), found.pattern);
         }
         let value = Span::new(start + value_start, start + value_start + value.len());
-        Line::Entry(Entry {
+        LineKind::Entry(Entry {
             pattern,
             indices,
             key_span: Span::new(start, start + key_end),

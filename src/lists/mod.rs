@@ -32,7 +32,7 @@ pub use keywords::{KEYS, KnownKey};
 pub use line::Entries;
 pub use monitor::Monitor;
 pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};
-pub use program::{ChannelPrograms, Role};
+pub use program::{ChannelPrograms, ProgramRole};
 pub use single::{NoValues, ReadList};
 pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
 pub use table::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};

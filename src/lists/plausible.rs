@@ -4,7 +4,7 @@ use super::friction::{Field, FrictionDraft};
 use super::parameter::AxisType;
 use super::table::TablePoint;
 use super::value::Number;
-use crate::diagnostic::{Code, Diagnostic, Severity, Shown};
+use crate::diagnostic::{Code, Diagnostic, ReadableNumber, Severity};
 
 /// A linear axis whose fastest point is slower than 1 mm/s has velocities in mm/s, most likely.
 const SLOW_TABLE: f64 = 1000.0;
@@ -42,8 +42,8 @@ fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnos
     let message = format!(
         "`frict_comp.scaling_factor` is {factor}, which is {} %: the largest output, {largest}, \
          reaches the drive as {}",
-        Shown(scale / 10.0),
-        Shown(largest * scale / 1000.0)
+        ReadableNumber(scale / 10.0),
+        ReadableNumber(largest * scale / 1000.0)
     );
     let mut said = Diagnostic::new(Code::Fc139, given.place(), message)
         .with_help("the unit is 0.1 %: 1000 sends the outputs as they are");

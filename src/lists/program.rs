@@ -10,7 +10,7 @@ use super::value::Given;
 /// Event that starts a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
-pub enum Role {
+pub enum ProgramRole {
     /// The start of every main program.
     Start,
     /// The end of every main program.
@@ -45,7 +45,7 @@ const MAX_MACROS: usize = 4096;
 
 /// A program that a channel list names.
 #[derive(Debug, Clone)]
-struct Named {
+struct ListedProgram {
     number: &'static str,
     key: String,
     name: Given<String>,
@@ -63,7 +63,7 @@ struct Macro {
 /// The programs and macros of a channel list.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelPrograms {
-    named: BTreeMap<Role, Named>,
+    named: BTreeMap<ProgramRole, ListedProgram>,
     macros: BTreeMap<u32, Macro>,
     /// `einrechnen_mit_t`, P-CHAN-00014: a T word does what a D word does, too.
     data_with_tool: Option<Given<bool>>,
@@ -82,10 +82,10 @@ impl ChannelPrograms {
     fn add(&mut self, entry: &Entry) {
         let indices = entry.indices.as_slice();
         match (entry.pattern.as_str(), indices) {
-            ("start_init_prog_file", []) => self.name(Role::Start, "P-CHAN-00119", entry),
-            ("final_prog_file", []) => self.name(Role::End, "P-CHAN-00252", entry),
+            ("start_init_prog_file", []) => self.name(ProgramRole::Start, "P-CHAN-00119", entry),
+            ("final_prog_file", []) => self.name(ProgramRole::End, "P-CHAN-00252", entry),
             ("g800_prog_file[]", &[index]) if index < 200 => {
-                self.name(Role::Word(format!("G{}", 800 + index)), G800, entry);
+                self.name(ProgramRole::Word(format!("G{}", 800 + index)), G800, entry);
             }
             ("einrechnen_mit_t", []) => {
                 let given = entry.truth();
@@ -104,9 +104,9 @@ impl ChannelPrograms {
             }
             (key, []) => {
                 if let Some((_, number, word)) = WORDS.iter().find(|(known, ..)| *known == key) {
-                    self.name(Role::Word((*word).to_owned()), number, entry);
+                    self.name(ProgramRole::Word((*word).to_owned()), number, entry);
                 } else if let Some(word) = numbered(key) {
-                    self.name(Role::Word(word), G800, entry);
+                    self.name(ProgramRole::Word(word), G800, entry);
                 }
             }
             _ => {}
@@ -114,8 +114,8 @@ impl ChannelPrograms {
     }
 
     /// An empty name takes a program away again.
-    fn name(&mut self, role: Role, number: &'static str, entry: &Entry) {
-        let named = Named {
+    fn name(&mut self, role: ProgramRole, number: &'static str, entry: &Entry) {
+        let named = ListedProgram {
             number,
             key: entry.key(),
             name: text(entry),
@@ -140,7 +140,7 @@ impl ChannelPrograms {
     }
 
     /// The programs, by what runs them.
-    pub fn programs(&self) -> impl Iterator<Item = (&Role, &str)> {
+    pub fn programs(&self) -> impl Iterator<Item = (&ProgramRole, &str)> {
         let named = self
             .named
             .iter()
@@ -165,7 +165,7 @@ impl ChannelPrograms {
     }
 
     /// The parameters that hold, in the order of their keys; those of some roles are set elsewhere.
-    pub fn parameters(&self, elsewhere: &dyn Fn(&Role) -> bool) -> Vec<Parameter> {
+    pub fn parameters(&self, elsewhere: &dyn Fn(&ProgramRole) -> bool) -> Vec<Parameter> {
         let row = |number, key: String, given: &Given<String>| Parameter {
             number,
             key,

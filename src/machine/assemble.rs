@@ -51,7 +51,7 @@ impl AxisReport {
 
 /// Dynamics of an axis in `frictcomp.toml`, in its units.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Dynamics {
+pub(super) struct ConfiguredDynamics {
     pub(super) velocity: Option<f64>,
     pub(super) acceleration: Option<f64>,
     pub(super) jerk: Option<f64>,
@@ -70,7 +70,7 @@ pub(super) struct AxisDraft {
     /// The number that the start-up list gives to the value list.
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
-    pub(super) dynamics: Dynamics,
+    pub(super) dynamics: ConfiguredDynamics,
     /// Whether compensation is assumed, as by [`Axis::enable`].
     pub(super) enabled: bool,
     /// Whether an axis list of the control describes the axis.
@@ -88,7 +88,7 @@ impl AxisDraft {
             channel_number: None,
             startup_number: None,
             value_list: ValueList::default(),
-            dynamics: Dynamics::default(),
+            dynamics: ConfiguredDynamics::default(),
             enabled: false,
             is_listed: false,
             shared: None,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::assemble::{AxisDraft, Dynamics};
+use super::assemble::{AxisDraft, ConfiguredDynamics};
 use super::configuration::Configuration;
 use super::description::{Machine, Parameters};
 use super::files::{ListFiles, NoLists};
@@ -10,7 +10,7 @@ use super::loader::Loader;
 use super::programs::canonical_word;
 use super::setting::Setting;
 use super::startup::MAX_AXES;
-use crate::config::{AxisTable, ConfigError, ConfigFile, MachineTable, Variable};
+use crate::config::{AxisTable, ConfigError, ConfigFile, ConfiguredVariable, MachineTable};
 use crate::lists::{AxisValues, Given, ListKind, Parameter};
 use crate::text::SourceFile;
 
@@ -110,10 +110,10 @@ impl Configuration {
     }
 }
 
-fn setting((name, value): (String, Variable)) -> (String, Setting) {
+fn setting((name, value): (String, ConfiguredVariable)) -> (String, Setting) {
     let setting = match value {
-        Variable::Number(number) => Setting::Number(number),
-        Variable::Text(text) => Setting::Text(text),
+        ConfiguredVariable::Number(number) => Setting::Number(number),
+        ConfiguredVariable::Text(text) => Setting::Text(text),
     };
     (name, setting)
 }
@@ -135,7 +135,7 @@ impl AxisDraft {
         }
         self.values.override_with(table.values);
         self.enabled = table.is_enabled;
-        self.dynamics = Dynamics {
+        self.dynamics = ConfiguredDynamics {
             velocity: table.max_velocity,
             acceleration: table.max_acceleration,
             jerk: table.max_jerk,

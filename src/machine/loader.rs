@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::assemble::AxisDraft;
 use super::described::describe;
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
-use super::missing::Missing;
+use super::missing::MissingLists;
 use super::value_list::ValueList;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
@@ -26,7 +26,7 @@ pub(super) struct Loader<'f> {
     /// Number of requested lists that do not exist.
     pub(super) missing: usize,
     /// Paths at which they were looked for.
-    lookups: Missing,
+    lookups: MissingLists,
     /// The slaves of static gantries, which no channel knows (R1.43).
     pub(super) slaves: Vec<AxisDraft>,
     /// Contents of the first channel's list.
@@ -48,7 +48,7 @@ impl<'f> Loader<'f> {
             diagnostics: Vec::new(),
             names: Vec::new(),
             missing: 0,
-            lookups: Missing::default(),
+            lookups: MissingLists::default(),
             slaves: Vec::new(),
             channel: None,
         }

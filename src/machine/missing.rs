@@ -9,7 +9,7 @@ use crate::lists::Given;
 
 /// The folders in which lists were looked for, and what of it was not found.
 #[derive(Debug, Default)]
-pub(super) struct Missing {
+pub(super) struct MissingLists {
     /// Folders with a list that was found: the list that names it, and the folder.
     found: BTreeSet<(Arc<str>, String)>,
     lacking: Vec<Lacking>,
@@ -27,7 +27,7 @@ struct Lacking {
     message: usize,
 }
 
-impl Missing {
+impl MissingLists {
     /// Remembers that a list is there.
     pub(super) fn find(&mut self, asked: &Given<String>) {
         self.found.insert(whereabouts(asked));

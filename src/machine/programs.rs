@@ -1,7 +1,7 @@
 //! The programs that the configuration names, and those that only the machine has (R2.14, R2.15,
 //! R2.75, R2.83).
 
-use crate::lists::{ChannelPrograms, Role};
+use crate::lists::{ChannelPrograms, ProgramRole};
 
 /// Programs that the configuration names (R2.14, R2.15).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -45,12 +45,12 @@ impl ConfiguredPrograms {
         for (role, name) in channel.programs() {
             let name = name.to_owned();
             match role {
-                Role::Start => _ = self.start.get_or_insert(name),
-                Role::End => _ = self.end.get_or_insert(name),
-                Role::Word(word) if self.word(word).is_none() => {
+                ProgramRole::Start => _ = self.start.get_or_insert(name),
+                ProgramRole::End => _ = self.end.get_or_insert(name),
+                ProgramRole::Word(word) if self.word(word).is_none() => {
                     self.words.push((word.clone(), name));
                 }
-                Role::Word(_) => {}
+                ProgramRole::Word(_) => {}
             }
         }
         let macros = channel.macros();
@@ -60,11 +60,11 @@ impl ConfiguredPrograms {
     }
 
     /// Whether a program is named for a role.
-    pub(super) fn has(&self, role: &Role) -> bool {
+    pub(super) fn has(&self, role: &ProgramRole) -> bool {
         match role {
-            Role::Start => self.start.is_some(),
-            Role::End => self.end.is_some(),
-            Role::Word(word) => self.word(word).is_some(),
+            ProgramRole::Start => self.start.is_some(),
+            ProgramRole::End => self.end.is_some(),
+            ProgramRole::Word(word) => self.word(word).is_some(),
         }
     }
 

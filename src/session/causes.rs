@@ -9,7 +9,7 @@ use crate::text::Span;
 
 /// Key by which two messages have one cause (R17.3). The message names the kind of compensation.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-struct Cause {
+struct CauseKey {
     file: Arc<str>,
     first_line: u32,
     span: Span,
@@ -19,7 +19,7 @@ struct Cause {
     message: String,
 }
 
-impl Cause {
+impl CauseKey {
     fn of(said: &Diagnostic) -> Self {
         Self {
             file: Arc::clone(&said.place.file),
@@ -53,7 +53,7 @@ impl Cause {
 #[derive(Debug, Clone, Default)]
 pub struct Causes {
     said: Vec<Diagnostic>,
-    known: HashMap<Cause, usize>,
+    known: HashMap<CauseKey, usize>,
 }
 
 impl Causes {
@@ -65,7 +65,7 @@ impl Causes {
     /// Adds one message, about a list for instance.
     pub fn say(&mut self, said: Diagnostic) {
         let next = self.said.len();
-        let at = *self.known.entry(Cause::of(&said)).or_insert(next);
+        let at = *self.known.entry(CauseKey::of(&said)).or_insert(next);
         let Some(known) = self.said.get_mut(at) else {
             self.said.push(said);
             return;

@@ -9,12 +9,12 @@ use crate::text::Position;
 use crate::timeline::{Record, Repeat, Sink};
 
 /// Key by which two diagnostics are the same.
-type Key = (Arc<str>, Position, Position, Code, String);
+type FindingKey = (Arc<str>, Position, Position, Code, String);
 
 /// Diagnostics of a dry run: a sink that keeps each one once, however often a loop repeats it.
 #[derive(Debug, Clone, Default)]
 pub struct Findings {
-    diagnostics: BTreeMap<Key, Diagnostic>,
+    diagnostics: BTreeMap<FindingKey, Diagnostic>,
     /// The main program that runs.
     program: Option<Arc<str>>,
     /// Number of diagnostics by severity.

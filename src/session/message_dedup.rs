@@ -14,7 +14,7 @@ const MAX_AT_A_PLACE: usize = 16;
 
 /// Whether a message is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
+pub(super) enum DedupVerdict {
     /// It is new.
     Say,
     /// It was said at this place before.
@@ -23,7 +23,7 @@ pub(super) enum Verdict {
     TooMany,
 }
 
-type Key = (Code, Arc<str>, Position);
+type SayingKey = (Code, Arc<str>, Position);
 
 /// A message that was said.
 struct Saying {
@@ -47,7 +47,7 @@ struct PerFile {
 pub(super) struct MessageDedup {
     /// Limit of messages of a file.
     most: usize,
-    places: HashMap<Key, Vec<Saying>>,
+    places: HashMap<SayingKey, Vec<Saying>>,
     files: HashMap<Arc<str>, PerFile>,
     starts: StartsInOrder,
 }
@@ -64,7 +64,7 @@ impl MessageDedup {
     }
 
     /// Takes a message about an executed block; best in the order of their places.
-    pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> Verdict {
+    pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
         let place = &diagnostic.place;
         let start = self.starts.start(place);
         let mut hasher = DefaultHasher::new();
@@ -81,26 +81,26 @@ impl MessageDedup {
                     saying.message.clone_from(&diagnostic.message);
                 }
                 saying.times += 1;
-                return Verdict::Repeated;
+                return DedupVerdict::Repeated;
             }
         }
         if !self.has_room(place) {
-            return Verdict::TooMany;
+            return DedupVerdict::TooMany;
         }
         self.places.entry(key).or_default().push(Saying {
             hash,
             times: 1,
             message: String::new(),
         });
-        Verdict::Say
+        DedupVerdict::Say
     }
 
     /// Takes a message that is said at the end, where nothing is said twice.
-    pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> Verdict {
+    pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
         if self.has_room(&diagnostic.place) {
-            Verdict::Say
+            DedupVerdict::Say
         } else {
-            Verdict::TooMany
+            DedupVerdict::TooMany
         }
     }
 

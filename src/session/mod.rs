@@ -32,14 +32,14 @@ pub use crate::interpreter::{
 };
 use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
 pub use crate::lint::Maker;
-use crate::lint::{History, Linter, Told};
+use crate::lint::{History, LeftAwayNotice, Linter};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::readings::QuestionSet;
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
 use feed_moves::FeedMoveCounter;
 use message_dedup::MessageDedup;
-use recorder::{NoteBook, Recorder, Tally};
+use recorder::{NoteBook, Recorder, SessionTotals};
 use saved::{fingerprint, storable};
 
 /// Options of a session.
@@ -165,7 +165,7 @@ pub struct Session {
     wording: Option<Wording>,
     programs: u32,
     stopped: bool,
-    tally: Tally,
+    tally: SessionTotals,
     notes: NoteBook,
 }
 
@@ -199,7 +199,7 @@ impl Session {
             start,
             programs: 0,
             stopped: false,
-            tally: Tally {
+            tally: SessionTotals {
                 blocks: 0,
                 counts: BTreeMap::new(),
                 changed_by: vec![Vec::new(); axes],
@@ -264,7 +264,8 @@ impl Session {
                 self.history.restore(axis, away.kind, maker.clone());
             }
             if away.allowed {
-                self.history.set_told(axis, away.kind, Told::Silenced);
+                self.history
+                    .set_told(axis, away.kind, LeftAwayNotice::Silenced);
             }
         }
         if saved.occurred || saved.position.is_some() {
@@ -413,7 +414,7 @@ impl Session {
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),
             start_up: self.history.start_up(axis, Kind::Frict),
-            told: self.history.told(axis, Kind::Frict) != Told::No,
+            told: self.history.told(axis, Kind::Frict) != LeftAwayNotice::No,
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
             feed_moves: self.tally.feed_moves.of(axis),
@@ -477,7 +478,7 @@ impl Session {
                 .map(|kind| SavedAway {
                     kind,
                     by: self.history.maker(index, kind).cloned(),
-                    allowed: self.history.told(index, kind) == Told::Silenced,
+                    allowed: self.history.told(index, kind) == LeftAwayNotice::Silenced,
                 })
                 .collect(),
             occurred: self.machine.axis_set == AxisSet::AsTheyOccur

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
-use crate::lint::{Linter, Told};
+use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
 use crate::readings::{Question, QuestionSet};
 use crate::syntax::Comments;
@@ -19,7 +19,7 @@ use crate::timeline::{
 };
 
 use super::feed_moves::FeedMoveCounter;
-use super::message_dedup::{MessageDedup, Verdict};
+use super::message_dedup::{DedupVerdict, MessageDedup};
 
 /// Number of blocks that the summary of an axis names.
 const MAX_NAMED: usize = 100;
@@ -36,7 +36,7 @@ pub(super) struct NoteBook {
 }
 
 /// Totals of a session for the summary record.
-pub(super) struct Tally {
+pub(super) struct SessionTotals {
     pub(super) blocks: u64,
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
@@ -49,7 +49,7 @@ pub(super) struct Tally {
     pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
 }
 
-impl Tally {
+impl SessionTotals {
     pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
         *self.counts.entry(diagnostic.severity).or_default() += 1;
     }
@@ -84,7 +84,7 @@ pub(super) struct Recorder<'a> {
     pub(super) levels: &'a Levels,
     pub(super) wording: Option<Wording>,
     pub(super) linter: Linter<'a>,
-    pub(super) tally: &'a mut Tally,
+    pub(super) tally: &'a mut SessionTotals,
     pub(super) notes: &'a mut NoteBook,
     pub(super) sink: &'a mut dyn Sink,
     pub(super) program: u32,
@@ -318,12 +318,12 @@ impl Recorder<'_> {
                 return false;
             }
             match before.take(diagnostic) {
-                Verdict::Say => {
+                DedupVerdict::Say => {
                     diagnostic.reword(wording);
                     true
                 }
-                Verdict::Repeated => false,
-                Verdict::TooMany => {
+                DedupVerdict::Repeated => false,
+                DedupVerdict::TooMany => {
                     tally.count(diagnostic);
                     false
                 }
@@ -421,12 +421,12 @@ impl Recorder<'_> {
         notes.retain_mut(&mut judge);
         for mut left in left {
             let told = if judge(&mut left.note) {
-                Told::Said
+                LeftAwayNotice::Said
             } else {
-                Told::Silenced
+                LeftAwayNotice::Silenced
             };
             self.linter.settle(&left, told);
-            if told == Told::Said {
+            if told == LeftAwayNotice::Said {
                 notes.push(left.note);
             }
         }
@@ -451,7 +451,7 @@ impl Recorder<'_> {
         for note in &notes {
             self.tally.count(&note.diagnostic);
         }
-        notes.retain(|note| self.before.take_last(&note.diagnostic) == Verdict::Say);
+        notes.retain(|note| self.before.take_last(&note.diagnostic) == DedupVerdict::Say);
         let mut rest = self.before.rest(unsaid, ended.seq);
         rest.retain_mut(|note| levels.weigh(&mut note.diagnostic));
         for note in &rest {

@@ -40,12 +40,12 @@ pub(crate) enum Help {
 }
 
 /// A word after the mark.
-struct Word<'a> {
+struct AllowWord<'a> {
     text: &'a str,
     start: usize,
 }
 
-impl Word<'_> {
+impl AllowWord<'_> {
     fn fault(&self, message: String, help: Help) -> AllowFault {
         AllowFault {
             span: Span::new(self.start, self.start + self.text.len()),
@@ -145,7 +145,7 @@ pub(crate) fn lost(text: &str) -> Option<Fault> {
 }
 
 /// The words after a place, with their places.
-fn words(text: &str, from: usize) -> impl Iterator<Item = Word<'_>> {
+fn words(text: &str, from: usize) -> impl Iterator<Item = AllowWord<'_>> {
     let separates = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ')');
     let mut rest = from;
     std::iter::from_fn(move || {
@@ -154,7 +154,7 @@ fn words(text: &str, from: usize) -> impl Iterator<Item = Word<'_>> {
         let length = text[start..].find(separates).unwrap_or(text.len() - start);
         rest = start + length;
         let text = &text[start..rest];
-        Some(Word { text, start })
+        Some(AllowWord { text, start })
     })
 }
 
@@ -167,7 +167,7 @@ fn looks_like_code(word: &str) -> bool {
     number.is_some_and(|number| number.starts_with(|letter: char| letter.is_ascii_digit()))
 }
 
-fn unknown(word: &Word<'_>) -> AllowFault {
+fn unknown(word: &AllowWord<'_>) -> AllowFault {
     let message = format!("`{}` is not a code, so it allows nothing", word.text);
     let codes = Code::ALL.iter().map(|code| code.as_str());
     let near = nearest(word.text, codes);

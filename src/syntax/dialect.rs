@@ -128,9 +128,9 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
             continue;
         }
         let word = match meaning(code) {
-            Meaning::Isg => return None,
-            Meaning::Any => None,
-            Meaning::Of(dialect, word) => Some((dialect, word)),
+            DialectEvidence::Isg => return None,
+            DialectEvidence::Any => None,
+            DialectEvidence::Of(dialect, word) => Some((dialect, word)),
         };
         if let Some((dialect, word)) = word {
             found += 1;
@@ -161,7 +161,7 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
 }
 
 /// Evidence of a block on its control.
-enum Meaning {
+enum DialectEvidence {
     Isg,
     Of(Dialect, String),
     /// It is fine on every control, or nothing is known of it.
@@ -177,12 +177,14 @@ fn code_of(line: &str) -> String {
     code.join(" ").to_ascii_uppercase()
 }
 
-fn meaning(code: &str) -> Meaning {
+fn meaning(code: &str) -> DialectEvidence {
     if let Some(name) = code.strip_prefix('%') {
         return match name {
-            name if name.starts_with("_N_") => Meaning::Of(Dialect::Sinumerik, "%_N_".to_owned()),
-            name if name.starts_with("L ") => Meaning::Isg,
-            _ => Meaning::Any,
+            name if name.starts_with("_N_") => {
+                DialectEvidence::Of(Dialect::Sinumerik, "%_N_".to_owned())
+            }
+            name if name.starts_with("L ") => DialectEvidence::Isg,
+            _ => DialectEvidence::Any,
         };
     }
     let mut foreign = None;
@@ -194,21 +196,21 @@ fn meaning(code: &str) -> Meaning {
         let meaning = match bytes[at] {
             b'#' => after_hash(rest),
             b'$' => after_dollar(rest),
-            b'@' if rest[1..].starts_with('P') => Meaning::Isg,
+            b'@' if rest[1..].starts_with('P') => DialectEvidence::Isg,
             _ if length > 0 => of_word(&code[..at], &rest[..length], &rest[length..]),
-            _ => Meaning::Any,
+            _ => DialectEvidence::Any,
         };
         match meaning {
-            Meaning::Isg => return Meaning::Isg,
-            Meaning::Of(dialect, word) => foreign = foreign.or(Some((dialect, word))),
-            Meaning::Any => {}
+            DialectEvidence::Isg => return DialectEvidence::Isg,
+            DialectEvidence::Of(dialect, word) => foreign = foreign.or(Some((dialect, word))),
+            DialectEvidence::Any => {}
         }
         let first = rest.chars().next().map_or(1, char::len_utf8);
         at += length.max(first);
     }
     match foreign {
-        Some((dialect, word)) => Meaning::Of(dialect, word),
-        None => Meaning::Any,
+        Some((dialect, word)) => DialectEvidence::Of(dialect, word),
+        None => DialectEvidence::Any,
     }
 }
 
@@ -228,55 +230,57 @@ fn word_length(text: &str) -> usize {
     text.find(|c| !is_part(c)).unwrap_or(text.len())
 }
 
-fn after_hash(text: &str) -> Meaning {
+fn after_hash(text: &str) -> DialectEvidence {
     let dialect = match text.as_bytes().get(1) {
         Some(b'<') => Dialect::Rs274,
         Some(b'0'..=b'9' | b'[') => Dialect::Fanuc,
         _ => {
             return match hash_command(&hash_name(text).0) {
-                Some(_) => Meaning::Isg,
-                None => Meaning::Any,
+                Some(_) => DialectEvidence::Isg,
+                None => DialectEvidence::Any,
             };
         }
     };
     let is_part = |c: char| c.is_ascii_alphanumeric() || "_<>".contains(c);
     let length = text[1..].find(|c| !is_part(c)).map(|length| length + 1);
-    Meaning::Of(dialect, text[..length.unwrap_or(text.len())].to_owned())
+    DialectEvidence::Of(dialect, text[..length.unwrap_or(text.len())].to_owned())
 }
 
-fn after_dollar(text: &str) -> Meaning {
+fn after_dollar(text: &str) -> DialectEvidence {
     let length = 1 + word_length(&text[1..]);
     let word = &text[..length];
     if FLOW_WORDS.contains(&word) {
-        Meaning::Isg
+        DialectEvidence::Isg
     } else if SINUMERIK_VARIABLES
         .iter()
         .any(|begin| word[1..].starts_with(begin))
     {
-        Meaning::Of(Dialect::Sinumerik, word.to_owned())
+        DialectEvidence::Of(Dialect::Sinumerik, word.to_owned())
     } else {
-        Meaning::Any
+        DialectEvidence::Any
     }
 }
 
 /// Returns the evidence of a word, from the text before and after it.
-fn of_word(before: &str, word: &str, after: &str) -> Meaning {
+fn of_word(before: &str, word: &str, after: &str) -> DialectEvidence {
     let numbered = |begin: &str| {
         let number = word.strip_prefix(begin);
         number.is_some_and(|it| !it.is_empty() && it.bytes().all(|byte| byte.is_ascii_digit()))
     };
     let next = after.trim_start();
     let is_assigned = next.starts_with('=');
-    let of = |dialect| Meaning::Of(dialect, word.to_owned());
+    let of = |dialect| DialectEvidence::Of(dialect, word.to_owned());
     match word {
-        "V" if after.starts_with('.') => Meaning::Isg,
-        "COMP" if before.trim_end().ends_with('[') => Meaning::Isg,
-        "LL" => Meaning::Isg,
-        "L" if next.starts_with("CYCLE") => Meaning::Isg,
-        _ if numbered("P") && is_assigned => Meaning::Isg,
-        _ if numbered("R") && is_assigned => Meaning::Of(Dialect::Sinumerik, format!("{word}=")),
-        "O" if after.starts_with('<') => Meaning::Of(Dialect::Rs274, "O<".to_owned()),
-        _ if numbered("O") && O_WORDS.contains(&&next[..word_length(next)]) => Meaning::Of(
+        "V" if after.starts_with('.') => DialectEvidence::Isg,
+        "COMP" if before.trim_end().ends_with('[') => DialectEvidence::Isg,
+        "LL" => DialectEvidence::Isg,
+        "L" if next.starts_with("CYCLE") => DialectEvidence::Isg,
+        _ if numbered("P") && is_assigned => DialectEvidence::Isg,
+        _ if numbered("R") && is_assigned => {
+            DialectEvidence::Of(Dialect::Sinumerik, format!("{word}="))
+        }
+        "O" if after.starts_with('<') => DialectEvidence::Of(Dialect::Rs274, "O<".to_owned()),
+        _ if numbered("O") && O_WORDS.contains(&&next[..word_length(next)]) => DialectEvidence::Of(
             Dialect::Rs274,
             format!("{word} {}", &next[..word_length(next)]),
         ),
@@ -289,7 +293,7 @@ fn of_word(before: &str, word: &str, after: &str) -> Meaning {
         "IC" | "AC" | "DC" if before.trim_end().ends_with('=') => of(Dialect::Sinumerik),
         _ if SINUMERIK.contains(&word) => of(Dialect::Sinumerik),
         _ if SINUMERIK_CYCLES.iter().any(|cycle| numbered(cycle)) => of(Dialect::Sinumerik),
-        _ => Meaning::Any,
+        _ => DialectEvidence::Any,
     }
 }
 

@@ -53,7 +53,7 @@ impl Waiting {
 /// Lowers `expression`, whose spans count from `base` in the block.
 pub(super) fn lower(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
     let from = block.nodes.len();
-    Lowering { base, block }.expression(pair);
+    ExpressionLowering { base, block }.expression(pair);
     operand(from, block)
 }
 
@@ -68,7 +68,7 @@ pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
 /// An operand whose text could not be read; the caller says what is wrong with it.
 pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
     let from = block.nodes.len();
-    Lowering { base: 0, block }.push(Node::Unread, span);
+    ExpressionLowering { base: 0, block }.push(Node::Unread, span);
     range(from, block)
 }
 
@@ -82,7 +82,7 @@ pub(super) fn compound(
     let from = block.nodes.len();
     let place = target.as_span();
     let span = Span::new(place.start(), value.as_span().end());
-    let mut lowering = Lowering { base: 0, block };
+    let mut lowering = ExpressionLowering { base: 0, block };
     target
         .into_inner()
         .for_each(|place| lowering.primary(place));
@@ -94,7 +94,7 @@ pub(super) fn compound(
 /// Lowers a single value.
 pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
     let from = block.nodes.len();
-    Lowering { base, block }.primary(pair);
+    ExpressionLowering { base, block }.primary(pair);
     operand(from, block)
 }
 
@@ -107,7 +107,7 @@ pub(super) fn lower_number(text: &str, span: Span, block: &mut Block) -> Operand
     let from = block.nodes.len();
     let signs = text.len() - text.trim_start_matches(['+', '-']).len();
     let digits = Span::new(span.start as usize + signs, span.end as usize);
-    Lowering { base: 0, block }.push(Node::Number(value), digits);
+    ExpressionLowering { base: 0, block }.push(Node::Number(value), digits);
     operand(from, block)
 }
 
@@ -121,7 +121,7 @@ pub(super) fn place(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Expre
             None => break,
         }
     }
-    Lowering { base, block }.primary(inner);
+    ExpressionLowering { base, block }.primary(inner);
     range(from, block)
 }
 
@@ -155,12 +155,12 @@ struct Stacks {
     operands: Vec<Span>,
 }
 
-struct Lowering<'a> {
+struct ExpressionLowering<'a> {
     base: u32,
     block: &'a mut Block,
 }
 
-impl Lowering<'_> {
+impl ExpressionLowering<'_> {
     fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let span = pair.as_span();
         let length = span.as_str().trim_end().len();

@@ -2,7 +2,7 @@
 //!
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
-use super::ast::{Address, Block, Number, Operand, Word};
+use super::ast::{Address, Block, BlockNumber, Operand, Word};
 use super::raw::{Comments, MAX_LINE};
 use crate::text::Span;
 
@@ -74,7 +74,7 @@ fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> 
     }
     let digits = digits(bytes, start + 1)?;
     let end = start + 1 + digits.length;
-    block.number = Some(Number {
+    block.number = Some(BlockNumber {
         value: Operand::Number(whole(digits.mantissa) / POWERS[0][digits.decimals]),
         label: false,
         span: span(start, end),

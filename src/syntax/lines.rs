@@ -10,7 +10,7 @@ use super::hash_words::hash_word;
 use super::mask::{Masked, mask, mask_number};
 use super::pieces::is_blank;
 use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
-use super::remarks::Remarks;
+use super::remarks::LatestRemarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
 use crate::text::{LineSource, Span, changed_direction};
@@ -43,7 +43,7 @@ pub struct BlockReader<S> {
     text: String,
     /// The code of the last block that was not parsed by hand.
     pub(super) code: String,
-    remarks: Remarks,
+    remarks: LatestRemarks,
 }
 
 impl<S: LineSource> BlockReader<S> {
@@ -55,7 +55,7 @@ impl<S: LineSource> BlockReader<S> {
             line: first_line - 1,
             text: String::new(),
             code: String::new(),
-            remarks: Remarks::default(),
+            remarks: LatestRemarks::default(),
         }
     }
 

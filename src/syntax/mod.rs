@@ -73,12 +73,12 @@ pub(crate) use mask::code_of;
 pub use mask::code_of;
 pub(crate) use mask::goes_on;
 #[cfg(feature = "unstable")]
-pub use names::{NameInBlock, Named, Role, names_in};
+pub use names::{NameInBlock, NameRole, Named, names_in};
 #[cfg(feature = "unstable")]
 pub use pieces::{PieceKind, code_words, kind_at};
 pub(crate) use scan::may_call_file;
 #[cfg(feature = "unstable")]
-pub use scan::{NamedAxes, Question, Scan, SwitchedAxes};
+pub use scan::{NamedAxes, Scan, ScanQuestion, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
 

@@ -16,7 +16,7 @@ pub enum Named {
 
 /// Role of a name at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
+pub enum NameRole {
     /// The named thing is defined here.
     Definition,
     /// It is called, or jumped to.
@@ -29,7 +29,7 @@ pub struct NameInBlock {
     /// Kind of the named thing.
     pub named: Named,
     /// Role at this place.
-    pub role: Role,
+    pub role: NameRole,
     /// A number without leading zeros: `N30`.
     pub name: String,
     /// Span of the name.
@@ -38,7 +38,7 @@ pub struct NameInBlock {
 
 /// The names of a block, from left to right. What a variable holds has none.
 pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
-    let mut names = Names {
+    let mut names = NameSearch {
         text,
         found: Vec::new(),
     };
@@ -50,11 +50,11 @@ pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
             number.span.range().start,
             number.span.range().start + label.len(),
         );
-        names.add(Named::Label, Role::Definition, (numbered(value), span));
+        names.add(Named::Label, NameRole::Definition, (numbered(value), span));
     }
     for item in &block.items {
         match item {
-            Item::Label(span) => names.label(*span, Role::Definition),
+            Item::Label(span) => names.label(*span, NameRole::Definition),
             Item::Flow(Flow::Goto(target), span) => {
                 // `$GOTON30` needs no blank.
                 let after = Span::new(span.range().start + "$GOTO".len(), span.range().end);
@@ -71,13 +71,13 @@ pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
     names.found
 }
 
-struct Names<'a> {
+struct NameSearch<'a> {
     text: &'a str,
     found: Vec<NameInBlock>,
 }
 
-impl Names<'_> {
-    fn add(&mut self, named: Named, role: Role, (name, span): (String, Span)) {
+impl NameSearch<'_> {
+    fn add(&mut self, named: Named, role: NameRole, (name, span): (String, Span)) {
         self.found.push(NameInBlock {
             named,
             role,
@@ -86,7 +86,7 @@ impl Names<'_> {
         });
     }
 
-    fn label(&mut self, span: Span, role: Role) {
+    fn label(&mut self, span: Span, role: NameRole) {
         self.add(Named::Label, role, (span.of(self.text).to_owned(), span));
     }
 
@@ -100,7 +100,7 @@ impl Names<'_> {
             CallScope::Local => Named::Program,
             CallScope::Global => Named::File,
         };
-        self.add(named, Role::Use, (span.of(self.text).to_owned(), span));
+        self.add(named, NameRole::Use, (span.of(self.text).to_owned(), span));
     }
 
     /// The labels that a statement names, in their order.
@@ -109,7 +109,7 @@ impl Names<'_> {
         for target in targets.into_iter().flatten() {
             match target {
                 BlockReference::Label(span) => {
-                    self.label(*span, Role::Use);
+                    self.label(*span, NameRole::Use);
                     from = span.range().end;
                 }
                 BlockReference::Number(Operand::Number(value)) => {
@@ -117,7 +117,7 @@ impl Names<'_> {
                         return;
                     };
                     from = span.range().end;
-                    self.add(Named::Label, Role::Use, (numbered(*value), span));
+                    self.add(Named::Label, NameRole::Use, (numbered(*value), span));
                 }
                 BlockReference::Number(_) | BlockReference::Variable(_) => {}
             }

@@ -9,7 +9,7 @@ const MAX_BYTES: usize = 1 << 16;
 
 /// The comment lines that were read last, and those that no block followed.
 #[derive(Debug, Default)]
-pub(super) struct Remarks {
+pub(super) struct LatestRemarks {
     remark: Remark,
     /// The number of its last line; 0 where there is none.
     last: u32,
@@ -18,7 +18,7 @@ pub(super) struct Remarks {
     lost: LostRemarks,
 }
 
-impl Remarks {
+impl LatestRemarks {
     /// Takes a line.
     pub(super) fn take(&mut self, text: &str, line: u32) {
         let follows = self.last > 0 && self.last + 1 == line && !self.is_heard;

@@ -13,7 +13,7 @@ use super::parse::parse_block;
 const MAX_CONTINUED: usize = 64 * 1024;
 
 /// A question to a program.
-pub trait Question {
+pub trait ScanQuestion {
     /// The first place of a text, from one on, at which a line may tell something.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
 
@@ -32,7 +32,7 @@ pub struct Scan<Q> {
     is_comment: bool,
 }
 
-impl<Q: Question> Scan<Q> {
+impl<Q: ScanQuestion> Scan<Q> {
     /// A scan from the start of a program.
     pub fn new(question: Q) -> Self {
         Self {
@@ -110,7 +110,7 @@ impl<Q: Question> Scan<Q> {
 #[derive(Debug, Default)]
 pub struct SwitchedAxes(pub BTreeSet<String>);
 
-impl Question for SwitchedAxes {
+impl ScanQuestion for SwitchedAxes {
     /// `COMP`. Of its letters the last one is the rarest in programs.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
         let mut places = memchr::memchr2_iter(b'P', b'p', &text[from..]);
@@ -187,7 +187,7 @@ impl NamedAxes {
     }
 }
 
-impl Question for NamedAxes {
+impl ScanQuestion for NamedAxes {
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
         // Each place is looked for once, not again for each line before it.
         let is_known = |next: &Option<usize>| from > 0 && next.is_none_or(|at| at >= from);

@@ -17,7 +17,7 @@ use crate::interpreter::WayCondition;
 /// selected kind where that is not friction compensation alone (R9.12).
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct States<'a> {
-    friction: Friction<'a>,
+    friction: FrictionStates<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     compensation: Option<OfKinds<'a>>,
     #[serde(skip_serializing_if = "Possible::is_empty")]
@@ -29,7 +29,7 @@ impl<'a> States<'a> {
     pub fn of(state: StateView<'a>, kinds: KindSet) -> Self {
         let is_plain = kinds == KindSet::of(Kind::Frict);
         Self {
-            friction: Friction(state),
+            friction: FrictionStates(state),
             compensation: (!is_plain).then_some(OfKinds { state, kinds }),
             possible: Possible::of(state, kinds),
         }
@@ -38,9 +38,9 @@ impl<'a> States<'a> {
 
 /// Axis → state of friction compensation.
 #[derive(Debug, Clone, Copy)]
-struct Friction<'a>(StateView<'a>);
+struct FrictionStates<'a>(StateView<'a>);
 
-impl Serialize for Friction<'_> {
+impl Serialize for FrictionStates<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let states = self.0.axes();
         serializer.collect_map(states.map(|(axis, name)| (name, self.0.state(axis, Kind::Frict))))
@@ -78,9 +78,9 @@ impl Serialize for OfAxis<'_> {
 }
 
 /// The names of the listed axes.
-struct Axes<'a>(StateView<'a>);
+struct ListedAxes<'a>(StateView<'a>);
 
-impl Serialize for Axes<'_> {
+impl Serialize for ListedAxes<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.0.axes().map(|(_, name)| name))
     }
@@ -147,7 +147,7 @@ enum Object<'a> {
     Session {
         schema: u32,
         tool: &'static str,
-        axes: Axes<'a>,
+        axes: ListedAxes<'a>,
         #[serde(skip_serializing_if = "Option::is_none")]
         remark: Option<&'a str>,
     },
@@ -214,7 +214,7 @@ impl<'a> Object<'a> {
             Record::Session { state, remark } => Self::Session {
                 schema: SCHEMA,
                 tool: TOOL,
-                axes: Axes(state),
+                axes: ListedAxes(state),
                 remark,
             },
             Record::Machine(diagnostic) => Self::said(&DiagnosticRecord::of_machine(diagnostic)),

@@ -79,12 +79,12 @@ pub struct FrictcompChange {
 pub struct FrictcompCompensation {
     states: Compensation,
     changes: Vec<FrictcompChange>,
-    possible: Vec<Possible>,
+    possible: Vec<PossibleValues>,
 }
 
 /// The states that are possible where one is unknown.
 #[derive(Debug)]
-struct Possible {
+struct PossibleValues {
     axis: AxisIndex,
     kind: Kind,
     words: CString,
@@ -107,7 +107,7 @@ impl FrictcompCompensation {
         let (session, _) =
             resumed.map_err(|error| Failure::of_state(&path.display().to_string(), &error))?;
         let left = session.state();
-        let possible = left.possible.iter().map(|it| Possible {
+        let possible = left.possible.iter().map(|it| PossibleValues {
             axis: it.axis,
             kind: it.kind,
             words: c_text(&it.in_words("")),

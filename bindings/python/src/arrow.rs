@@ -18,17 +18,17 @@ const STREAM: &CStr = c"arrow_array_stream";
 
 /// A table in batches. Its buffers live as long as anybody has a part of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Table {
+pub(crate) struct ArrowTable {
     pub(crate) schema: SchemaRef,
     pub(crate) batches: Vec<RecordBatch>,
 }
 
 /// A column: its name and its values.
-pub(crate) type Column = (&'static str, ArrayRef);
+pub(crate) type ArrowColumn = (&'static str, ArrayRef);
 
-impl Table {
+impl ArrowTable {
     /// A table of one batch. Only the named columns may lack values.
-    pub(crate) fn of(columns: Vec<Column>, nullable: &[&str]) -> Self {
+    pub(crate) fn of(columns: Vec<ArrowColumn>, nullable: &[&str]) -> Self {
         let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = columns
             .into_iter()
             .map(|(name, array)| {

@@ -13,15 +13,15 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
 
-use crate::arrow::{Column, Table};
+use crate::arrow::{ArrowColumn, ArrowTable};
 use crate::failure::Failure;
 use crate::json::parsed;
 use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, remark_without_machine};
-use crate::messages::{PyMessage, PyMessages, Said};
+use crate::messages::{GivenMessages, PyMessage, PyMessages};
 use crate::pickled::{self, Reduced};
-use crate::program::Programs;
+use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
 
 /// What the order of programs does: one row for each program, axis and kind.
@@ -29,7 +29,7 @@ use crate::work::{Stop, interruptible};
 /// The table has the columns of ``frictcomp audit --format csv``.
 #[pyclass(frozen, name = "Audit", module = "frictcomp")]
 pub(crate) struct PyAudit {
-    table: Table,
+    table: ArrowTable,
     records: String,
     messages: Py<PyMessages>,
     programs: usize,
@@ -40,7 +40,7 @@ pub(crate) struct PyAudit {
 /// The same, away from Python.
 struct Audited {
     report: AuditReport,
-    said: Said,
+    said: GivenMessages,
 }
 
 /// Which programs leave an axis away from its start-up state, and which move it in the state that they find.
@@ -53,8 +53,8 @@ pub(crate) fn audit(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyAudit> {
     let py = programs.py();
-    let job = Job {
-        programs: Programs::of(programs)?,
+    let job = AuditJob {
+        programs: GivenPrograms::of(programs)?,
         machine: machine_options(machine)?,
         options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
     };
@@ -69,8 +69,8 @@ pub(crate) fn audit(
     })
 }
 
-fn audited(job: Job, stop: &Stop) -> Result<Audited, Failure> {
-    let (auditor, mut errors) = job.auditor(Programs::found, stop);
+fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
+    let (auditor, mut errors) = job.auditor(GivenPrograms::found, stop);
     let (archives, unread) = auditor.audit();
     errors.extend(unread);
     if let Some(failure) = Failure::of_several(errors) {
@@ -90,16 +90,16 @@ fn audited(job: Job, stop: &Stop) -> Result<Audited, Failure> {
 }
 
 /// What is audited, away from Python.
-pub(crate) struct Job {
-    pub(crate) programs: Programs,
+pub(crate) struct AuditJob {
+    pub(crate) programs: GivenPrograms,
     pub(crate) machine: MachineOptions,
     pub(crate) options: AuditOptions,
 }
 
 /// Finds the programs among those that were given, and what gave none.
-type Find = fn(Programs, &mut Machines) -> (Vec<Input>, Vec<HostError>);
+type Find = fn(GivenPrograms, &mut Machines) -> (Vec<Input>, Vec<HostError>);
 
-impl Job {
+impl AuditJob {
     /// The programs that can run on their machines, and what cannot be audited.
     pub(crate) fn auditor(self, find: Find, stop: &Stop) -> (ArchiveAuditor, Vec<HostError>) {
         let machines = Machines::new(self.machine, &FileRegistry::default());
@@ -114,49 +114,49 @@ impl Job {
 }
 
 /// What keeps the control from taking its lists, and that no machine is described.
-pub(crate) fn said(auditor: &ArchiveAuditor) -> Said {
+pub(crate) fn said(auditor: &ArchiveAuditor) -> GivenMessages {
     let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
         let loaded = &auditor.machines()[*machine];
         (!loaded.machine.is_described()).then_some(input)
     });
     let machines = auditor.machines().iter();
     let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
-    Said {
+    GivenMessages {
         messages: errors.collect(),
         remark: remark_without_machine(undescribed),
-        ..Said::default()
+        ..GivenMessages::default()
     }
 }
 
 /// What a program does to an axis.
-struct Row<'a> {
+struct AxisEffectRow<'a> {
     machine: &'a MachineAudit,
     program: &'a ProgramAudit,
     axis: &'a AxisAudit,
 }
 
 /// The columns of `audit --format csv`: a row a program, axis and kind.
-fn table(report: &AuditReport) -> Table {
+fn table(report: &AuditReport) -> ArrowTable {
     let machines = report.machines.iter();
     let rows = machines.flat_map(|machine| {
         let programs = machine.archive.programs().iter();
         programs.flat_map(move |program| {
             let axes = program.axes.iter();
-            axes.map(move |axis| Row {
+            axes.map(move |axis| AxisEffectRow {
                 machine,
                 program,
                 axis,
             })
         })
     });
-    let rows: Vec<Row<'_>> = rows.collect();
-    let text = |of: fn(&Row<'_>) -> Option<String>| -> ArrayRef {
+    let rows: Vec<AxisEffectRow<'_>> = rows.collect();
+    let text = |of: fn(&AxisEffectRow<'_>) -> Option<String>| -> ArrayRef {
         Arc::new(rows.iter().map(of).collect::<StringArray>())
     };
-    let line = |of: fn(&Row<'_>) -> Option<u32>| -> ArrayRef {
+    let line = |of: fn(&AxisEffectRow<'_>) -> Option<u32>| -> ArrayRef {
         Arc::new(rows.iter().map(of).collect::<UInt32Array>())
     };
-    let columns: Vec<Column> = vec![
+    let columns: Vec<ArrowColumn> = vec![
         ("machine", text(|it| it.machine.origin.clone())),
         ("file", text(|it| Some(it.program.file.clone()))),
         ("axis", text(|it| Some(it.axis.axis.clone()))),
@@ -200,11 +200,11 @@ fn table(report: &AuditReport) -> Table {
     ];
     let by = ["machine", "by_file", "by_line", "reason"];
     let inherited = ["inherits_file", "inherits_line", "motion", "inherits_if"];
-    Table::of(columns, &[&by[..], &inherited].concat())
+    ArrowTable::of(columns, &[&by[..], &inherited].concat())
 }
 
 /// What an audit is made of anew: the table, the records, the messages, the counts.
-type Pickled<'py> = (
+type PickledAudit<'py> = (
     Bound<'py, PyBytes>,
     String,
     Py<PyMessages>,
@@ -222,7 +222,7 @@ impl PyAudit {
     ) -> PyResult<Self> {
         let (programs, hazards, has_warnings) = counted;
         Ok(Self {
-            table: Table::unpickled(table)?,
+            table: ArrowTable::unpickled(table)?,
             records,
             messages,
             programs,
@@ -231,7 +231,7 @@ impl PyAudit {
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<PickledAudit<'py>>> {
         let (this, py) = (slf.get(), slf.py());
         let arguments = (
             this.table.pickled(py)?,

@@ -16,8 +16,8 @@ use pyo3::prelude::*;
 use crate::failure::Failure;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, remark_without_machine};
-use crate::messages::{PyMessage, PyMessages, Said};
-use crate::program::Programs;
+use crate::messages::{GivenMessages, PyMessage, PyMessages};
+use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
 
 /// All messages of programs and of the programs below folders.
@@ -30,8 +30,8 @@ pub(crate) fn check(
     machine: Option<&Bound<'_, PyAny>>,
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyMessages> {
-    let job = Job {
-        programs: Programs::of(programs)?,
+    let job = CheckJob {
+        programs: GivenPrograms::of(programs)?,
         machine: machine_options(machine)?,
         run: limits::brief(limits).with_stop(StopPolicy::CheckAll),
     };
@@ -40,17 +40,17 @@ pub(crate) fn check(
 }
 
 /// Everything that a check needs, away from Python.
-struct Job {
-    programs: Programs,
+struct CheckJob {
+    programs: GivenPrograms,
     machine: MachineOptions,
     run: Options,
 }
 
 /// A program with its machine.
-type Pair<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
+type ProgramOnMachine<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
 /// What one program has to say.
-struct Found<'a> {
+struct ProgramFindings<'a> {
     executed: ExecutedProgram<'a>,
     loaded: Arc<LoadedMachine>,
     findings: Findings,
@@ -58,22 +58,23 @@ struct Found<'a> {
     unsaid: BTreeMap<Severity, u64>,
 }
 
-impl Job {
-    fn done(self, stop: &Stop) -> Result<Said, Failure> {
+impl CheckJob {
+    fn done(self, stop: &Stop) -> Result<GivenMessages, Failure> {
         let mut machines =
             Machines::new(self.machine, &FileRegistry::default()).on_disk(&self.programs.disk);
         let disk = self.programs.disk.clone();
         let (inputs, mut errors) = self.programs.found(&mut machines);
         machines.look_ahead(&inputs);
         let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
-        let pairs: Vec<Pair<'_>> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+        let pairs: Vec<ProgramOnMachine<'_>> =
+            inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
         let undescribed = pairs.iter().filter_map(|(input, loaded)| {
             let loaded = loaded.as_ref().ok()?;
             (!loaded.machine.is_described()).then_some(*input)
         });
-        let mut said = Said {
+        let mut said = GivenMessages {
             remark: remark_without_machine(undescribed),
-            ..Said::default()
+            ..GivenMessages::default()
         };
         let mut all = Vec::new();
         let check = |(input, loaded)| check_file((input, loaded?), self.run, stop);
@@ -92,9 +93,9 @@ impl Job {
     }
 }
 
-impl Said {
+impl GivenMessages {
     /// What the programs say that count by themselves (R17.2): the others were checked in their callers.
-    fn gather(&mut self, all: Vec<Found<'_>>, disk: &Disk) {
+    fn gather(&mut self, all: Vec<ProgramFindings<'_>>, disk: &Disk) {
         let executed: Vec<_> = all.iter().map(|it| it.executed.clone()).collect();
         let mut causes = Causes::default();
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
@@ -119,7 +120,7 @@ fn check_file<'a>(
     (input, loaded): (&'a Input, Arc<LoadedMachine>),
     run: Options,
     stop: &Stop,
-) -> Result<Found<'a>, HostError> {
+) -> Result<ProgramFindings<'a>, HostError> {
     let options = SessionOptions::from(run)
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone());
@@ -140,7 +141,7 @@ fn check_file<'a>(
         input,
         executed_to_end: returned.map(ToString::to_string).collect(),
     };
-    Ok(Found {
+    Ok(ProgramFindings {
         executed,
         loaded,
         findings,

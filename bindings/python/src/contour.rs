@@ -23,10 +23,10 @@ use crate::failure::Failure;
 use crate::json;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_options, watched_machine_of};
-use crate::messages::{PyMessages, Said};
+use crate::messages::{GivenMessages, PyMessages};
 use crate::pickled::{self, Reduced};
 use crate::planner::planner;
-use crate::program::Programs;
+use crate::program::GivenPrograms;
 use crate::several::Several;
 use crate::start::{Places, positions};
 use crate::words::meant;
@@ -42,8 +42,8 @@ pub(crate) struct PyContour {
 }
 
 /// What is driven, away from Python.
-struct Job {
-    programs: Programs,
+struct ContourJob {
+    programs: GivenPrograms,
     machine: MachineOptions,
     plane: [String; 2],
     plant: String,
@@ -60,7 +60,7 @@ struct Driven {
     record: String,
     svg: String,
     remarks: Vec<String>,
-    said: Said,
+    said: GivenMessages,
 }
 
 /// Drives the path of a program with simulated axes: the document of ``frictcomp contour --format json``.
@@ -86,8 +86,8 @@ pub(crate) fn contour(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyContour> {
     let py = program.py();
-    let job = Job {
-        programs: Programs::one(program)?,
+    let job = ContourJob {
+        programs: GivenPrograms::one(program)?,
         machine: machine_options(machine)?,
         plane: axes_of(plane)?,
         plant: plant.to_owned(),
@@ -129,7 +129,7 @@ fn axes_of(plane: Option<&Bound<'_, PyAny>>) -> PyResult<[String; 2]> {
     })
 }
 
-impl Job {
+impl ContourJob {
     fn done(self, stop: &Stop) -> Result<Driven, Failure> {
         self.programs.probe()?;
         let watcher = Arc::new(stop.clone());
@@ -148,7 +148,7 @@ impl Job {
             record: document(&mut contour, &ContourLimits::default()),
             svg: chart.render(Frame::Alone),
             remarks: contour_remarks(&contour),
-            said: Said::of_trace(contour.diagnostics(), &loaded),
+            said: GivenMessages::of_trace(contour.diagnostics(), &loaded),
         })
     }
 
@@ -187,7 +187,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
 }
 
 /// What a contour is made of anew.
-type Pickled = (String, String, Vec<String>, Py<PyMessages>);
+type PickledContour = (String, String, Vec<String>, Py<PyMessages>);
 
 #[pymethods]
 impl PyContour {
@@ -206,7 +206,7 @@ impl PyContour {
         }
     }
 
-    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<Pickled>> {
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<PickledContour>> {
         let this = slf.get();
         let arguments = (
             this.record.clone(),

@@ -11,7 +11,7 @@ use frictcomp_physics::motion::check_cycle;
 use frictcomp_recordings::identify::Measured;
 use frictcomp_recordings::identify::TorqueKind;
 use frictcomp_recordings::identify::identify_measured_circles;
-use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify as find};
+use frictcomp_recordings::identify::{IdentifyOptions, RequestedPoints, identify as find};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::identify::{IdentifyReport, render_json};
 use frictcomp_report::on_circles::{self, OnCirclesReport};
@@ -44,21 +44,21 @@ pub(crate) struct PyIdentified {
 }
 
 /// The recordings of an axis.
-struct Recorded {
+struct AxisRecordings {
     traces: Vec<PathBuf>,
     selection: ChannelSelection,
     cycle_s: Option<f64>,
-    said: Said,
+    said: TorqueStatement,
 }
 
 /// What the caller says about the torque; it counts before what the channels tell.
 #[derive(Clone, Copy)]
-struct Said {
+struct TorqueStatement {
     kind: Option<TorqueKind>,
     compensation: Option<Switched>,
 }
 
-impl Said {
+impl TorqueStatement {
     fn about(self, recorded: Measured) -> Measured {
         recorded.stated(self.kind, self.compensation)
     }
@@ -112,11 +112,11 @@ pub(crate) fn identify(
         units: given_units(units)?,
         ..ChannelSelection::default()
     };
-    let recorded = Recorded {
+    let recorded = AxisRecordings {
         traces: traces.paths(),
         selection,
         cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
-        said: Said {
+        said: TorqueStatement {
             kind: meant_if_given(torque_kind)?,
             compensation: compensation.map(switched).transpose()?,
         },
@@ -161,7 +161,7 @@ impl Traces {
     }
 }
 
-impl Recorded {
+impl AxisRecordings {
     /// Constant speeds in one recording.
     fn at_speeds(self, options: &IdentifyOptions) -> Result<PyIdentified, Failure> {
         let [trace] = self.traces.as_slice() else {
@@ -233,7 +233,7 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
         if !(2..=200).contains(&points) {
             return Err(refused("a value list has from 2 to 200 points"));
         }
-        options.wanted = Wanted::Points(points);
+        options.wanted = RequestedPoints::Points(points);
     }
     if let Some(percent) = max_error {
         if !(percent > 0.0 && percent <= LARGEST) {
@@ -242,7 +242,7 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
             )));
         }
         options.accuracy = percent / 100.0;
-        options.wanted = Wanted::Error {
+        options.wanted = RequestedPoints::Error {
             part: options.accuracy,
             most: points.unwrap_or(MOST),
         };

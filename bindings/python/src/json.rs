@@ -10,9 +10,9 @@ pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, Py
 
 /// A text in JSON, which Python gets as its own values.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct Json(pub(crate) String);
+pub(crate) struct JsonText(pub(crate) String);
 
-impl<'py> IntoPyObject<'py> for Json {
+impl<'py> IntoPyObject<'py> for JsonText {
     type Target = PyAny;
     type Output = Bound<'py, PyAny>;
     type Error = PyErr;

@@ -17,7 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::exceptions::refused;
 use crate::failure::Failure;
-use crate::program::Programs;
+use crate::program::GivenPrograms;
 use crate::several::Several;
 
 /// The machine that programs run on.
@@ -32,7 +32,7 @@ pub(crate) struct PyMachine(MachineOptions);
 
 /// The value of a variable.
 #[derive(FromPyObject)]
-enum Given {
+enum VariableValue {
     Number(f64),
     Text(String),
 }
@@ -48,7 +48,7 @@ impl PyMachine {
         startup: Option<PathBuf>,
         isolated: bool,
         enable: Option<Several<String>>,
-        variables: Option<HashMap<String, Given>>,
+        variables: Option<HashMap<String, VariableValue>>,
         allow_outside: bool,
     ) -> PyResult<Self> {
         let configuration = match (config, isolated) {
@@ -72,13 +72,13 @@ impl PyMachine {
         }
         for (name, value) in variables.unwrap_or_default() {
             let value = match value {
-                Given::Number(number) if !number.is_finite() => {
+                VariableValue::Number(number) if !number.is_finite() => {
                     return Err(refused(format!(
                         "the variable `{name}` cannot be {number}; leave out what is not known"
                     )));
                 }
-                Given::Number(number) => Setting::Number(number),
-                Given::Text(text) => Setting::Text(text),
+                VariableValue::Number(number) => Setting::Number(number),
+                VariableValue::Text(text) => Setting::Text(text),
             };
             options.settings.push((name, value));
         }
@@ -158,7 +158,7 @@ fn is_configuration(path: &Path) -> bool {
 /// The machine of a session: that of its first program.
 pub(crate) fn machine_of(
     options: MachineOptions,
-    programs: &Programs,
+    programs: &GivenPrograms,
     left: Vec<String>,
 ) -> Result<Arc<LoadedMachine>, Failure> {
     let mut machines = Machines::new(options, &FileRegistry::default());
@@ -172,14 +172,14 @@ pub(crate) fn machine_of(
 /// The machine of a program that is watched.
 pub(crate) fn watched_machine_of(
     options: MachineOptions,
-    programs: &Programs,
+    programs: &GivenPrograms,
     watcher: Arc<dyn Watcher>,
 ) -> Result<Arc<LoadedMachine>, Failure> {
     let machines = Machines::new(options, &FileRegistry::default());
     of_first(machines.watched_by(watcher), programs)
 }
 
-fn of_first(machines: Machines, programs: &Programs) -> Result<Arc<LoadedMachine>, Failure> {
+fn of_first(machines: Machines, programs: &GivenPrograms) -> Result<Arc<LoadedMachine>, Failure> {
     let mut machines = machines.on_disk(&programs.disk);
     machines.look_ahead(&programs.inputs);
     let first = programs.inputs.first().expect("there is a program");

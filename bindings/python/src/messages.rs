@@ -16,12 +16,12 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList, PySlice};
 use serde::{Deserialize, Serialize};
 
-use crate::arrow::{Column, Table};
+use crate::arrow::{ArrowColumn, ArrowTable};
 use crate::exceptions::error;
 use crate::pickled::{self, Reduced};
 
 /// A word of a table of frictcomp, or one that was pickled.
-pub(crate) type Word = Cow<'static, str>;
+pub(crate) type PickledWord = Cow<'static, str>;
 
 /// A change of the text that does what a message advises.
 ///
@@ -35,7 +35,7 @@ pub(crate) struct PyFix {
     end_line: u32,
     end_column: u32,
     text: String,
-    safety: Word,
+    safety: PickledWord,
 }
 
 /// An end of the program that a message at its end is about.
@@ -57,8 +57,8 @@ pub(crate) struct PyMessage {
     program: Option<u32>,
     /// The executed block of the program, from 1.
     seq: Option<u64>,
-    code: Word,
-    severity: Word,
+    code: PickledWord,
+    severity: PickledWord,
     file: String,
     /// From 1.
     line: u32,
@@ -83,16 +83,16 @@ pub(crate) struct PyMessage {
 
 /// What was said.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(crate) struct Said {
+pub(crate) struct GivenMessages {
     /// The messages in their order.
     pub(crate) messages: Vec<PyMessage>,
     /// What stands above everything else: that no machine is described (R1.37).
     pub(crate) remark: Option<String>,
     /// How many more messages there are, by severity (R2.85).
-    pub(crate) left_out: BTreeMap<Word, u64>,
+    pub(crate) left_out: BTreeMap<PickledWord, u64>,
 }
 
-impl Said {
+impl GivenMessages {
     /// Errors, and remarks on a trace with the severities of the user.
     pub(crate) fn of_trace(
         (errors, remarks): (&[Diagnostic], &[Diagnostic]),
@@ -136,7 +136,7 @@ impl Said {
 /// It has the methods of a ``Sequence`` and is not registered as one: polars reads a ``Sequence`` item
 /// by item, and not as a table.
 #[pyclass(frozen, sequence, name = "Messages", module = "frictcomp")]
-pub(crate) struct PyMessages(Said);
+pub(crate) struct PyMessages(GivenMessages);
 
 impl PyFix {
     fn of(fix: &Fix) -> Self {
@@ -278,7 +278,7 @@ impl PyMessage {
 
 impl PyMessages {
     /// These messages.
-    pub(crate) fn new(said: Said) -> Self {
+    pub(crate) fn new(said: GivenMessages) -> Self {
         Self(said)
     }
 
@@ -299,7 +299,7 @@ impl PyMessages {
         counts.join(", ")
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> ArrowTable {
         let messages = &self.0.messages;
         let text = |of: fn(&PyMessage) -> Option<&str>| -> ArrayRef {
             Arc::new(messages.iter().map(of).collect::<StringArray>())
@@ -315,7 +315,7 @@ impl PyMessages {
             Arc::new(lists.finish())
         };
         let seq: UInt64Array = messages.iter().map(|it| it.seq).collect();
-        let columns: Vec<Column> = vec![
+        let columns: Vec<ArrowColumn> = vec![
             ("program", number(|it| it.program)),
             ("seq", Arc::new(seq)),
             ("code", text(|it| Some(&it.code))),
@@ -330,7 +330,7 @@ impl PyMessages {
             ("help", list(|it| &it.help)),
             ("reached_from", list(|it| &it.reached_from)),
         ];
-        Table::of(columns, &["program", "seq", "axis"])
+        ArrowTable::of(columns, &["program", "seq", "axis"])
     }
 }
 
@@ -438,7 +438,7 @@ impl PyMessages {
 
     /// How many messages of a severity are not listed: a file says so many and no more.
     #[getter]
-    fn left_out(&self) -> BTreeMap<Word, u64> {
+    fn left_out(&self) -> BTreeMap<PickledWord, u64> {
         self.0.left_out.clone()
     }
 

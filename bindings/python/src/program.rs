@@ -59,13 +59,13 @@ impl PyText {
 }
 
 /// The programs that were given.
-pub(crate) struct Programs {
+pub(crate) struct GivenPrograms {
     pub(crate) inputs: Vec<Input>,
     /// The disk with the texts among them, so that one may call another.
     pub(crate) disk: Disk,
 }
 
-impl Programs {
+impl GivenPrograms {
     /// One program, or a list of them.
     pub(crate) fn of(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         let inputs = inputs(given)?;

@@ -8,15 +8,15 @@ use frictcomp_host::{
 };
 use pyo3::prelude::*;
 
-use crate::arrow::Table;
+use crate::arrow::ArrowTable;
 use crate::failure::Failure;
 use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_of, machine_options};
-use crate::messages::Said;
-use crate::program::Programs;
-use crate::state::{self, Start};
-use crate::timeline::{PyTimeline, Recorded, Recorder, Shown};
+use crate::messages::GivenMessages;
+use crate::program::GivenPrograms;
+use crate::state::{self, StartState};
+use crate::timeline::{PyTimeline, RecordedSession, Recorder, ShownColumns};
 use crate::work::{Stop, interruptible};
 
 /// Runs programs one after the other, as they are given, in one session of the control; a set has no order.
@@ -38,16 +38,16 @@ pub(crate) fn run(
     positions: bool,
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyTimeline> {
-    let job = Job {
-        programs: Programs::in_order(program)?,
+    let job = RunJob {
+        programs: GivenPrograms::in_order(program)?,
         machine: machine_options(machine)?,
-        start: Start::of(state)?,
+        start: StartState::of(state)?,
         run: limits::options(limits).with_stop(if keep_going {
             StopPolicy::KeepGoing
         } else {
             StopPolicy::FirstError
         }),
-        shown: Shown {
+        shown: ShownColumns {
             kinds: Kinds::of(kinds)?,
             positions,
         },
@@ -57,17 +57,17 @@ pub(crate) fn run(
 }
 
 /// Everything that a run needs, away from Python.
-struct Job {
-    programs: Programs,
+struct RunJob {
+    programs: GivenPrograms,
     machine: MachineOptions,
-    start: Start,
+    start: StartState,
     run: Options,
-    shown: Shown,
+    shown: ShownColumns,
 }
 
-impl Job {
+impl RunJob {
     /// What was recorded.
-    fn done(self, stop: &Stop) -> Result<(Recorded, Table, Said), Failure> {
+    fn done(self, stop: &Stop) -> Result<(RecordedSession, ArrowTable, GivenMessages), Failure> {
         let inputs = &self.programs.inputs;
         self.programs.probe()?;
         let loaded = machine_of(self.machine, &self.programs, self.start.axes())?;
@@ -79,7 +79,7 @@ impl Job {
         }
         let file = self.start.lock()?;
         let (mut session, changed) = match self.start {
-            Start::Left(saved) => {
+            StartState::Left(saved) => {
                 let resumed = Session::resume(loaded.machine.clone(), options, (*saved).clone());
                 resumed.map_err(Failure::of_state)?
             }

@@ -10,16 +10,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde_json::Value;
 
-use crate::arrow::{Column, Table};
-use crate::audit::{Job, said};
+use crate::arrow::{ArrowColumn, ArrowTable};
+use crate::audit::{AuditJob, said};
 use crate::failure::Failure;
 use crate::json::parsed;
 use crate::kinds::Kinds;
 use crate::limits::{self, PyLimits};
 use crate::machine::machine_options;
-use crate::messages::{PyMessages, Said};
+use crate::messages::{GivenMessages, PyMessages};
 use crate::pickled::{self, Reduced};
-use crate::program::Programs;
+use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
 
 /// What programs do in an order: one row for each program, axis and kind.
@@ -27,7 +27,7 @@ use crate::work::{Stop, interruptible};
 /// ``str(sequence)`` has the lines of ``frictcomp audit --sequence``, one for each program.
 #[pyclass(frozen, name = "AuditSequence", module = "frictcomp")]
 pub(crate) struct PyAuditSequence {
-    table: Table,
+    table: ArrowTable,
     records: String,
     text: String,
     messages: Py<PyMessages>,
@@ -47,8 +47,8 @@ pub(crate) fn audit_sequence(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyAuditSequence> {
     let py = programs.py();
-    let job = Job {
-        programs: Programs::in_order(programs)?,
+    let job = AuditJob {
+        programs: GivenPrograms::in_order(programs)?,
         machine: machine_options(machine)?,
         options: AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?),
     };
@@ -63,7 +63,7 @@ pub(crate) fn audit_sequence(
     })
 }
 
-fn followed(job: Job, stop: &Stop) -> Result<(Vec<Step>, Said), Failure> {
+fn followed(job: AuditJob, stop: &Stop) -> Result<(Vec<Step>, GivenMessages), Failure> {
     job.programs.probe()?;
     // A program may come several times.
     let (auditor, mut errors) = job.auditor(|programs, _| (programs.inputs, Vec::new()), stop);
@@ -76,29 +76,29 @@ fn followed(job: Job, stop: &Stop) -> Result<(Vec<Step>, Said), Failure> {
 }
 
 /// A program at its position, and an axis.
-struct Row<'a> {
+struct PositionRow<'a> {
     position: u32,
     step: &'a Step,
     axis: &'a StepAxis,
 }
 
-fn table(steps: &[Step]) -> Table {
+fn table(steps: &[Step]) -> ArrowTable {
     let rows = (1..).zip(steps).flat_map(|(position, step)| {
         let axes = step.axes.iter();
-        axes.map(move |axis| Row {
+        axes.map(move |axis| PositionRow {
             position,
             step,
             axis,
         })
     });
-    let rows: Vec<Row<'_>> = rows.collect();
-    let text = |of: fn(&Row<'_>) -> Option<String>| -> ArrayRef {
+    let rows: Vec<PositionRow<'_>> = rows.collect();
+    let text = |of: fn(&PositionRow<'_>) -> Option<String>| -> ArrayRef {
         Arc::new(rows.iter().map(of).collect::<StringArray>())
     };
-    let number = |of: fn(&Row<'_>) -> Option<u32>| -> ArrayRef {
+    let number = |of: fn(&PositionRow<'_>) -> Option<u32>| -> ArrayRef {
         Arc::new(rows.iter().map(of).collect::<UInt32Array>())
     };
-    let columns: Vec<Column> = vec![
+    let columns: Vec<ArrowColumn> = vec![
         ("position", number(|it| Some(it.position))),
         ("file", text(|it| Some(it.step.file.clone()))),
         ("axis", text(|it| Some(it.axis.axis.clone()))),
@@ -137,11 +137,11 @@ fn table(steps: &[Step]) -> Table {
         "left_by",
         "stopped",
     ];
-    Table::of(columns, &nullable)
+    ArrowTable::of(columns, &nullable)
 }
 
 /// What a sequence is made of anew: the table, the records, the lines, the messages, the warnings.
-type Pickled<'py> = (Bound<'py, PyBytes>, String, String, Py<PyMessages>, bool);
+type PickledSequence<'py> = (Bound<'py, PyBytes>, String, String, Py<PyMessages>, bool);
 
 #[pymethods]
 impl PyAuditSequence {
@@ -154,7 +154,7 @@ impl PyAuditSequence {
         has_warnings: bool,
     ) -> PyResult<Self> {
         Ok(Self {
-            table: Table::unpickled(table)?,
+            table: ArrowTable::unpickled(table)?,
             records,
             text,
             messages,
@@ -162,7 +162,7 @@ impl PyAuditSequence {
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<PickledSequence<'py>>> {
         let (this, py) = (slf.get(), slf.py());
         let arguments = (
             this.table.pickled(py)?,

@@ -11,7 +11,7 @@ use frictcomp_host::{
     CircleChannels, FileRegistry, Watch, compare, find_plant, memory_for_simulation, read_circles,
     read_value_list, tune as search,
 };
-use frictcomp_physics::circle::Aim;
+use frictcomp_physics::circle::TuningAim;
 use frictcomp_physics::circle::{
     Circle, CircularTest, CommandedCircle, FreeParameter, Method, PathCentre, PlaneAxis, Ranges,
     Shaping, Task,
@@ -273,7 +273,11 @@ pub(crate) fn tune(
             } else {
                 Shaping::None
             },
-            aim: if robust { Aim::Robust } else { Aim::Plant },
+            aim: if robust {
+                TuningAim::Robust
+            } else {
+                TuningAim::Plant
+            },
         };
         let watch = Watch::by(Arc::new(stop.clone()));
         Ok(PyTuned::of(TuneReport {

@@ -93,7 +93,7 @@ impl PyState {
 }
 
 /// What a run starts with.
-pub(crate) enum Start {
+pub(crate) enum StartState {
     /// The start of the control.
     Fresh,
     /// What another run left.
@@ -102,7 +102,7 @@ pub(crate) enum Start {
     File(PathBuf),
 }
 
-impl Start {
+impl StartState {
     /// Nothing, a `State`, or the path of a state file.
     pub(crate) fn of(given: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let Some(given) = given else {

@@ -21,7 +21,7 @@ struct Audited {
 }
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct AuditAnswer<'a> {
     programs: usize,
     hazards: u64,
     warnings: bool,
@@ -102,7 +102,7 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
 /// The findings and the table of programs and axes.
 pub(crate) fn answer(dropped: &mut Dropped, enable: &[String]) -> Vec<u8> {
     let Audited { report, failures } = audit(dropped, enable);
-    json(&Answer {
+    json(&AuditAnswer {
         programs: report.programs(),
         hazards: report.hazards(),
         warnings: report.has_warnings(),

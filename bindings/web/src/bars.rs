@@ -2,7 +2,7 @@
 
 use frictcomp::comp::State;
 
-use crate::rows::Rows;
+use crate::rows::ExecutedRows;
 
 /// Stretches are not told apart that are shorter than the bar divided by this.
 const COLUMNS: usize = 512;
@@ -11,13 +11,13 @@ const COLUMNS: usize = 512;
 const CHANGING: &str = "changing";
 
 /// A stretch of blocks, from 1, both included, and its state.
-pub(crate) type Stretch = (usize, usize, &'static str);
+pub(crate) type BarSpan = (usize, usize, &'static str);
 
 /// The bar of an axis.
-pub(crate) fn bar(rows: &Rows, axis: usize) -> Vec<Stretch> {
+pub(crate) fn bar(rows: &ExecutedRows, axis: usize) -> Vec<BarSpan> {
     let total = rows.kept.len();
     let columns = total.min(COLUMNS);
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut stretches: Vec<BarSpan> = Vec::new();
     for column in 0..columns {
         let (from, to) = (column * total / columns, (column + 1) * total / columns);
         let state = of_rows(rows, axis, from..to);
@@ -29,7 +29,7 @@ pub(crate) fn bar(rows: &Rows, axis: usize) -> Vec<Stretch> {
     stretches
 }
 
-fn of_rows(rows: &Rows, axis: usize, mut range: std::ops::Range<usize>) -> &'static str {
+fn of_rows(rows: &ExecutedRows, axis: usize, mut range: std::ops::Range<usize>) -> &'static str {
     let state = |row| rows.states(Some(row)).get(axis).copied();
     let first = range.next().and_then(state);
     let first = first.unwrap_or(State::Unconfigured);

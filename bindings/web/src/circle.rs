@@ -31,7 +31,7 @@ pub(crate) struct CircleSettings {
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct CircleAnswer {
     svg: String,
     /// The figures, as on the command line.
     text: String,
@@ -105,7 +105,7 @@ fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
 /// The picture and the figures.
 pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
     let (report, lists) = simulate(dropped, settings)?;
-    Ok(json(&Answer {
+    Ok(json(&CircleAnswer {
         svg: circle(&report).render(Frame::Alone),
         text: fitted(&render_text(&report), FALLBACK_WIDTH),
         lists,

@@ -39,7 +39,7 @@ pub(crate) struct ContourSettings {
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct ContourAnswer {
     /// The picture; none where nothing was driven.
     svg: Option<String>,
     /// The figures, as on the command line.
@@ -117,7 +117,7 @@ pub(crate) fn answer(
     let picture = contour.sink().take_picture().filter(|_| has_moved);
     let chart = picture.map(|picture| picture.chart(&subject.heading(&contour)));
     let text = fitted(&render_text(&mut contour, &subject), FALLBACK_WIDTH);
-    Ok(json(&Answer {
+    Ok(json(&ContourAnswer {
         svg: chart.map(|chart| chart.render(Frame::Alone)),
         text,
         notes: notes(&contour, has_moved),

@@ -29,7 +29,7 @@ const STEP: u64 = 1 << 16;
 const MOST_CYCLES: u64 = 20_000_000;
 
 #[derive(Serialize)]
-struct Answer {
+struct CurrentAnswer {
     svg: Option<String>,
     /// What the picture rests on and what is missing in it.
     notes: Vec<String>,
@@ -137,7 +137,7 @@ pub(crate) fn answer(
     let notes = notes(&loaded.machine, &names, &mut currents);
     let has_cycles = currents.cycles() > 0;
     let svg = has_cycles.then(|| currents.sink().plot.chart().render(Frame::Alone));
-    Ok(json(&Answer { svg, notes }))
+    Ok(json(&CurrentAnswer { svg, notes }))
 }
 
 /// What the picture rests on and what is missing in it.

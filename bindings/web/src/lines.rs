@@ -9,12 +9,12 @@ const MOST_SHOWN: usize = 400;
 
 /// A text and where its lines begin.
 #[derive(Debug)]
-pub(crate) struct Lines {
+pub(crate) struct IndexedText {
     text: Arc<String>,
     starts: Vec<usize>,
 }
 
-impl Lines {
+impl IndexedText {
     pub(crate) fn new(text: &Arc<String>) -> Self {
         let mut lines = TextLines::new(text);
         let mut starts = Vec::new();
@@ -51,12 +51,12 @@ mod tests {
 
     #[test]
     fn lines_are_found_by_their_numbers() {
-        let lines = Lines::new(&Arc::new("a\r\nb \\\n  c\n\u{e4}".to_owned()));
+        let lines = IndexedText::new(&Arc::new("a\r\nb \\\n  c\n\u{e4}".to_owned()));
         assert_eq!(lines.shown(1, 1), "a");
         assert_eq!(lines.shown(2, 2), "b \\   c");
         assert_eq!(lines.shown(4, 1), "\u{e4}");
         assert_eq!(lines.shown(5, 1), "");
-        let long = Lines::new(&Arc::new("x".repeat(1000)));
+        let long = IndexedText::new(&Arc::new("x".repeat(1000)));
         assert_eq!(long.shown(1, 1).chars().count(), MOST_SHOWN + 1);
     }
 }

@@ -12,21 +12,21 @@ use crate::refusal::Refusal;
 use crate::run::json;
 
 #[derive(Serialize)]
-struct Answer {
-    tables: Vec<Table>,
+struct ParametersAnswer {
+    tables: Vec<ParameterTable>,
     /// The curves of the value lists that the control takes; none where there is none.
     svg: Option<String>,
 }
 
 /// The parameters of an axis, or of the channel.
 #[derive(Serialize)]
-struct Table {
+struct ParameterTable {
     name: String,
     /// Number, key, value with its unit, and origin.
     rows: Vec<[String; 4]>,
 }
 
-impl Table {
+impl ParameterTable {
     fn new(name: String, parameters: &[Parameter]) -> Self {
         Self {
             name,
@@ -44,13 +44,14 @@ pub(crate) fn answer(
     let input = dropped.program(program)?;
     let loaded = dropped.machine(&input, enable)?;
     let axes = loaded.reports.iter();
-    let axes = axes.map(|report| Table::new(format!("Axis {}", report.axis), &report.parameters));
-    let programs = Table::new("Programs and macros".to_owned(), &loaded.programs);
+    let axes =
+        axes.map(|report| ParameterTable::new(format!("Axis {}", report.axis), &report.parameters));
+    let programs = ParameterTable::new("Programs and macros".to_owned(), &loaded.programs);
     let tables = axes.chain([programs]);
     let accepted = AcceptedList::of(&loaded.machine);
     let accepted: Vec<&AcceptedList> = accepted.iter().collect();
     let svg = (!accepted.is_empty()).then(|| value_curves(&accepted).render(Frame::Alone));
-    Ok(json(&Answer {
+    Ok(json(&ParametersAnswer {
         tables: tables.filter(|table| !table.rows.is_empty()).collect(),
         svg,
     }))

@@ -4,13 +4,13 @@ use serde::Deserialize;
 
 use crate::circle::CircleSettings;
 use crate::contour::ContourSettings;
-use crate::run::{RunSettings, View};
+use crate::run::{RunSettings, ShownBlocks};
 use crate::tuning::TuneSettings;
 
 /// A question of the page.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "camelCase")]
-pub(crate) enum Question {
+pub(crate) enum PageQuestion {
     /// Forget every file.
     Clear,
     /// The files and what they are, in JSON.
@@ -25,12 +25,12 @@ pub(crate) enum Question {
     },
     /// Items of the timeline that is shown, in JSON.
     Items {
-        view: View,
+        view: ShownBlocks,
         from: usize,
         count: usize,
     },
     /// Where a block stands in a view.
-    Place { view: View, block: u64 },
+    Place { view: ShownBlocks, block: u64 },
     /// The next block with a change or a message, or the one before.
     Notable { block: u64, forward: bool },
     /// The block that first executes a line of the program.

@@ -24,13 +24,13 @@ pub(crate) struct KeptRow {
 
 /// Friction compensation of all axes at a moment.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(crate) struct Moment {
+pub(crate) struct FrictionStates {
     pub(crate) states: Vec<State>,
     /// What is possible where a state is unknown because ways differ (R14.2).
     possible: Vec<PossibleStates>,
 }
 
-impl Moment {
+impl FrictionStates {
     fn of(view: StateView<'_>) -> Self {
         let axes = (0..view.machine.axes.len()).map(AxisIndex::new);
         let possible = view.possible.iter();
@@ -52,7 +52,7 @@ impl Moment {
 
 /// The executed blocks, and the states after them.
 #[derive(Debug, Default)]
-pub(crate) struct Rows {
+pub(crate) struct ExecutedRows {
     pub(crate) kept: Vec<KeptRow>,
     /// The rows after which the states are others than after the row above.
     pub(crate) changed: Vec<u32>,
@@ -61,8 +61,8 @@ pub(crate) struct Rows {
     /// The names of the files.
     pub(crate) files: Vec<String>,
     /// Every combination of states that occurs, the one at the start first.
-    moments: Vec<Arc<Moment>>,
-    known: HashMap<Arc<Moment>, u32>,
+    moments: Vec<Arc<FrictionStates>>,
+    known: HashMap<Arc<FrictionStates>, u32>,
     /// The states of the last row, and what they were made of.
     current: u32,
     version: Option<u64>,
@@ -70,7 +70,7 @@ pub(crate) struct Rows {
     pub(crate) blocks: u64,
 }
 
-impl Rows {
+impl ExecutedRows {
     /// Takes a block.
     pub(crate) fn push(&mut self, row: &Row<'_>) {
         self.blocks += 1;
@@ -103,11 +103,11 @@ impl Rows {
     }
 
     /// The moment after a row; that before the first row without a number.
-    pub(crate) fn moment(&self, row: Option<usize>) -> Option<&Moment> {
+    pub(crate) fn moment(&self, row: Option<usize>) -> Option<&FrictionStates> {
         self.numbered(row.map_or(0, |row| self.kept[row].states))
     }
 
-    fn numbered(&self, moment: u32) -> Option<&Moment> {
+    fn numbered(&self, moment: u32) -> Option<&FrictionStates> {
         let moment = usize::try_from(moment).unwrap_or(usize::MAX);
         self.moments.get(moment).map(AsRef::as_ref)
     }
@@ -137,7 +137,7 @@ impl Rows {
     }
 
     /// The states of the moment: after the end, those that the program leaves.
-    pub(crate) fn current(&self) -> Option<&Moment> {
+    pub(crate) fn current(&self) -> Option<&FrictionStates> {
         self.numbered(self.current)
     }
 
@@ -147,7 +147,7 @@ impl Rows {
             return;
         }
         self.version = Some(state.version);
-        let moment = Moment::of(state);
+        let moment = FrictionStates::of(state);
         if let Some(&known) = self.known.get(&moment) {
             self.current = known;
             return;

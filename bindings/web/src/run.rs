@@ -14,11 +14,11 @@ use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_
 use frictcomp_report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use serde::{Deserialize, Serialize};
 
-use crate::bars::{Stretch, bar};
+use crate::bars::{BarSpan, bar};
 use crate::dropped::Dropped;
-use crate::lines::Lines;
+use crate::lines::IndexedText;
 use crate::refusal::Refusal;
-use crate::rows::{MOST_ROWS, Moment};
+use crate::rows::{FrictionStates, MOST_ROWS};
 use crate::timeline::Timeline;
 use crate::wording::page;
 
@@ -37,7 +37,7 @@ pub(crate) struct RunSettings {
 /// Which blocks are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum View {
+pub(crate) enum ShownBlocks {
     All,
     /// Those with a change or a message.
     Notable,
@@ -45,14 +45,14 @@ pub(crate) enum View {
 
 /// A run that the page shows.
 #[derive(Debug)]
-pub(crate) struct Shown {
+pub(crate) struct ShownRun {
     timeline: Timeline,
     /// The rows with a change or a message.
     notable: Vec<u32>,
     program: String,
     disk: Disk,
     /// The lines of the files that were looked at.
-    lines: HashMap<u16, Option<Lines>>,
+    lines: HashMap<u16, Option<IndexedText>>,
 }
 
 /// What the page shows above the timeline.
@@ -96,7 +96,7 @@ struct AxisOverview<'a> {
     possible: Option<String>,
     /// The feed moves without compensation, to stand after the name.
     uncompensated: Option<String>,
-    bar: Vec<Stretch>,
+    bar: Vec<BarSpan>,
 }
 
 type StateWord = &'static str;
@@ -128,7 +128,7 @@ struct MachineOverview<'a> {
 
 /// The states at a line of the timeline.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct States {
+pub(crate) struct LineStates {
     states: Vec<StateWord>,
     /// What is possible for axes, by their positions, where their states are unknown because ways differ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -138,10 +138,10 @@ pub(crate) struct States {
 /// One line of the timeline.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
-pub(crate) enum Item<'a> {
+pub(crate) enum TimelineItem<'a> {
     Start {
         #[serde(flatten)]
-        states: States,
+        states: LineStates,
     },
     Block {
         block: usize,
@@ -151,7 +151,7 @@ pub(crate) enum Item<'a> {
         level: u8,
         text: String,
         #[serde(flatten)]
-        states: States,
+        states: LineStates,
         changes: Vec<usize>,
     },
     Message {
@@ -160,7 +160,7 @@ pub(crate) enum Item<'a> {
     },
     End {
         #[serde(flatten)]
-        states: States,
+        states: LineStates,
     },
 }
 
@@ -189,7 +189,7 @@ pub(crate) fn run(
     dropped: &mut Dropped,
     program: &str,
     settings: &RunSettings,
-) -> Result<(Shown, Vec<u8>), Refusal> {
+) -> Result<(ShownRun, Vec<u8>), Refusal> {
     let input = dropped.program(program)?;
     let loaded = dropped.machine(&input, &settings.enable)?;
     let mut timeline = Timeline::default();
@@ -207,7 +207,7 @@ pub(crate) fn run(
     notable.extend(said);
     notable.sort_unstable();
     notable.dedup();
-    let shown = Shown {
+    let shown = ShownRun {
         timeline,
         notable,
         program: program.to_owned(),
@@ -235,7 +235,7 @@ pub(crate) fn records(
 ) -> Result<Vec<u8>, Refusal> {
     let input = dropped.program(program)?;
     let loaded = dropped.machine(&input, &settings.enable)?;
-    let written = crate::written::Written::default();
+    let written = crate::written::WrittenBytes::default();
     let mut report = TimelineFormat::Ndjson.report(written.clone(), TimelineOptions::default());
     let alone = alone(&loaded, settings, command_line);
     run_alone(&input, &loaded, alone, &mut *report)?;
@@ -283,9 +283,9 @@ impl Sources for Texts {
     }
 }
 
-impl States {
+impl LineStates {
     /// Those of a moment, as seen from a file.
-    fn seen(moment: Option<&Moment>, file: &str) -> Self {
+    fn seen(moment: Option<&FrictionStates>, file: &str) -> Self {
         moment.map_or_else(Self::default, |moment| Self {
             states: moment.states.iter().map(|state| state.as_str()).collect(),
             possible: moment.possible(file),
@@ -293,7 +293,7 @@ impl States {
     }
 }
 
-impl Shown {
+impl ShownRun {
     fn overview<'a>(&'a self, loaded: &'a LoadedMachine) -> Overview<'a> {
         let timeline = &self.timeline;
         let count = |severity| timeline.counts.get(&severity).copied().unwrap_or_default();
@@ -327,14 +327,14 @@ impl Shown {
                 missing: loaded.lists.1,
                 said: &loaded.diagnostics,
             },
-            items: self.total(View::All),
-            notable_items: self.total(View::Notable),
+            items: self.total(ShownBlocks::All),
+            notable_items: self.total(ShownBlocks::Notable),
         }
     }
 
     fn axes(&self) -> Vec<AxisOverview<'_>> {
         let timeline = &self.timeline;
-        let mut possible = States::seen(timeline.rows.current(), &self.program).possible;
+        let mut possible = LineStates::seen(timeline.rows.current(), &self.program).possible;
         let axes = timeline.axes.iter().enumerate();
         axes.map(|(at, axis)| {
             let mut summaries = timeline.summaries.iter();
@@ -371,35 +371,35 @@ impl Shown {
     }
 
     /// The items of a view: the start, blocks and messages, the end.
-    fn total(&self, view: View) -> usize {
+    fn total(&self, view: ShownBlocks) -> usize {
         2 + self.shown_rows(view) + self.timeline.said.len()
     }
 
-    fn shown_rows(&self, view: View) -> usize {
+    fn shown_rows(&self, view: ShownBlocks) -> usize {
         match view {
-            View::All => self.timeline.rows.kept.len(),
-            View::Notable => self.notable.len(),
+            ShownBlocks::All => self.timeline.rows.kept.len(),
+            ShownBlocks::Notable => self.notable.len(),
         }
     }
 
     /// How many of the first so many blocks are shown.
-    fn rank(&self, view: View, blocks: u64) -> usize {
+    fn rank(&self, view: ShownBlocks, blocks: u64) -> usize {
         let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
         match view {
-            View::All => blocks.min(self.timeline.rows.kept.len()),
-            View::Notable => self
+            ShownBlocks::All => blocks.min(self.timeline.rows.kept.len()),
+            ShownBlocks::Notable => self
                 .notable
                 .partition_point(|row| usize::try_from(*row).is_ok_and(|row| row < blocks)),
         }
     }
 
     /// Where the message stands.
-    fn place_of_message(&self, view: View, at: usize) -> usize {
+    fn place_of_message(&self, view: ShownBlocks, at: usize) -> usize {
         1 + self.rank(view, self.timeline.said[at].after) + at
     }
 
     /// Where a block stands, the start for 0; where it is not shown, the one before it.
-    pub(crate) fn place(&self, view: View, block: u64) -> usize {
+    pub(crate) fn place(&self, view: ShownBlocks, block: u64) -> usize {
         let before = &self.timeline.said;
         let messages = before.partition_point(|said| said.after < block);
         self.rank(view, block) + if block == 0 { 0 } else { messages }
@@ -428,22 +428,22 @@ impl Shown {
     }
 
     /// So many items of a view from one on.
-    pub(crate) fn items(&mut self, view: View, from: usize, count: usize) -> Vec<u8> {
+    pub(crate) fn items(&mut self, view: ShownBlocks, from: usize, count: usize) -> Vec<u8> {
         let end = self.total(view).min(from.saturating_add(count));
         let wanted: Vec<Option<usize>> = (from..end).map(|at| self.row_at(view, at)).collect();
         for row in wanted.into_iter().flatten() {
             let file = self.timeline.rows.kept[row].file;
             let name = &self.timeline.rows.files[usize::from(file)];
             let text = self.disk.text(Path::new(name));
-            let lines = || text.map(Lines::new);
+            let lines = || text.map(IndexedText::new);
             self.lines.entry(file).or_insert_with(lines);
         }
-        let items: Vec<Item<'_>> = (from..end).map(|at| self.item(view, at)).collect();
+        let items: Vec<TimelineItem<'_>> = (from..end).map(|at| self.item(view, at)).collect();
         json(&items)
     }
 
     /// The row of an item; `None` for the others.
-    fn row_at(&self, view: View, at: usize) -> Option<usize> {
+    fn row_at(&self, view: ShownBlocks, at: usize) -> Option<usize> {
         let messages = self.messages_before(view, at);
         let is_message =
             messages < self.timeline.said.len() && self.place_of_message(view, messages) == at;
@@ -452,12 +452,12 @@ impl Shown {
             return None;
         }
         Some(match view {
-            View::All => rank,
-            View::Notable => usize::try_from(self.notable[rank]).ok()?,
+            ShownBlocks::All => rank,
+            ShownBlocks::Notable => usize::try_from(self.notable[rank]).ok()?,
         })
     }
 
-    fn messages_before(&self, view: View, at: usize) -> usize {
+    fn messages_before(&self, view: ShownBlocks, at: usize) -> usize {
         let (mut low, mut high) = (0, self.timeline.said.len());
         while low < high {
             let middle = low.midpoint(high);
@@ -470,33 +470,33 @@ impl Shown {
         low
     }
 
-    fn item(&self, view: View, at: usize) -> Item<'_> {
+    fn item(&self, view: ShownBlocks, at: usize) -> TimelineItem<'_> {
         let rows = &self.timeline.rows;
-        let seen = |moment| States::seen(moment, &self.program);
+        let seen = |moment| LineStates::seen(moment, &self.program);
         let Some(row) = self.row_at(view, at) else {
             if at == 0 {
-                return Item::Start {
+                return TimelineItem::Start {
                     states: seen(rows.moment(None)),
                 };
             }
             let message = self.messages_before(view, at);
             if message < self.timeline.said.len() {
-                return Item::Message { at: message };
+                return TimelineItem::Message { at: message };
             }
-            return Item::End {
+            return TimelineItem::End {
                 states: seen(rows.current()),
             };
         };
         let kept = rows.kept[row];
         let file = rows.files[usize::from(kept.file)].as_str();
         let lines = self.lines.get(&kept.file).and_then(Option::as_ref);
-        Item::Block {
+        TimelineItem::Block {
             block: row + 1,
             file: (file != self.program).then_some(file),
             line: kept.line,
             level: kept.level,
             text: lines.map_or_else(String::new, |it| it.shown(kept.line, kept.lines)),
-            states: States::seen(rows.moment(Some(row)), file),
+            states: LineStates::seen(rows.moment(Some(row)), file),
             changes: rows.changes(row),
         }
     }
@@ -531,7 +531,7 @@ N50 M30
         let overview = read(&overview);
         assert_eq!(overview["axes"][0]["end"], "unknown");
         assert_eq!(overview["axes"][0]["possible"], words);
-        let items = read(&shown.items(View::All, 0, 100));
+        let items = read(&shown.items(ShownBlocks::All, 0, 100));
         let items = items.as_array().expect("a list");
         let at = |line: u32| items.iter().find(|it| it["line"] == line).expect("a block");
         assert_eq!(at(1).get("possible"), None);
@@ -544,7 +544,7 @@ N50 M30
         }
         let end = items.last().expect("the end");
         assert_eq!(end["possible"], serde_json::json!([[0, words]]));
-        let notable = read(&shown.items(View::Notable, 0, 100));
+        let notable = read(&shown.items(ShownBlocks::Notable, 0, 100));
         let notable = notable.as_array().expect("a list");
         assert!(notable.iter().any(|it| it["line"] == 3), "{notable:?}");
     }

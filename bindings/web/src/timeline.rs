@@ -9,7 +9,7 @@ use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
 use frictcomp::timeline::{AxisSummary, EndedBy, Footing, Record, Sink};
 
-use crate::rows::Rows;
+use crate::rows::ExecutedRows;
 use crate::watched::show_progress;
 
 /// More messages are counted, not kept.
@@ -20,7 +20,7 @@ const STEP: u64 = 1 << 15;
 
 /// A message, and the number of the block after which it stands; 0 before the first.
 #[derive(Debug)]
-pub(crate) struct Said {
+pub(crate) struct PlacedMessage {
     pub(crate) after: u64,
     pub(crate) diagnostic: Diagnostic,
 }
@@ -41,9 +41,9 @@ pub(crate) struct Timeline {
     pub(crate) axes_as_they_occur: bool,
     pub(crate) remark: Option<String>,
     pub(crate) name: Option<String>,
-    pub(crate) rows: Rows,
+    pub(crate) rows: ExecutedRows,
     /// By the blocks after which they stand.
-    pub(crate) said: Vec<Said>,
+    pub(crate) said: Vec<PlacedMessage>,
     pub(crate) left_out: u64,
     pub(crate) ended_by: Option<EndedBy>,
     pub(crate) counts: BTreeMap<Severity, u64>,
@@ -58,7 +58,7 @@ impl Timeline {
             self.left_out += 1;
             return;
         }
-        self.said.push(Said {
+        self.said.push(PlacedMessage {
             after,
             diagnostic: diagnostic.clone(),
         });

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frictcomp::lists::{ListHead, Points};
 use frictcomp_host::{Watch, tune};
-use frictcomp_physics::circle::{Aim, Circle, Ranges, Shaping, Task};
+use frictcomp_physics::circle::{Circle, Ranges, Shaping, Task, TuningAim};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_report::assumptions::not_modelled;
@@ -34,7 +34,7 @@ pub(crate) struct TuneSettings {
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct TuningAnswer {
     svg: String,
     /// The figures, as on the command line.
     text: String,
@@ -48,7 +48,7 @@ pub(crate) fn answer(settings: &TuneSettings) -> Result<Vec<u8>, Refusal> {
     let reports = std::slice::from_ref(&report);
     // Both drives of an example are equal, and so are their lists.
     let [axis, _] = &report.tuned.axes;
-    Ok(json(&Answer {
+    Ok(json(&TuningAnswer {
         svg: tuning(reports).render(Frame::Alone),
         text: fitted(&render_text(reports), FALLBACK_WIDTH),
         list: render_tuned(&report, axis, None, &ListHead::default()),
@@ -75,7 +75,7 @@ fn tuned(settings: &TuneSettings) -> Result<TuneReport, Refusal> {
         reading: Reading::default(),
         points: Points::of_build(None),
         shaping: Shaping::Allowed,
-        aim: Aim::Plant,
+        aim: TuningAim::Plant,
     };
     let watch = Watch::by(Arc::new(Page));
     let tuned = tune(&task, &watch)

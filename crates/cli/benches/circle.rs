@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use frictcomp_physics::circle::{Circle, CircularTest, Job, Method};
+use frictcomp_physics::circle::{Circle, CircularTest, LapRun, Method};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 use measure::Bench;
@@ -57,7 +57,7 @@ fn main() {
         base.as_secs_f64() * 1e3
     );
     let circle = bench.fastest(|| {
-        black_box(test.run(Job::ALL[2])).expect("a circle");
+        black_box(test.run(LapRun::ALL[2])).expect("a circle");
     });
     row(
         "circle, 2 m/min, R 100 mm, 1.5 turns",

@@ -14,7 +14,7 @@ use super::exit;
 use super::failure::{Failure, shown};
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
-use super::result::Format;
+use super::result::ResultFormat;
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::Severity;
 use frictcomp::machine::Machine;
@@ -59,7 +59,7 @@ pub(super) struct AskArgs {
     read: Vec<PathBuf>,
     /// The format of the list
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
     /// The channel of the additive current in a recording; by default `frict_comp.output` of the axis
     #[arg(long, value_name = "CHANNEL", requires = "read")]
     torque: Option<String>,
@@ -153,8 +153,8 @@ impl AskArgs {
     fn list(&self, machine: &Machine, console: Console) -> Result<u8, Failure> {
         let build = self.build.or(machine.build);
         let text = match self.format {
-            Format::Text => console.fitted(&listed(machine, build)),
-            Format::Json => {
+            ResultFormat::Text => console.fitted(&listed(machine, build)),
+            ResultFormat::Json => {
                 let questions: Vec<Value> = Question::ALL
                     .into_iter()
                     .map(|question| record(question, machine))

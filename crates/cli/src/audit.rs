@@ -54,7 +54,7 @@ pub(super) struct AuditArgs {
     /// Show the blocks that end the hazards as a diff: in the programs that leave an axis away from
     /// its start-up state, in those that inherit it, or in the smaller number of programs for each axis
     #[arg(long, value_name = "PROGRAMS", conflicts_with = "sequence")]
-    fix: Option<Fix>,
+    fix: Option<FixScope>,
     /// Write the changes of `--fix` to the programs
     #[arg(long, requires = "fix")]
     write: bool,
@@ -69,7 +69,7 @@ pub(super) struct AuditArgs {
     jobs: Option<NonZeroUsize>,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: AuditFormat,
     /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -95,7 +95,7 @@ const MOST_NAMES: usize = 20;
 
 /// Programs to change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Fix {
+enum FixScope {
     /// Those that leave an axis away from its start-up state: a command before the end
     Leavers,
     /// Those that inherit it: a command before the first motion
@@ -106,7 +106,7 @@ enum Fix {
 
 /// The format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum AuditFormat {
     /// A table and sentences
     Text,
     /// One document
@@ -127,7 +127,7 @@ pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
 
 impl AuditArgs {
     fn audit(&self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
-        if self.fix.is_some() && !self.write && self.format != Format::Text {
+        if self.fix.is_some() && !self.write && self.format != AuditFormat::Text {
             return Err(Failure::new(
                 "`--fix` without `--write` shows a diff, which has no other format",
             )
@@ -171,11 +171,11 @@ impl AuditArgs {
         let report = report(&auditor, archives);
         let width = target.look.width;
         let printed = target.text(&match self.format {
-            Format::Text if self.all => fitted(&render_text(&report, Length::Whole), width),
-            Format::Text => fitted(&render_text(&report, Length::Folded), width),
-            Format::Csv => render_csv(&report),
-            Format::Json => document(&records(&report)),
-            Format::Ndjson => lines(&records(&report)),
+            AuditFormat::Text if self.all => fitted(&render_text(&report, Length::Whole), width),
+            AuditFormat::Text => fitted(&render_text(&report, Length::Folded), width),
+            AuditFormat::Csv => render_csv(&report),
+            AuditFormat::Json => document(&records(&report)),
+            AuditFormat::Ndjson => lines(&records(&report)),
         })?;
         if let Some(html) = &mut html {
             render_audit(&report, &mut Files, html).map_err(Failure::output)?;
@@ -236,7 +236,7 @@ impl AuditArgs {
         console: Console,
         failures: &mut Failures,
     ) -> Result<u8, Failure> {
-        if self.format == Format::Csv {
+        if self.format == AuditFormat::Csv {
             return Err(Failure::new("`--sequence` has no `--format csv`")
                 .with_help("write `--format text`, `json` or `ndjson`"));
         }
@@ -252,9 +252,9 @@ impl AuditArgs {
         let steps = failures.keep(auditor.follow());
         let width = target.look.width;
         target.text(&match self.format {
-            Format::Json => document(&sequence_records(&steps)),
-            Format::Ndjson => lines(&sequence_records(&steps)),
-            Format::Text | Format::Csv => fitted(&sequence_text(&steps), width),
+            AuditFormat::Json => document(&sequence_records(&steps)),
+            AuditFormat::Ndjson => lines(&sequence_records(&steps)),
+            AuditFormat::Text | AuditFormat::Csv => fitted(&sequence_text(&steps), width),
         })?;
         outputs.finish()?;
         self.machine.say_unread(&registry, console);
@@ -270,7 +270,7 @@ impl AuditArgs {
     }
 }
 
-impl Fix {
+impl FixScope {
     fn end(self) -> MendedEnd {
         match self {
             Self::Leavers => MendedEnd::Leavers,

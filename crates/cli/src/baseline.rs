@@ -30,7 +30,7 @@ pub(super) struct BaselineArgs {
 
 /// Key by which two findings are the same, wherever their block is in its file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-struct Finding {
+struct BaselineKey {
     file: String,
     code: String,
     severity: String,
@@ -45,7 +45,7 @@ struct Finding {
 #[derive(Debug, Serialize, Deserialize)]
 struct Counted {
     #[serde(flatten)]
-    finding: Finding,
+    finding: BaselineKey,
     count: u64,
 }
 
@@ -62,7 +62,7 @@ struct BaselineFile {
 #[derive(Default)]
 pub(super) struct Baseline {
     /// The findings that are known and were not met yet, or those that are written.
-    findings: BTreeMap<Finding, u64>,
+    findings: BTreeMap<BaselineKey, u64>,
     unlisted: BTreeMap<String, u64>,
     purpose: Purpose,
     /// Number of known findings, and of errors among them.
@@ -153,8 +153,8 @@ impl Baseline {
     pub(super) fn lists(&mut self, said: &Diagnostic) -> bool {
         match self.purpose {
             Purpose::None => return true,
-            Purpose::Write(_) => *self.findings.entry(Finding::of(said)).or_default() += 1,
-            Purpose::Compare => match self.findings.get_mut(&Finding::of(said)) {
+            Purpose::Write(_) => *self.findings.entry(BaselineKey::of(said)).or_default() += 1,
+            Purpose::Compare => match self.findings.get_mut(&BaselineKey::of(said)) {
                 Some(left) if *left > 0 => *left -= 1,
                 _ => return true,
             },
@@ -239,7 +239,7 @@ impl Baseline {
 }
 
 /// The text of the file, a line a finding, so that two branches can be merged.
-fn text(findings: &BTreeMap<Finding, u64>, unlisted: &BTreeMap<String, u64>) -> String {
+fn text(findings: &BTreeMap<BaselineKey, u64>, unlisted: &BTreeMap<String, u64>) -> String {
     let lines = findings.iter().map(|(finding, count)| {
         let counted = Counted {
             finding: finding.clone(),
@@ -255,7 +255,7 @@ fn text(findings: &BTreeMap<Finding, u64>, unlisted: &BTreeMap<String, u64>) -> 
     )
 }
 
-impl Finding {
+impl BaselineKey {
     fn of(said: &Diagnostic) -> Self {
         Self {
             file: said.place.file.replace('\\', "/"),
@@ -300,12 +300,12 @@ mod tests {
     fn a_finding_is_the_same_on_another_line() {
         // R17.3
         let above = "(new)\nN1 X\n";
-        let before = Finding::of(&said("N1 X\n", 0, "left if V.E.A (line 12), else off"));
-        let after = Finding::of(&said(above, 6, "left if V.E.A (line 13), else off"));
+        let before = BaselineKey::of(&said("N1 X\n", 0, "left if V.E.A (line 12), else off"));
+        let after = BaselineKey::of(&said(above, 6, "left if V.E.A (line 13), else off"));
         assert_eq!(before, after);
-        let other = Finding::of(&said("N1 X\n", 0, "left if V.E.B (line 12), else off"));
+        let other = BaselineKey::of(&said("N1 X\n", 0, "left if V.E.B (line 12), else off"));
         assert_ne!(before, other);
-        let other = Finding::of(&said("N1 Y\n", 0, "left if V.E.A (line 12), else off"));
+        let other = BaselineKey::of(&said("N1 Y\n", 0, "left if V.E.A (line 12), else off"));
         assert_ne!(before, other);
     }
 
@@ -314,7 +314,7 @@ mod tests {
         // R17.3
         let finding = said("N1 X\n", 0, "left");
         let mut baseline = Baseline {
-            findings: BTreeMap::from([(Finding::of(&finding), 2)]),
+            findings: BTreeMap::from([(BaselineKey::of(&finding), 2)]),
             unlisted: BTreeMap::from([("error".to_owned(), 5)]),
             purpose: Purpose::Compare,
             ..Baseline::default()

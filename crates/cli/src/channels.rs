@@ -38,7 +38,7 @@ impl MotionChannels {
 
 /// Which channels are the motion and the torque of one axis.
 #[derive(Debug, Clone, Default, Args)]
-pub(super) struct AxisChannels {
+pub(super) struct AxisChannelArgs {
     /// The axis, by its name, or by its number in CNC objects
     #[arg(long, value_name = "AXIS")]
     pub(super) axis: Option<String>,
@@ -49,7 +49,7 @@ pub(super) struct AxisChannels {
     motion: MotionChannels,
 }
 
-impl AxisChannels {
+impl AxisChannelArgs {
     /// Returns the user's selection of channels.
     pub(super) fn selection(&self) -> ChannelSelection {
         ChannelSelection {
@@ -76,12 +76,12 @@ pub(super) struct TorqueArgs {
     kind: TorqueKindArgs,
     /// Whether friction compensation was on while recording; by default what a channel `comp` tells
     #[arg(long, value_name = "STATE")]
-    compensation: Option<Compensation>,
+    compensation: Option<SwitchState>,
 }
 
 /// On or off.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum Compensation {
+enum SwitchState {
     On,
     Off,
 }
@@ -90,8 +90,8 @@ impl TorqueArgs {
     /// Returns the known properties of the torque, with those given by the user.
     pub(super) fn measured(&self, recorded: Measured) -> Measured {
         let said = self.compensation.map(|state| match state {
-            Compensation::On => Switched::On,
-            Compensation::Off => Switched::Off,
+            SwitchState::On => Switched::On,
+            SwitchState::Off => Switched::Off,
         });
         recorded.stated(self.kind.torque_kind, said)
     }

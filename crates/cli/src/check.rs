@@ -10,7 +10,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::baseline::{Baseline, BaselineArgs};
-use super::console::{Console, Printed, Target};
+use super::console::{Console, DataTarget, Printed};
 use super::diff_git::unseen_remark;
 use super::execution::ExecutionArgs;
 use super::fail_on::of_axis;
@@ -18,8 +18,8 @@ use super::failure::Failure;
 use super::failures::Failures;
 use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
-use super::mend::{Bench, FixArgs};
-use super::notes::{self, Note};
+use super::mend::{FixArgs, MendRun};
+use super::notes::{self, NotedName};
 use super::outputs::Outputs;
 use super::watch::FileWatch;
 use frictcomp::diagnostic::Severity;
@@ -144,7 +144,7 @@ fn check(
     machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&registry, console);
     let mut target = outputs.result(args.listing.output.as_deref())?;
-    let mut bench = Bench {
+    let mut bench = MendRun {
         inputs: &inputs,
         machines: &mut machines,
         execution: &args.execution,
@@ -162,7 +162,7 @@ fn check(
     }
     // Every list is known before anything runs.
     let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
-    let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+    let jobs: Vec<ProgramOnMachine> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
     outputs.check()?;
     if let Some(kind) = args.notes() {
         let format = of_records(args.listing.format, "this list")?;
@@ -213,7 +213,12 @@ fn check(
 }
 
 /// Says above everything else that no machine is described (R1.37).
-fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, console: Console) {
+fn say_undescribed(
+    args: &CheckArgs,
+    jobs: &[ProgramOnMachine<'_>],
+    target: &mut DataTarget,
+    console: Console,
+) {
     let undescribed = jobs.iter().filter_map(|(input, loaded)| {
         let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
         (!described).then_some(*input)
@@ -231,7 +236,7 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, cons
 }
 
 /// A program and the machine that it runs on.
-type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
+type ProgramOnMachine<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
 /// Returns the number of programs checked since a revision, in words.
 fn changed_remark(changed: usize, all: usize, revision: &str) -> String {
@@ -299,8 +304,8 @@ impl CheckArgs {
     fn take_notes(
         &self,
         kind: NoteKind,
-        (input, loaded): Job<'_>,
-        lines: &mut BTreeSet<Note>,
+        (input, loaded): ProgramOnMachine<'_>,
+        lines: &mut BTreeSet<NotedName>,
     ) -> Result<(), Failure> {
         let loaded = loaded?;
         let mut options = self.execution.check(&loaded);
@@ -312,7 +317,7 @@ impl CheckArgs {
         };
         let session = run_alone(input, &loaded, alone, &mut Findings::default())?;
         for (name, place) in session.notes(kind) {
-            lines.insert(Note {
+            lines.insert(NotedName {
                 name: name.to_owned(),
                 file: place.file.to_string(),
                 start: place.start(),
@@ -332,7 +337,7 @@ impl CheckArgs {
     /// them were checked only in their callers (R17.2).
     fn check_all(
         &self,
-        jobs: Vec<Job<'_>>,
+        jobs: Vec<ProgramOnMachine<'_>>,
         (listing, baseline): (&mut Lister<'_>, &mut Baseline),
         failures: &mut Failures,
     ) -> usize {
@@ -340,7 +345,7 @@ impl CheckArgs {
         let mut causes = Causes::default();
         let checked = self.checked(jobs, failures);
         let mains = self.mains(&checked);
-        for (Checked { loaded, found, .. }, is_main) in checked.into_iter().zip(&mains) {
+        for (CheckedProgram { loaded, found, .. }, is_main) in checked.into_iter().zip(&mains) {
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
                 for mut diagnostic in loaded.errors().cloned() {
@@ -374,18 +379,23 @@ impl CheckArgs {
     }
 
     /// Returns the messages of each program by itself, in their order.
-    fn checked<'a>(&self, jobs: Vec<Job<'a>>, failures: &mut Failures) -> Vec<Checked<'a>> {
+    fn checked<'a>(
+        &self,
+        jobs: Vec<ProgramOnMachine<'a>>,
+        failures: &mut Failures,
+    ) -> Vec<CheckedProgram<'a>> {
         let workers = self.jobs.unwrap_or_else(processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
-        let check = |(input, loaded): Job<'a>| -> Result<Checked<'a>, HostError> {
-            let loaded = loaded?;
-            let found = check_file(input, &loaded, &self.execution)?;
-            Ok(Checked {
-                input,
-                loaded,
-                found,
-            })
-        };
+        let check =
+            |(input, loaded): ProgramOnMachine<'a>| -> Result<CheckedProgram<'a>, HostError> {
+                let loaded = loaded?;
+                let found = check_file(input, &loaded, &self.execution)?;
+                Ok(CheckedProgram {
+                    input,
+                    loaded,
+                    found,
+                })
+            };
         let mut all = Vec::with_capacity(jobs.len());
         in_order(jobs.into_iter(), workers, check, |checked| {
             match checked {
@@ -398,7 +408,7 @@ impl CheckArgs {
     }
 
     /// Returns the programs that count by themselves.
-    fn mains(&self, checked: &[Checked<'_>]) -> Vec<bool> {
+    fn mains(&self, checked: &[CheckedProgram<'_>]) -> Vec<bool> {
         if self.all {
             return vec![true; checked.len()];
         }
@@ -424,14 +434,14 @@ fn in_callers_remark(programs: usize) -> String {
 }
 
 /// A program that was checked by itself.
-struct Checked<'a> {
+struct CheckedProgram<'a> {
     input: &'a Input,
     loaded: Arc<LoadedMachine>,
-    found: Found,
+    found: ProgramMessages,
 }
 
 /// Messages of a program.
-struct Found {
+struct ProgramMessages {
     findings: Findings,
     /// Number of further messages, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
@@ -450,7 +460,7 @@ fn check_file(
     input: &Input,
     loaded: &LoadedMachine,
     execution: &ExecutionArgs,
-) -> Result<Found, HostError> {
+) -> Result<ProgramMessages, HostError> {
     let alone = SingleRun {
         options: execution.check(loaded),
         naming: Naming::AsGiven,
@@ -476,7 +486,7 @@ fn check_file(
     let unknown = session.unknown();
     let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
     let returned = session.interpreter().returned_files();
-    Ok(Found {
+    Ok(ProgramMessages {
         executed_to_end: returned.map(ToString::to_string).collect(),
         findings,
         unsaid,

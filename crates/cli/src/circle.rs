@@ -82,7 +82,7 @@ pub(super) struct CircleArgs {
     #[arg(long, value_name = "CHANNEL=UNIT", requires = "trace", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
     #[command(flatten)]
-    result: ResultArgs<Format>,
+    result: ResultArgs<CircleFormat>,
     /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -93,7 +93,7 @@ pub(super) struct CircleArgs {
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
+enum CircleFormat {
     /// Tables for people.
     #[default]
     Text,
@@ -129,9 +129,9 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         CircleReport::recorded(recording)
     };
     let text = match args.result.format {
-        Format::Text => fitted(&render_text(&report), result.look.width),
-        Format::Json => render_json(&report),
-        Format::Csv => render_csv(&report),
+        CircleFormat::Text => fitted(&render_text(&report), result.look.width),
+        CircleFormat::Json => render_json(&report),
+        CircleFormat::Csv => render_csv(&report),
     };
     if let Some(mut svg) = svg {
         write_text(&mut svg, &circle(&report).render(Frame::Alone))?;

@@ -9,7 +9,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::painted::severities;
-use super::result::Format;
+use super::result::ResultFormat;
 use frictcomp::diagnostic::Code;
 
 /// List all codes with severity and title
@@ -17,14 +17,14 @@ use frictcomp::diagnostic::Code;
 pub(super) struct CodesArgs {
     /// The format of the list
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
     let mut output = String::new();
     match args.format {
-        Format::Text => {
+        ResultFormat::Text => {
             for code in Code::ALL {
                 let severity = code.severity().as_str();
                 let _ = writeln!(
@@ -36,7 +36,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
             }
             output = console.fitted(&output);
         }
-        Format::Json => {
+        ResultFormat::Json => {
             let codes: Vec<_> = Code::ALL
                 .iter()
                 .map(|code| {

@@ -11,7 +11,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::{Failure, shown};
 use super::outputs::{Outputs, write_text};
-use super::result::{Format, ResultArgs};
+use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::conformance::{
     Answers, Case, CaseError, Compared, Mismatch, Totals, export, find_cases, run_case,
@@ -74,8 +74,8 @@ pub(super) fn run(args: &ConformanceArgs, console: Console) -> Result<u8, Failur
     };
     outputs.check()?;
     let text = match args.result.format {
-        Format::Text => fitted(&text(&totals, answered.as_ref()), result.look.width),
-        Format::Json => format!("{:#}\n", document(&totals, answered.as_ref())),
+        ResultFormat::Text => fitted(&text(&totals, answered.as_ref()), result.look.width),
+        ResultFormat::Json => format!("{:#}\n", document(&totals, answered.as_ref())),
     };
     result.text(&text)?;
     outputs.finish()?;

@@ -36,15 +36,15 @@ pub(super) struct Console {
     color: Color,
     /// Value of `--width`.
     width: Option<usize>,
-    remarks: Remarks,
-    written: Written,
+    remarks: RemarkOutput,
+    written: OutputContents,
     /// Files that every output may replace by `--force`.
     forced: Option<Replaces>,
 }
 
 /// Contents of standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Written {
+pub(super) enum OutputContents {
     /// Text for people.
     Text,
     /// Records for programs, which are UTF-8 everywhere.
@@ -53,13 +53,13 @@ pub(super) enum Written {
 
 /// Treatment of remarks besides the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Remarks {
+enum RemarkOutput {
     Said,
     Kept,
 }
 
 /// A place for data and how text looks there.
-pub(super) struct Target {
+pub(super) struct DataTarget {
     pub(super) writer: Box<dyn Write + Send>,
     pub(super) look: Look,
 }
@@ -73,7 +73,7 @@ pub(super) enum Printed {
     Unread,
 }
 
-impl Target {
+impl DataTarget {
     /// Writes a text; a closed pipe is no failure.
     pub(super) fn text(&mut self, text: &str) -> Result<Printed, Failure> {
         let written = self.writer.write_all(text.as_bytes());
@@ -99,8 +99,8 @@ impl Console {
         Self {
             color,
             width,
-            remarks: Remarks::Said,
-            written: Written::Text,
+            remarks: RemarkOutput::Said,
+            written: OutputContents::Text,
             forced: None,
         }
     }
@@ -116,7 +116,7 @@ impl Console {
     }
 
     /// The same console, to whose standard output this goes.
-    pub(super) fn writing(self, written: Written) -> Self {
+    pub(super) fn writing(self, written: OutputContents) -> Self {
         Self { written, ..self }
     }
 
@@ -135,7 +135,7 @@ impl Console {
     /// The same console, which says nothing beside the results and failures.
     pub(super) fn quiet(self) -> Self {
         Self {
-            remarks: Remarks::Kept,
+            remarks: RemarkOutput::Kept,
             ..self
         }
     }
@@ -153,11 +153,11 @@ impl Console {
     }
 
     /// Standard output.
-    pub(super) fn stdout(self) -> Target {
+    pub(super) fn stdout(self) -> DataTarget {
         let stdout = io::stdout();
         let choice = self.choice(AutoStream::choice(&stdout));
         let width = self.width(terminal_size::terminal_size_of(&stdout));
-        Target {
+        DataTarget {
             look: Look {
                 paint: paint(choice),
                 width,
@@ -175,8 +175,8 @@ impl Console {
     /// The code page of the text that goes to standard output, where that is not UTF-8.
     fn code_page(self, stdout: &io::Stdout) -> Option<CodePage> {
         match self.written {
-            Written::Text => CodePage::behind(stdout),
-            Written::Records => None,
+            OutputContents::Text => CodePage::behind(stdout),
+            OutputContents::Records => None,
         }
     }
 
@@ -209,7 +209,7 @@ impl Console {
 
     /// Says a line on stderr, unless the user wants only what counts.
     pub(super) fn remark(self, line: &str) {
-        if self.remarks == Remarks::Said {
+        if self.remarks == RemarkOutput::Said {
             Self::talk(line);
         }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::console::{Console, Target};
+use super::console::{Console, DataTarget};
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
@@ -39,7 +39,7 @@ pub(super) struct ContourArgs {
     #[command(flatten)]
     simulation: SimulationArgs,
     #[command(flatten)]
-    result: ResultArgs<Format>,
+    result: ResultArgs<ContourFormat>,
     /// Draw the path with its magnified deviation, and the deviation over time, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -61,7 +61,7 @@ pub(super) struct ContourArgs {
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
+enum ContourFormat {
     /// Figures and sentences for people.
     #[default]
     Text,
@@ -106,20 +106,20 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     };
     pictures.draw(&mut contour, &subject)?;
     let text = match args.result.format {
-        Format::Text => fitted(&render_text(&mut contour, &subject), width),
-        Format::Json => document(&mut contour, &limits),
-        Format::Ndjson => {
+        ContourFormat::Text => fitted(&render_text(&mut contour, &subject), width),
+        ContourFormat::Json => document(&mut contour, &limits),
+        ContourFormat::Ndjson => {
             let mut record = summary_record(&contour, &limits);
             record["record"] = "summary".into();
             format!("{record}\n")
         }
-        Format::Csv => String::new(),
+        ContourFormat::Csv => String::new(),
     };
     let said = said(&contour, &loaded);
     let has_moved = contour.machine_time_s() > 0.0;
     // A row has no place for what holds for the whole program.
     let remarks = match args.result.format {
-        Format::Csv => contour_remarks(&contour),
+        ContourFormat::Csv => contour_remarks(&contour),
         _ => Vec::new(),
     };
     let exceeded = exceeded(&contour, &limits);
@@ -215,16 +215,16 @@ impl ContourArgs {
     fn recorder<'a>(
         &self,
         options: &ContourOptions,
-        (result, pictures): (&'a mut Target, &Pictures),
+        (result, pictures): (&'a mut DataTarget, &Pictures),
     ) -> ContourRecorder<'a> {
         let names: Vec<String> = options.axes.iter().map(|axis| axis.name.clone()).collect();
         let plane = [names[0].clone(), names[1].clone()];
         let mut recorder = ContourRecorder::new(names);
         recorder = match self.result.format {
-            Format::Text if pictures.html.is_none() => recorder,
-            Format::Text | Format::Json => recorder.keeping_all(),
-            Format::Ndjson => recorder.writing_ndjson(&mut result.writer),
-            Format::Csv => recorder.writing_csv(&mut result.writer),
+            ContourFormat::Text if pictures.html.is_none() => recorder,
+            ContourFormat::Text | ContourFormat::Json => recorder.keeping_all(),
+            ContourFormat::Ndjson => recorder.writing_ndjson(&mut result.writer),
+            ContourFormat::Csv => recorder.writing_csv(&mut result.writer),
         };
         if pictures.svg.is_some() || pictures.html.is_some() {
             recorder = recorder.drawing(ContourPicture::new(plane));

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::machine::{MachineArgs, undescribed_remark};
 use super::outputs::Outputs;
 use super::painted::difference;
-use super::result::{Format, ResultArgs};
+use super::result::{ResultArgs, ResultFormat};
 use super::settings;
 use super::simulated::{SimulationArgs, Tolerance};
 use frictcomp::comp::KindSet;
@@ -131,11 +131,11 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         contours,
     };
     let printed = match args.result.format {
-        Format::Text => {
+        ResultFormat::Text => {
             let text = fitted(&render_text(&report), result.look.width);
             result.painted(&text, difference)?
         }
-        Format::Json => result.text(&render_json(&report))?,
+        ResultFormat::Json => result.text(&render_json(&report))?,
     };
     let written = html.is_some();
     if let Some(mut html) = html {

@@ -13,7 +13,7 @@ use super::failures::Failures;
 use super::machine::undescribed_remark;
 use super::outputs::Outputs;
 use super::painted::difference;
-use super::result::Format;
+use super::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     ChangedPrograms, Disk, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner,
@@ -24,7 +24,7 @@ use frictcomp_report::compare::{VersionsReport, render_json, render_text};
 use frictcomp_report::fitted;
 
 /// A program in both versions; one of them may not have it.
-struct Pair {
+struct ProgramVersions {
     name: String,
     old: Option<Input>,
     new: Option<Input>,
@@ -98,13 +98,13 @@ fn compare(
     };
     let same = reports.iter().filter(is_same).count();
     let printed = match args.result.format {
-        Format::Text => {
+        ResultFormat::Text => {
             let different = reports.iter().filter(|report| !is_same(report));
             let texts = different.map(|report| named(report) + &render_text(report));
             let text = texts.collect::<Vec<_>>().join("\n");
             result.painted(&fitted(&text, result.look.width), difference)?
         }
-        Format::Json => result.text(&document(&reports, revision))?,
+        ResultFormat::Json => result.text(&document(&reports, revision))?,
     };
     outputs.finish()?;
     let count = reports.len();
@@ -165,7 +165,7 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// The programs that are compared: those of the work tree, then those that only the revision has.
-fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<Pair> {
+fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<ProgramVersions> {
     let mut renamed: BTreeMap<PathBuf, &Path> = BTreeMap::new();
     let mut added: Vec<PathBuf> = Vec::new();
     for file in &changed.files {
@@ -191,19 +191,19 @@ fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<P
             // It is the same in both, and reaches what is not.
             None => Some(input.clone()),
         };
-        Some(Pair {
+        Some(ProgramVersions {
             name: shown_path(path),
             old,
             new: Some(input.clone()),
         })
     });
-    let mut pairs: Vec<Pair> = inputs.collect();
+    let mut pairs: Vec<ProgramVersions> = inputs.collect();
     let roots: Vec<PathBuf> = paths.iter().map(|path| Disk::place(path)).collect();
     let gone = changed.files.iter().filter(|file| file.new.is_none());
     for old in gone.filter_map(|file| file.old.as_ref()) {
         let is_meant = roots.iter().any(|root| old.path.starts_with(root));
         if is_meant && changed.is_program(&old.path) {
-            pairs.push(Pair {
+            pairs.push(ProgramVersions {
                 name: shown_path(&Disk::named(&old.path)),
                 old: open(&old.path),
                 new: None,
@@ -223,7 +223,11 @@ struct Comparer<'a> {
 }
 
 impl Comparer<'_> {
-    fn report(&self, pair: &Pair, machines: &mut Machines) -> Result<VersionsReport, Failure> {
+    fn report(
+        &self,
+        pair: &ProgramVersions,
+        machines: &mut Machines,
+    ) -> Result<VersionsReport, Failure> {
         let input = pair.new.as_ref().or(pair.old.as_ref());
         let folder = input.map_or(Path::new(""), Input::folder);
         let new = machines.for_folder(folder)?;

@@ -63,7 +63,7 @@ pub(super) struct GoldenArgs {
 }
 
 /// The programs of one call, what they run on, and what was agreed on.
-struct Bench<'a> {
+struct GoldenRun<'a> {
     args: &'a GoldenArgs,
     machines: Machines,
     registry: FileRegistry,
@@ -99,7 +99,7 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
     }
     let programs: Vec<Input> = files.iter().map(|it| it.program.clone()).collect();
     machines.look_ahead(&programs);
-    let bench = Bench {
+    let bench = GoldenRun {
         args,
         machines,
         registry,
@@ -114,7 +114,7 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
     }
 }
 
-impl Bench<'_> {
+impl GoldenRun<'_> {
     fn compare(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();

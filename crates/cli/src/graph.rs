@@ -77,7 +77,7 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
     }
     outputs.check()?;
     let mains = calls.mains(processors());
-    let shown = Shown { calls, mains };
+    let shown = GraphOutput { calls, mains };
     let printed = match args.result.format {
         GraphFormat::Text => target.painted(&shown.text(), parts)?,
         GraphFormat::Dot => target.text(&shown.dot())?,
@@ -91,13 +91,13 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
 }
 
 /// A graph on its way out.
-struct Shown {
+struct GraphOutput {
     calls: CallGraph,
     /// Whether each program is a main program.
     mains: Vec<bool>,
 }
 
-impl Shown {
+impl GraphOutput {
     fn programs(&self) -> &[GraphProgram] {
         self.calls.programs()
     }

@@ -79,7 +79,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use code_page::{CodePage, Encoded};
-use console::{Color, Console, Written};
+use console::{Color, Console, OutputContents};
 use failure::Failure;
 use sole_file::Meant;
 
@@ -185,13 +185,13 @@ fn status_of(arguments: Vec<OsString>) -> u8 {
 }
 
 /// Returns the contents that a command writes by its `--format`.
-fn written(matches: &ArgMatches) -> Written {
+fn written(matches: &ArgMatches) -> OutputContents {
     let Some((_, command)) = matches.subcommand() else {
         let format = matches.try_get_raw("format").ok().flatten();
         let format = format.and_then(|mut given| given.next()?.to_str());
         return match format {
-            None | Some("text" | "concise") => Written::Text,
-            Some(_) => Written::Records,
+            None | Some("text" | "concise") => OutputContents::Text,
+            Some(_) => OutputContents::Records,
         };
     };
     written(command)

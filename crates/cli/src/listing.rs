@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::console::{Console, Printed, Target};
+use super::console::{Console, DataTarget, Printed};
 use super::fail_on::FailOn;
 use super::failure::Failure;
 use super::severities::SeverityArgs;
@@ -72,7 +72,7 @@ impl ListingArgs {
     }
 
     /// Begins the list.
-    pub(super) fn lister(&self, target: Target) -> Result<Lister<'_>, Failure> {
+    pub(super) fn lister(&self, target: DataTarget) -> Result<Lister<'_>, Failure> {
         let (format, look) = (self.format, target.look);
         let (writer, counted): (Box<dyn Write + Send>, _) = if self.statistics {
             of_records(self.format, "statistics")?;
@@ -96,7 +96,7 @@ pub(super) struct Lister<'a> {
     args: &'a ListingArgs,
     listing: Listing<Box<dyn Write + Send>>,
     /// Destination of the counts, in place of the list.
-    counted: Option<Target>,
+    counted: Option<DataTarget>,
     counts: BTreeMap<(Code, Severity), u64>,
     /// Feed moves without compensation, by the names of the axes.
     uncompensated: BTreeMap<String, Uncompensated>,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::console::{Console, Printed, Target};
+use super::console::{Console, DataTarget, Printed};
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::{Failure, shown};
@@ -37,14 +37,14 @@ pub(super) struct FixArgs {
 }
 
 /// Programs, and how they are run.
-pub(super) struct Bench<'a> {
+pub(super) struct MendRun<'a> {
     pub(super) inputs: &'a [Input],
     pub(super) machines: &'a mut Machines,
     pub(super) execution: &'a ExecutionArgs,
     pub(super) workers: Option<NonZeroUsize>,
 }
 
-impl Bench<'_> {
+impl MendRun<'_> {
     /// Makes the safe changes of the programs, each file as a whole.
     pub(super) fn fix(&mut self, console: Console, failures: &mut Failures) -> Result<(), Failure> {
         self.only_files("--fix")?;
@@ -71,7 +71,7 @@ impl Bench<'_> {
     /// Shows the safe changes of the programs.
     pub(super) fn diff(
         &mut self,
-        target: &mut Target,
+        target: &mut DataTarget,
         (console, failures): (Console, &mut Failures),
     ) -> Result<u8, Failure> {
         self.only_files("--diff")?;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use super::console::Target;
+use super::console::DataTarget;
 use super::failure::Failure;
 use super::listing::records;
 use frictcomp::session::NoteKind;
@@ -13,13 +13,13 @@ use frictcomp_report::{ListingFormat, leading};
 
 /// A name and where it stands.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Note {
+pub(super) struct NotedName {
     pub(super) name: String,
     pub(super) file: String,
     pub(super) start: Position,
 }
 
-impl Note {
+impl NotedName {
     /// `V.E.PART mill.nc:12:5`
     fn text(&self) -> String {
         let line = format!("{} {}:{}", self.name, self.file, self.start);
@@ -44,12 +44,12 @@ impl Note {
 pub(super) fn list(
     kind: NoteKind,
     format: ListingFormat,
-    mut target: Target,
-    take: impl FnOnce(&mut BTreeSet<Note>),
+    mut target: DataTarget,
+    take: impl FnOnce(&mut BTreeSet<NotedName>),
 ) -> Result<(), Failure> {
     let mut notes = BTreeSet::new();
     take(&mut notes);
-    let text: String = notes.iter().map(Note::text).collect();
+    let text: String = notes.iter().map(NotedName::text).collect();
     let values: Vec<Value> = notes.iter().map(|note| note.record(kind)).collect();
     target.text(&shown_json(&records(format, &text, &values)))?;
     Ok(())

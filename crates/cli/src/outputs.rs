@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::console::{Console, Target};
+use super::console::{Console, DataTarget};
 use super::failure::Failure;
 use frictcomp::session::SavedState;
 use frictcomp::text::shown_path;
@@ -32,7 +32,7 @@ impl Outputs {
     }
 
     /// The place of the main result: the file after `--output`, or standard output.
-    pub(super) fn result(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
+    pub(super) fn result(&mut self, path: Option<&Path>) -> Result<DataTarget, Failure> {
         match path {
             None => {
                 self.print("the result")?;
@@ -42,7 +42,7 @@ impl Outputs {
                 self.print("--output -")?;
                 Ok(self.console.stdout())
             }
-            Some(path) => Ok(Target {
+            Some(path) => Ok(DataTarget {
                 writer: Box::new(self.create("--output", path, Replaces::Results)?),
                 look: self.console.file_look(),
             }),

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use super::console::Target;
+use super::console::DataTarget;
 use super::fail_on::FailOn;
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::timeline::{Record, Sink};
@@ -17,7 +17,7 @@ pub(super) struct Quiet {
 
 impl Quiet {
     /// A list of what is at or above a severity.
-    pub(super) fn new(target: Target, fail_on: FailOn) -> Self {
+    pub(super) fn new(target: DataTarget, fail_on: FailOn) -> Self {
         Self {
             listing: Listing::new(target.writer, ListingFormat::Text, target.look),
             fail_on,

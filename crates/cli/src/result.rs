@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 /// A format of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum ResultFormat {
     /// For people.
     #[default]
     Text,
@@ -16,7 +16,7 @@ pub(super) enum Format {
 
 /// A result that goes to standard output or to a file, in one of the formats `F`.
 #[derive(Debug, Clone, Args)]
-pub(super) struct ResultArgs<F = Format>
+pub(super) struct ResultArgs<F = ResultFormat>
 where
     F: ValueEnum + Clone + Default + Send + Sync + 'static,
 {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::console::{Console, Target};
+use super::console::{Console, DataTarget};
 use super::execution::ExecutionArgs;
 use super::fail_on::{FailOn, of_axis};
 use super::failure::Failure;
@@ -71,7 +71,7 @@ pub(super) struct RunArgs {
     format: TimelineFormat,
     /// Additional columns for the CSV timeline
     #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
-    columns: Vec<Column>,
+    columns: Vec<TimelineColumn>,
     /// Write the timeline to this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -96,13 +96,13 @@ pub(super) struct RunArgs {
 
 /// Columns that a CSV timeline has only where they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Column {
+enum TimelineColumn {
     /// The position of each axis after the block.
     Position,
 }
 
 impl RunArgs {
-    fn report(&self, target: Target) -> Box<dyn Report> {
+    fn report(&self, target: DataTarget) -> Box<dyn Report> {
         if self.quiet {
             return Box::new(Quiet::new(target, self.fail_on));
         }
@@ -112,7 +112,7 @@ impl RunArgs {
             Blocks::All
         };
         let runs = if self.full { Runs::Full } else { Runs::Folded };
-        let positions = if self.columns.contains(&Column::Position) {
+        let positions = if self.columns.contains(&TimelineColumn::Position) {
             Positions::Shown
         } else {
             Positions::Hidden
@@ -169,7 +169,7 @@ impl RunArgs {
 }
 
 /// Preparation of the first program.
-struct Start<'a> {
+struct FirstProgram<'a> {
     programs: Programs<'a>,
     loaded: &'a LoadedMachine,
     session: Session,
@@ -267,7 +267,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let (mut session, changed) = open_session(&loaded, options, state.as_ref())?;
     expect_axes(&mut session, &loaded, &inputs);
     let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
-    let mut start = Start {
+    let mut start = FirstProgram {
         programs: Programs {
             inputs: &inputs,
             said: &said,
@@ -306,7 +306,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
 
 /// Runs the programs; `None` where nobody read the timeline to its end, and there is no other output.
 fn play(
-    start: &mut Start<'_>,
+    start: &mut FirstProgram<'_>,
     report: Box<dyn Report>,
     html: Option<&mut HtmlFile>,
 ) -> Result<(Option<RunSummary>, Option<Code>), Failure> {

@@ -15,7 +15,7 @@ pub(super) struct Meant {
 
 /// Form in which the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Start {
+enum Invocation {
     /// By a shell or another program.
     Typed,
     /// By a file that was dropped on it: its console closes with it.
@@ -28,7 +28,11 @@ impl Meant {
         Self::of(arguments, is_command, start())
     }
 
-    fn of(mut arguments: Vec<OsString>, is_command: impl Fn(&str) -> bool, start: Start) -> Self {
+    fn of(
+        mut arguments: Vec<OsString>,
+        is_command: impl Fn(&str) -> bool,
+        start: Invocation,
+    ) -> Self {
         let alone = match arguments.as_slice() {
             [_, only] => Some(only),
             _ => None,
@@ -43,7 +47,7 @@ impl Meant {
             };
         }
         arguments.insert(1, "run".into());
-        let report = (start == Start::Dropped).then(new_report).flatten();
+        let report = (start == Invocation::Dropped).then(new_report).flatten();
         if let Some(report) = &report {
             arguments.push("--html".into());
             arguments.push(report.into());
@@ -89,25 +93,25 @@ fn open(file: &Path) -> bool {
 }
 
 #[cfg(windows)]
-fn start() -> Start {
+fn start() -> Invocation {
     use win32console::console::WinConsole;
     // A shell would be in the list, too.
     match WinConsole::get_process_list() {
-        Ok(processes) if processes.len() == 1 => Start::Dropped,
-        _ => Start::Typed,
+        Ok(processes) if processes.len() == 1 => Invocation::Dropped,
+        _ => Invocation::Typed,
     }
 }
 
 #[cfg(not(windows))]
-fn start() -> Start {
-    Start::Typed
+fn start() -> Invocation {
+    Invocation::Typed
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn meant(words: &[&str], start: Start) -> Vec<String> {
+    fn meant(words: &[&str], start: Invocation) -> Vec<String> {
         let arguments = words.iter().map(OsString::from).collect();
         let meant = Meant::of(arguments, |word| word == "check", start);
         let words = meant.arguments.iter();
@@ -124,17 +128,17 @@ mod tests {
         std::fs::write(&file, "M30\n").expect("written");
         let file = file.to_string_lossy();
         assert_eq!(
-            meant(&["frictcomp", &file], Start::Typed),
+            meant(&["frictcomp", &file], Invocation::Typed),
             ["frictcomp", "run", &file]
         );
-        let dropped = meant(&["frictcomp", &file], Start::Dropped);
+        let dropped = meant(&["frictcomp", &file], Invocation::Dropped);
         assert_eq!(dropped[..4], ["frictcomp", "run", &file, "--html"]);
         let report = Path::new(&dropped[4]).extension();
         assert_eq!(report.and_then(|it| it.to_str()), Some("html"));
         std::fs::remove_file(&dropped[4]).expect("it is there");
         for missing in ["no.nc", "programs/no"] {
             assert_eq!(
-                meant(&["frictcomp", missing], Start::Typed),
+                meant(&["frictcomp", missing], Invocation::Typed),
                 ["frictcomp", "run", missing]
             );
         }
@@ -145,7 +149,7 @@ mod tests {
             &["frictcomp", &file, &file],
             &["frictcomp", "--help"],
         ] {
-            assert_eq!(meant(other, Start::Dropped), other);
+            assert_eq!(meant(other, Invocation::Dropped), other);
         }
     }
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::result::Format;
+use super::result::ResultFormat;
 use frictcomp_physics::stiction::{Quantity, StictionError, solve};
 use frictcomp_report::stiction::{guideline, render_stiction, stiction_document};
 
@@ -57,7 +57,7 @@ pub(super) struct StictionArgs {
     mp1513: Option<f64>,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
 }
 
 impl StictionArgs {
@@ -101,8 +101,8 @@ pub(super) fn run(args: &StictionArgs, console: Console) -> Result<u8, Failure> 
     let solution = solve(&args.given())
         .map_err(|error| Failure::new(error.to_string()).with_help(help(&error)))?;
     let text = match args.format {
-        Format::Text => render_stiction(&solution),
-        Format::Json => format!("{:#}\n", stiction_document(&solution)),
+        ResultFormat::Text => render_stiction(&solution),
+        ResultFormat::Json => format!("{:#}\n", stiction_document(&solution)),
     };
     console.print(&text)?;
     for kept in &solution.guidelines {

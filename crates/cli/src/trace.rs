@@ -8,7 +8,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
-use super::result::{Format, ResultArgs};
+use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_trace};
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
@@ -67,8 +67,8 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         render_trace(&report, &mut html).map_err(Failure::output)?;
     }
     result.text(&match args.result.format {
-        Format::Text => render_text(&report),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => render_text(&report),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)

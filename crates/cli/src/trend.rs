@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::channels::{AxisChannels, TorqueArgs};
+use super::channels::{AxisChannelArgs, TorqueArgs};
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
@@ -12,7 +12,7 @@ use super::failure::Failure;
 use super::identify::refusal;
 use super::outputs::{Outputs, write_text};
 use super::recorded_files::recordings_in;
-use super::result::Format;
+use super::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{FrictionLevels, IdentifyOptions, friction_changes, identify};
@@ -31,14 +31,14 @@ pub(super) struct TrendArgs {
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
     #[command(flatten)]
-    channels: AxisChannels,
+    channels: AxisChannelArgs,
     #[command(flatten)]
     cycle: CycleArgs,
     #[command(flatten)]
     torque: TorqueArgs,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
     /// Draw the parameters over the dates to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -94,8 +94,8 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
         write_text(&mut svg, &friction_trend(&report).render(Frame::Alone))?;
     }
     console.print(&match args.format {
-        Format::Text => console.fitted(&render_text(&report)),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => console.fitted(&render_text(&report)),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
-use super::result::Format;
+use super::result::ResultFormat;
 use super::values;
 use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::{Code, Diagnostic};
@@ -19,8 +19,8 @@ use frictcomp::lists::{AxisType, ListHead, Points};
 use frictcomp::machine::Axis;
 use frictcomp::text::{Place, Span};
 use frictcomp_host::{FileRegistry, OutputFile, find_plant, memory_for_simulation, tune};
-use frictcomp_physics::circle::Aim;
-use frictcomp_physics::circle::Checked;
+use frictcomp_physics::circle::RemainingGlitch;
+use frictcomp_physics::circle::TuningAim;
 use frictcomp_physics::circle::{
     Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
 };
@@ -108,7 +108,7 @@ pub(super) struct TuneArgs {
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
     /// Draw the glitch over the feed, before and after tuning, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -192,7 +192,11 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             } else {
                 Shaping::Allowed
             },
-            aim: if args.robust { Aim::Robust } else { Aim::Plant },
+            aim: if args.robust {
+                TuningAim::Robust
+            } else {
+                TuningAim::Plant
+            },
         };
         reports.push(TuneReport {
             plant: name,
@@ -225,8 +229,8 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
     }
     console.print(&match args.format {
-        Format::Text => console.fitted(&render_text(&reports)),
-        Format::Json => render_json(&reports),
+        ResultFormat::Text => console.fitted(&render_text(&reports)),
+        ResultFormat::Json => render_json(&reports),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
@@ -310,7 +314,7 @@ fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
     let mut messages: Vec<String> = worse.map(on_a_circle).collect();
     // Between the circles it is said once, where it is worst (R5.29).
     let between = report.tuned.check.iter().filter(|it| it.is_worse());
-    let loss = |it: &Checked| it.glitch_on_um - it.glitch_off_um;
+    let loss = |it: &RemainingGlitch| it.glitch_on_um - it.glitch_off_um;
     let worst_of_all = between.max_by(|one, other| loss(one).total_cmp(&loss(other)));
     if let Some(it) = worst_of_all.filter(|_| messages.is_empty()) {
         messages.push(format!(

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::channels::AxisChannels;
+use super::channels::AxisChannelArgs;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::Outputs;
-use super::result::{Format, ResultArgs};
+use super::result::{ResultArgs, ResultFormat};
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_physics::current::Reading;
@@ -35,7 +35,7 @@ pub(super) struct VerifyArgs {
     #[arg(long, value_name = "LIST")]
     value_list: PathBuf,
     #[command(flatten)]
-    channels: AxisChannels,
+    channels: AxisChannelArgs,
     /// The channel of the actual positions, beside that of the commanded ones: only the following error
     /// tells whether the list is early or late
     #[arg(long, value_name = "CHANNEL")]
@@ -90,8 +90,8 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         exit::FOUND
     };
     result.text(&match args.result.format {
-        Format::Text => fitted(&render_text(&report), result.look.width),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => fitted(&render_text(&report), result.look.width),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(status)

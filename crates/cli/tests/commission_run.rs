@@ -31,7 +31,7 @@ use std::sync::LazyLock;
 
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_host::sha256_of;
-use frictcomp_physics::circle::{Circle, CircularTest, Direction, Job, Method};
+use frictcomp_physics::circle::{Circle, CircularTest, Direction, LapRun, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
 use machine::PITCH_MM;
@@ -211,7 +211,7 @@ fn deviations_of(driven: &Driven) -> [Vec<f64>; 2] {
             Switched::Off
         };
         let lap = test
-            .run(Job {
+            .run(LapRun {
                 compensation,
                 direction,
             })

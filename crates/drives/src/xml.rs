@@ -93,7 +93,7 @@ struct Mapped {
 
 /// A device while it is read.
 #[derive(Debug, Default)]
-struct Item {
+struct OpenDevice {
     name: String,
     vendor: Option<u32>,
     product: Option<u32>,
@@ -105,7 +105,7 @@ struct Item {
     line: u32,
 }
 
-impl Item {
+impl OpenDevice {
     /// Whether the file says which objects are exchanged.
     fn assigns(&self) -> bool {
         !self.assigned.is_empty() || self.pdos.iter().any(|pdo| pdo.has_sync_manager)
@@ -288,7 +288,11 @@ fn below<'a>(names: &'a [&'a str]) -> Option<&'a [&'a str]> {
 }
 
 /// Reads a file whose outermost element is `root`, device by device.
-fn read(source: &SourceFile, root: &str, found: &mut dyn FnMut(Item)) -> Result<(), XmlError> {
+fn read(
+    source: &SourceFile,
+    root: &str,
+    found: &mut dyn FnMut(OpenDevice),
+) -> Result<(), XmlError> {
     let mut reader = Reader::from_str(source.text());
     let mut walk = Walk::new(root, found);
     loop {
@@ -330,20 +334,20 @@ fn expanded(reference: &BytesRef<'_>) -> Result<String, String> {
 /// A file on its way from its first element to its last.
 struct Walk<'a> {
     root: &'a str,
-    found: &'a mut dyn FnMut(Item),
+    found: &'a mut dyn FnMut(OpenDevice),
     path: Path,
-    item: Item,
+    item: OpenDevice,
     vendor: Option<u32>,
     is_described: bool,
 }
 
 impl<'a> Walk<'a> {
-    fn new(root: &'a str, found: &'a mut dyn FnMut(Item)) -> Self {
+    fn new(root: &'a str, found: &'a mut dyn FnMut(OpenDevice)) -> Self {
         Self {
             root,
             found,
             path: Path::default(),
-            item: Item::default(),
+            item: OpenDevice::default(),
             vendor: None,
             is_described: false,
         }
@@ -365,11 +369,11 @@ impl<'a> Walk<'a> {
         let names = self.path.names();
         match below(&names) {
             Some([]) => {
-                self.item = Item {
+                self.item = OpenDevice {
                     vendor: self.vendor,
                     path: self.path.shown(0),
                     line,
-                    ..Item::default()
+                    ..OpenDevice::default()
                 };
             }
             Some(below) => self.item.open(below, start),

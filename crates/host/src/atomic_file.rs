@@ -52,12 +52,12 @@ impl Drop for Held {
 /// leaves the old one as it was.
 #[derive(Debug)]
 pub(super) struct AtomicFile {
-    stage: Stage,
+    stage: FileStage,
     target: PathBuf,
 }
 
 #[derive(Debug)]
-enum Stage {
+enum FileStage {
     /// More may come. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
     /// It lies on the disk, and many may wait for each other: most of them are locked still.
@@ -78,7 +78,7 @@ impl AtomicFile {
             file.as_file().set_permissions(old.permissions())?;
         }
         Ok(Self {
-            stage: Stage::Open(file),
+            stage: FileStage::Open(file),
             target,
         })
     }
@@ -88,14 +88,14 @@ impl AtomicFile {
     /// # Errors
     /// It cannot be written to the disk.
     pub(super) fn sync(&mut self) -> io::Result<()> {
-        if let Stage::Open(file) = &mut self.stage {
+        if let FileStage::Open(file) = &mut self.stage {
             file.flush()?;
             file.as_file().sync_all()?;
         }
-        self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
-            Stage::Open(file) => {
+        self.stage = match std::mem::replace(&mut self.stage, FileStage::Done) {
+            FileStage::Open(file) => {
                 let (file, path) = file.into_parts();
-                Stage::Synced(path, Held::keep(file))
+                FileStage::Synced(path, Held::keep(file))
             }
             stage => stage,
         };
@@ -131,7 +131,8 @@ impl AtomicFile {
         persist: fn(TempPath, &Path) -> Result<(), tempfile::PathPersistError>,
     ) -> io::Result<()> {
         self.sync()?;
-        let Stage::Synced(file, _held) = std::mem::replace(&mut self.stage, Stage::Done) else {
+        let FileStage::Synced(file, _held) = std::mem::replace(&mut self.stage, FileStage::Done)
+        else {
             return Ok(());
         };
         let mut unfinished = Unfinished::lock();
@@ -220,15 +221,15 @@ fn settle(_: &Path) -> io::Result<()> {
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.stage {
-            Stage::Open(file) => file.write(bytes),
-            Stage::Synced(..) | Stage::Done => Err(io::Error::other("it is whole already")),
+            FileStage::Open(file) => file.write(bytes),
+            FileStage::Synced(..) | FileStage::Done => Err(io::Error::other("it is whole already")),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.stage {
-            Stage::Open(file) => file.flush(),
-            Stage::Synced(..) | Stage::Done => Ok(()),
+            FileStage::Open(file) => file.flush(),
+            FileStage::Synced(..) | FileStage::Done => Ok(()),
         }
     }
 }
@@ -236,12 +237,12 @@ impl Write for AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         let path = match &self.stage {
-            Stage::Open(file) => file.path().to_owned(),
-            Stage::Synced(path, _) => path.to_path_buf(),
-            Stage::Done => return,
+            FileStage::Open(file) => file.path().to_owned(),
+            FileStage::Synced(path, _) => path.to_path_buf(),
+            FileStage::Done => return,
         };
         let mut unfinished = Unfinished::lock();
-        self.stage = Stage::Done;
+        self.stage = FileStage::Done;
         unfinished.forget(&path);
     }
 }
@@ -310,7 +311,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
 /// run that lives is locked.
 pub(super) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) {
     let folder = folder(&beside.target);
-    let Stage::Open(own) = &beside.stage else {
+    let FileStage::Open(own) = &beside.stage else {
         return;
     };
     if !seen.insert(folder.to_owned()) {

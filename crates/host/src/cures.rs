@@ -31,7 +31,7 @@ pub struct MendedProgram {
 }
 
 /// A program: its machine, and its position in the archive of the machine.
-type Program = (usize, usize);
+type ArchivedProgram = (usize, usize);
 
 impl ArchiveAuditor {
     /// Finds the blocks that mend the archives of [`audit`](Self::audit); nothing is written. A file that
@@ -74,12 +74,12 @@ impl ArchiveAuditor {
 struct Cures<'a> {
     auditors: Vec<ProgramAuditor<'a>>,
     archives: &'a [Archive],
-    wanted: BTreeMap<Program, Vec<Mending>>,
+    wanted: BTreeMap<ArchivedProgram, Vec<Mending>>,
     places: Places,
     /// The programs of the archives.
-    programs: HashMap<PathBuf, Program>,
+    programs: HashMap<PathBuf, ArchivedProgram>,
     /// The programs that call a file, each with the name under which it does.
-    callers: HashMap<PathBuf, BTreeMap<Program, Arc<str>>>,
+    callers: HashMap<PathBuf, BTreeMap<ArchivedProgram, Arc<str>>>,
     /// Texts with the blocks that were found.
     texts: Vec<OpenText>,
 }
@@ -151,16 +151,16 @@ impl<'a> Cures<'a> {
         (shared, alone)
     }
 
-    fn audit(&self, (machine, at): Program) -> &'a frictcomp::audit::ProgramAudit {
+    fn audit(&self, (machine, at): ArchivedProgram) -> &'a frictcomp::audit::ProgramAudit {
         &self.archives[machine].programs()[at]
     }
 
-    fn place(&self, program: Program) -> Option<&Path> {
+    fn place(&self, program: ArchivedProgram) -> Option<&Path> {
         self.places.known(&self.audit(program).file)
     }
 
     /// The other programs that call a file, each with the name under which it does.
-    fn callers(&self, place: &Path) -> impl Iterator<Item = (Program, &Arc<str>)> {
+    fn callers(&self, place: &Path) -> impl Iterator<Item = (ArchivedProgram, &Arc<str>)> {
         let own = self.programs.get(place);
         let callers = self.callers.get(place).into_iter().flatten();
         let callers = callers.map(|(program, name)| (*program, name));
@@ -168,7 +168,7 @@ impl<'a> Cures<'a> {
     }
 
     /// The file that makes a program need mending.
-    fn cause(&self, program: Program, mending: Mending) -> Option<&Path> {
+    fn cause(&self, program: ArchivedProgram, mending: Mending) -> Option<&Path> {
         let axis = &self.audit(program).axes[mending.at];
         let site = axis.cause(mending.cure)?;
         self.places.known(&site.file)
@@ -177,7 +177,7 @@ impl<'a> Cures<'a> {
     /// Mends one file, on all programs that run it.
     fn mend(&self, place: &Path) -> Result<MendedProgram, HostError> {
         let own = self.programs.get(place).copied();
-        let programs: Vec<Program> = own
+        let programs: Vec<ArchivedProgram> = own
             .into_iter()
             .chain(self.callers(place).map(|(program, _)| program))
             .collect();
@@ -216,7 +216,7 @@ impl<'a> Cures<'a> {
 
     /// A program that runs a file, and what a block in the file should mend of it: of the file itself
     /// all, of its callers what comes from there, or from what it calls as well.
-    fn affected(&self, place: &Path, program: Program) -> Affected<'_> {
+    fn affected(&self, place: &Path, program: ArchivedProgram) -> Affected<'_> {
         let own = self.programs.get(place).copied();
         let is_own = own == Some(program);
         let own_mendings = own.and_then(|own| self.wanted.get(&own));

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::input::reopen;
 use super::memory_disk::MemoryDisk;
 use super::open_text::OpenText;
-use super::paths::{Entry, normal, or_here, relative};
+use super::paths::{FolderEntry, normal, or_here, relative};
 use super::read::read_bytes;
 use super::shared_map::SharedMap;
 use crate::decode::decode;
@@ -24,11 +24,11 @@ const MOST_LIST: u64 = 64 << 20;
 #[derive(Debug, Clone)]
 pub struct Disk {
     kind: Kind,
-    listings: Arc<Mutex<BTreeMap<PathBuf, Arc<Listing>>>>,
+    listings: Arc<Mutex<BTreeMap<PathBuf, Arc<FolderListing>>>>,
 }
 
 /// The names in a folder, by themselves in lower case.
-pub(super) type Listing = BTreeMap<String, Vec<OsString>>;
+pub(super) type FolderListing = BTreeMap<String, Vec<OsString>>;
 
 #[derive(Debug, Clone)]
 enum Kind {
@@ -145,7 +145,7 @@ impl Disk {
     }
 
     /// Returns the entry of a path, after links.
-    pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
+    pub(super) fn entry(&self, path: &Path) -> io::Result<FolderEntry> {
         if let Kind::Memory(disk) = &self.kind {
             return disk.entry(path);
         }
@@ -154,17 +154,18 @@ impl Disk {
         }
         match std::fs::metadata(path) {
             // What is open and was never saved lies where its name says.
-            Err(_) if self.text(path).is_some() => Ok(Entry::File),
+            Err(_) if self.text(path).is_some() => Ok(FolderEntry::File),
             Err(error) => Err(error),
-            Ok(metadata) if metadata.is_file() => Ok(Entry::File),
-            Ok(metadata) if metadata.is_dir() => Ok(Entry::Folder),
-            Ok(_) => Ok(Entry::Special),
+            Ok(metadata) if metadata.is_file() => Ok(FolderEntry::File),
+            Ok(metadata) if metadata.is_dir() => Ok(FolderEntry::Folder),
+            Ok(_) => Ok(FolderEntry::Special),
         }
     }
 
     /// Whether there is a file.
     pub(super) fn is_file(&self, path: &Path) -> bool {
-        self.entry(path).is_ok_and(|entry| entry == Entry::File)
+        self.entry(path)
+            .is_ok_and(|entry| entry == FolderEntry::File)
     }
 
     /// The one path of what is there, all links resolved; an empty path is the current folder.
@@ -191,10 +192,10 @@ impl Disk {
     }
 
     /// The names in a folder, listed once: calls of a program that is missing would list it each time.
-    pub(super) fn listing(&self, folder: &Path) -> Arc<Listing> {
+    pub(super) fn listing(&self, folder: &Path) -> Arc<FolderListing> {
         let mut known = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
         let listing = known.entry(folder.to_owned()).or_insert_with(|| {
-            let mut names = Listing::new();
+            let mut names = FolderListing::new();
             for name in self.names(folder) {
                 if let Some(text) = name.to_str() {
                     names.entry(text.to_lowercase()).or_default().push(name);
@@ -232,8 +233,8 @@ impl Disk {
             (None, _) if self.is_absent(path) => Err(io::ErrorKind::NotFound.into()),
             (None, Kind::System(_) | Kind::Revision(_)) => read_bytes(path).map(decode),
             (None, Kind::Memory(disk)) => Err(match disk.entry(path)? {
-                Entry::Folder => io::ErrorKind::IsADirectory.into(),
-                Entry::File | Entry::Special => io::ErrorKind::NotFound.into(),
+                FolderEntry::Folder => io::ErrorKind::IsADirectory.into(),
+                FolderEntry::File | FolderEntry::Special => io::ErrorKind::NotFound.into(),
             }),
         }
     }
@@ -284,7 +285,7 @@ mod tests {
         assert_eq!(of("new.nc"), Some("deep/../new.nc"));
         assert_eq!(of("other.nc"), None);
         assert_eq!(Disk::default().text(&path("a.nc")), None);
-        assert_eq!(disk.entry(&path("new.nc")).ok(), Some(Entry::File));
+        assert_eq!(disk.entry(&path("new.nc")).ok(), Some(FolderEntry::File));
         assert!(disk.real(&path("new.nc")).unwrap().ends_with("new.nc"));
     }
 

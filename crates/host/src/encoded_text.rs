@@ -12,7 +12,7 @@ pub struct EncodedText {
     bytes: Vec<u8>,
     text: String,
     /// Lines of one code page, in their order; there is one at least.
-    stretches: Vec<Stretch>,
+    stretches: Vec<EncodedLines>,
 }
 
 /// A replacement that the code page of the file cannot write.
@@ -22,7 +22,7 @@ pub struct NotEncodable(pub String);
 
 /// Lines of one code page.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct EncodedLines {
     page: &'static Encoding,
     /// Offset in the text.
     text: usize,
@@ -84,8 +84,8 @@ impl EncodedText {
 }
 
 /// Returns the code pages of the lines of a file, as [`decode`] takes them.
-fn stretches(bytes: &[u8]) -> Vec<Stretch> {
-    let stretch = |page, text, bytes| Stretch { page, text, bytes };
+fn stretches(bytes: &[u8]) -> Vec<EncodedLines> {
+    let stretch = |page, text, bytes| EncodedLines { page, text, bytes };
     if let Some((page, mark)) = wide(bytes) {
         return vec![stretch(page, 0, mark)];
     }

@@ -10,7 +10,7 @@ use super::allowed_roots::{AllowedRoots, OutsidePolicy};
 use super::disk::Disk;
 use super::input::{Input, Naming};
 use super::open_text::OpenText;
-use super::paths::{Entry, normal, spelt_as};
+use super::paths::{FolderEntry, normal, spelt_as};
 use super::registry::{FileRegistry, PROGRAM};
 use frictcomp::session::{Finder, NoProgram};
 use frictcomp::text::SourceFile;
@@ -155,9 +155,9 @@ impl ProgramFinder {
             return Err(NoProgram::Outside);
         }
         match entry {
-            Entry::File => Ok(path),
-            Entry::Folder => Err(NoProgram::Unusable("is a folder".to_owned())),
-            Entry::Special => Err(NoProgram::Unusable("is not a regular file".to_owned())),
+            FolderEntry::File => Ok(path),
+            FolderEntry::Folder => Err(NoProgram::Unusable("is a folder".to_owned())),
+            FolderEntry::Special => Err(NoProgram::Unusable("is not a regular file".to_owned())),
         }
     }
 
@@ -168,10 +168,10 @@ impl ProgramFinder {
         match self.disk.entry(&exact) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             // A folder of that name may stand beside a file that is meant.
-            Ok(Entry::Folder | Entry::Special) => {
+            Ok(FolderEntry::Folder | FolderEntry::Special) => {
                 return Some(self.spelled(folder, name).unwrap_or(exact));
             }
-            Ok(Entry::File) | Err(_) => return Some(exact),
+            Ok(FolderEntry::File) | Err(_) => return Some(exact),
         }
         if Path::new(name).has_root() {
             return None;
@@ -192,7 +192,7 @@ impl ProgramFinder {
             let disk = self.disk.clone();
             let wanted = |path: &PathBuf| {
                 let entry = disk.entry(path);
-                entry.is_ok_and(|entry| (entry == Entry::File) == is_last)
+                entry.is_ok_and(|entry| (entry == FolderEntry::File) == is_last)
             };
             let exact = path.join(part);
             if wanted(&exact) {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::open_text::OpenText;
-use super::paths::{Entry, normal};
+use super::paths::{FolderEntry, normal};
 
 /// Texts by their paths from the root on, and the folders that these paths name.
 #[derive(Debug, Default)]
@@ -49,12 +49,12 @@ impl MemoryDisk {
     }
 
     /// Returns the entry of a path.
-    pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
+    pub(super) fn entry(&self, path: &Path) -> io::Result<FolderEntry> {
         let path = Self::absolute(path);
         if self.texts.contains_key(&path) {
-            Ok(Entry::File)
+            Ok(FolderEntry::File)
         } else if self.folders.contains_key(&path) {
-            Ok(Entry::Folder)
+            Ok(FolderEntry::Folder)
         } else {
             Err(io::ErrorKind::NotFound.into())
         }
@@ -85,15 +85,15 @@ mod tests {
         };
         let disk = MemoryDisk::new([text("b/c/d.nc"), text("a.nc"), text("b/../e.nc")]);
         let entry = |path: &str| disk.entry(Path::new(path)).ok();
-        assert_eq!(entry("a.nc"), Some(Entry::File));
-        assert_eq!(entry("/b/./c/x/../d.nc"), Some(Entry::File));
-        assert_eq!(entry("b/c"), Some(Entry::Folder));
-        assert_eq!(entry(""), Some(Entry::Folder));
+        assert_eq!(entry("a.nc"), Some(FolderEntry::File));
+        assert_eq!(entry("/b/./c/x/../d.nc"), Some(FolderEntry::File));
+        assert_eq!(entry("b/c"), Some(FolderEntry::Folder));
+        assert_eq!(entry(""), Some(FolderEntry::Folder));
         assert_eq!(entry("B"), None);
         assert_eq!(disk.names(Path::new("")), ["a.nc", "b", "e.nc"]);
         assert_eq!(disk.names(Path::new("b/c")), ["d.nc"]);
         assert_eq!(disk.names(Path::new("a.nc")), [""; 0]);
         let none = MemoryDisk::new([]);
-        assert_eq!(none.entry(Path::new("/")).ok(), Some(Entry::Folder));
+        assert_eq!(none.entry(Path::new("/")).ok(), Some(FolderEntry::Folder));
     }
 }

@@ -28,17 +28,17 @@ pub struct OutputFiles {
 #[derive(Debug, Clone)]
 pub struct OutputFile {
     path: Arc<Path>,
-    place: Arc<Mutex<Place>>,
+    place: Arc<Mutex<OutputPlace>>,
 }
 
-enum Place {
+enum OutputPlace {
     /// A device or a pipe, which cannot be replaced.
     Open(Box<dyn Write + Send>),
     /// Beside the file whose place it takes.
     Beside(AtomicFile),
 }
 
-impl fmt::Debug for Place {
+impl fmt::Debug for OutputPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(_) => f.write_str("Open"),
@@ -81,7 +81,7 @@ impl OutputFiles {
         if is_device(path) {
             let file = std::fs::File::options().append(true).open(path);
             let file = file.map_err(|error| HostError::write(path, error))?;
-            return Ok(self.keep(path, Place::Open(Box::new(file))));
+            return Ok(self.keep(path, OutputPlace::Open(Box::new(file))));
         }
         self.claim(name, path, replaces);
         self.begin(path)
@@ -103,7 +103,7 @@ impl OutputFiles {
     pub fn begin(&mut self, path: &Path) -> Result<OutputFile, HostError> {
         let beside = AtomicFile::begin(path).map_err(|error| HostError::write(path, error))?;
         take_away_left(&beside, &mut self.swept);
-        Ok(self.keep(path, Place::Beside(beside)))
+        Ok(self.keep(path, OutputPlace::Beside(beside)))
     }
 
     /// The inputs are known: says which output would destroy one, before anything runs.
@@ -126,7 +126,7 @@ impl OutputFiles {
         self.registry.check(&self.claims, self.compared)?;
         // All take their place, or none.
         for file in &self.open {
-            if let Place::Beside(beside) = &*file.place() {
+            if let OutputPlace::Beside(beside) = &*file.place() {
                 beside
                     .check_place()
                     .map_err(|error| HostError::write(&file.path, error))?;
@@ -134,7 +134,7 @@ impl OutputFiles {
         }
         let mut in_place = Placed::default();
         for file in &self.open {
-            if let Place::Beside(beside) = &mut *file.place() {
+            if let OutputPlace::Beside(beside) = &mut *file.place() {
                 in_place.take_place(beside, &file.path)?;
                 placed(&file.path);
             }
@@ -142,7 +142,7 @@ impl OutputFiles {
         in_place.settle()
     }
 
-    fn keep(&mut self, path: &Path, place: Place) -> OutputFile {
+    fn keep(&mut self, path: &Path, place: OutputPlace) -> OutputFile {
         let file = OutputFile {
             path: path.into(),
             place: Arc::new(Mutex::new(place)),
@@ -155,16 +155,16 @@ impl OutputFiles {
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = match &mut *self.place() {
-            Place::Open(writer) => writer.write(bytes),
-            Place::Beside(file) => file.write(bytes),
+            OutputPlace::Open(writer) => writer.write(bytes),
+            OutputPlace::Beside(file) => file.write(bytes),
         };
         written.map_err(|error| self.named(error))
     }
 
     fn flush(&mut self) -> io::Result<()> {
         let flushed = match &mut *self.place() {
-            Place::Open(writer) => writer.flush(),
-            Place::Beside(file) => file.flush(),
+            OutputPlace::Open(writer) => writer.flush(),
+            OutputPlace::Beside(file) => file.flush(),
         };
         flushed.map_err(|error| self.named(error))
     }
@@ -175,7 +175,7 @@ impl OutputFile {
     pub fn open(path: &Path, writer: Box<dyn Write + Send>) -> Self {
         Self {
             path: path.into(),
-            place: Arc::new(Mutex::new(Place::Open(writer))),
+            place: Arc::new(Mutex::new(OutputPlace::Open(writer))),
         }
     }
 
@@ -185,8 +185,8 @@ impl OutputFile {
     /// It cannot be written.
     pub fn sync(&self) -> Result<(), HostError> {
         let synced = match &mut *self.place() {
-            Place::Open(writer) => writer.flush(),
-            Place::Beside(beside) => beside.sync(),
+            OutputPlace::Open(writer) => writer.flush(),
+            OutputPlace::Beside(beside) => beside.sync(),
         };
         synced.map_err(|error| HostError::write(&self.path, error))
     }
@@ -199,7 +199,7 @@ impl OutputFile {
         self.write_all(bytes).map_err(HostError::Output)
     }
 
-    fn place(&self) -> MutexGuard<'_, Place> {
+    fn place(&self) -> MutexGuard<'_, OutputPlace> {
         self.place.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Entry of a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Entry {
+pub(super) enum FolderEntry {
     /// A file, or a text that stands in for one.
     File,
     /// A folder.

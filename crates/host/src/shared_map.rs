@@ -11,18 +11,18 @@ use fnv::FnvHasher;
 const PARTS: usize = 256;
 
 /// The entries whose keys have one remainder.
-type Part<K, V> = Arc<BTreeMap<K, V>>;
+type Shard<K, V> = Arc<BTreeMap<K, V>>;
 
 /// A map whose copies share all that did not change, and stay as they are (R12.16).
 #[derive(Debug)]
 pub struct SharedMap<K, V> {
-    parts: Arc<[Part<K, V>; PARTS]>,
+    parts: Arc<[Shard<K, V>; PARTS]>,
     length: usize,
 }
 
 impl<K, V> Default for SharedMap<K, V> {
     fn default() -> Self {
-        let parts = std::array::from_fn(|_| Part::default());
+        let parts = std::array::from_fn(|_| Shard::default());
         Self {
             parts: Arc::new(parts),
             length: 0,

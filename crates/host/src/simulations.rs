@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::watch::{Done, Watch};
 use super::workers;
 use frictcomp_physics::circle::{
-    CircleError, CircularTest, Comparison, Heights, Job, LearnedRound, Learner, Proposal,
+    CircleError, CircularTest, Comparison, Heights, LapRun, LearnedRound, Learner, Proposal,
     Simulations, Task, Tuned, tune_with,
 };
 
@@ -14,11 +14,11 @@ use frictcomp_physics::circle::{
 /// # Errors
 /// A circle that cannot be simulated, or a plant that is unstable on it.
 pub fn compare(test: &CircularTest, watch: &Watch) -> Result<Comparison, CircleError> {
-    let runs = Runs {
+    let runs = SimulationRuns {
         of: "circle",
         watch,
     };
-    let laps = runs.of_each(&Job::ALL, |&job| {
+    let laps = runs.of_each(&LapRun::ALL, |&job| {
         runs.wanted()?;
         test.run(job)
     });
@@ -35,7 +35,7 @@ pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
     tune_with(
         task,
         &Tuning {
-            runs: Runs { of: "tune", watch },
+            runs: SimulationRuns { of: "tune", watch },
             done: AtomicUsize::new(0),
             all: task.expected_trials(),
         },
@@ -52,7 +52,7 @@ pub fn learn(
     watch: &Watch,
 ) -> Result<Option<Proposal>, CircleError> {
     let simulations = Tuning {
-        runs: Runs { of: "list", watch },
+        runs: SimulationRuns { of: "list", watch },
         done: AtomicUsize::new(0),
         all: Learner::expected_trials(rounds.len()),
     };
@@ -61,7 +61,7 @@ pub fn learn(
 
 /// The simulations of a tuning, which goes on until nothing gets better.
 struct Tuning<'a> {
-    runs: Runs<'a>,
+    runs: SimulationRuns<'a>,
     /// Those that were made in earlier steps.
     done: AtomicUsize,
     /// As many as there will be, about.
@@ -69,12 +69,12 @@ struct Tuning<'a> {
 }
 
 /// Runs of a simulation, and their watcher.
-struct Runs<'a> {
+struct SimulationRuns<'a> {
     of: &'static str,
     watch: &'a Watch,
 }
 
-impl Runs<'_> {
+impl SimulationRuns<'_> {
     /// Refuses a run that nobody wants any more.
     fn wanted(&self) -> Result<(), CircleError> {
         if self.watch.is_stopped() {

@@ -12,7 +12,7 @@ use super::memory::is_there_for_a_thread;
 const AHEAD: usize = 16;
 
 /// Something to work on, and where its result goes.
-type Job<T, R> = (T, SyncSender<R>);
+type WorkItem<T, R> = (T, SyncSender<R>);
 
 /// As many workers as there are processors for this process.
 pub fn processors() -> NonZeroUsize {
@@ -51,7 +51,7 @@ pub fn in_order<T: Send, R: Send>(
         let _ = items.map(work).try_for_each(take);
         return;
     }
-    let (jobs, queue) = mpsc::channel::<Job<T, R>>();
+    let (jobs, queue) = mpsc::channel::<WorkItem<T, R>>();
     let queue = Mutex::new(queue);
     let (queue, work) = (&queue, &work);
     std::thread::scope(|scope| {
@@ -103,7 +103,7 @@ pub fn in_order<T: Send, R: Send>(
 }
 
 /// The next job; `None` when there will be none.
-fn next<T, R>(queue: &Mutex<Receiver<Job<T, R>>>) -> Option<Job<T, R>> {
+fn next<T, R>(queue: &Mutex<Receiver<WorkItem<T, R>>>) -> Option<WorkItem<T, R>> {
     let queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
     queue.recv().ok()
 }

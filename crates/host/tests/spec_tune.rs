@@ -11,8 +11,8 @@ use frictcomp::lists::Points;
 use frictcomp::text::SourceFile;
 use frictcomp_host::{Watch, tune as tune_on_all_processors};
 use frictcomp_physics::circle::{
-    Aim, Circle, CircleError, CircularTest, Comparison, Direction, FeedResult, Job, Ranges,
-    Shaping, Task, Tuned, TunedAxis, tune,
+    Circle, CircleError, CircularTest, Comparison, Direction, FeedResult, LapRun, Ranges, Shaping,
+    Task, Tuned, TunedAxis, TuningAim, tune,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset, plant_list};
@@ -30,7 +30,7 @@ fn task(plant: Plant, feeds: &[f64]) -> Task {
         reading: Reading::default(),
         points: Points::Whole,
         shaping: Shaping::None,
-        aim: Aim::Plant,
+        aim: TuningAim::Plant,
     }
 }
 
@@ -46,7 +46,7 @@ fn left(task: &Task, feed: f64, axes: &[TunedAxis; 2]) -> f64 {
         compensation: axes.each_ref().map(|axis| axis.compensation.clone()),
         reading: task.reading,
     };
-    let job = Job {
+    let job = LapRun {
         compensation: Switched::On,
         direction: Direction::Ccw,
     };
@@ -155,7 +155,7 @@ fn what_is_said_of_a_list_holds_between_its_circles() {
             compensation: tuned.axes.each_ref().map(|axis| axis.compensation.clone()),
             reading: task.reading,
         };
-        let job = Job {
+        let job = LapRun {
             compensation: Switched::On,
             direction: Direction::Ccw,
         };
@@ -176,10 +176,10 @@ fn what_is_said_of_a_list_holds_between_its_circles() {
 fn a_robust_list_is_taken_only_where_it_gains() {
     // R5.29
     let mut task = task(Preset::Mid.plant(), &[9000.0]);
-    task.aim = Aim::Robust;
+    task.aim = TuningAim::Robust;
     let tuned = tune_on_all_processors(&task, &Watch::default()).expect("circles");
     let robust = tuned.robust.expect("a comparison");
-    let all = |it: &frictcomp_physics::circle::Checked| {
+    let all = |it: &frictcomp_physics::circle::RemainingGlitch| {
         it.glitch_on_um
             .max(it.glitch_half_stiff_um)
             .max(it.glitch_double_stiff_um)

@@ -11,7 +11,7 @@
 #[path = "independent/plant.rs"]
 mod plant;
 
-use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, Job};
+use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, LapRun};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Preset};
 
@@ -80,7 +80,7 @@ fn a_glitch_is_what_an_own_simulation_leaves_in_its_window() {
                 compensation: [None, None],
                 reading: Reading::default(),
             };
-            let job = Job {
+            let job = LapRun {
                 compensation: Switched::Off,
                 direction: Direction::Ccw,
             };

@@ -3,7 +3,7 @@
 
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Circle, CircleError, CircularTest, Comparison, Diagnosis, Direction, Finding, FoundAt, Job,
+    Circle, CircleError, CircularTest, Comparison, Diagnosis, Direction, Finding, FoundAt, LapRun,
     Method, PlaneAxis, diagnose, diagnose_comparison,
 };
 use frictcomp_physics::current::{Reading, Switched};
@@ -43,7 +43,7 @@ fn is_backlash(it: &Diagnosis) -> bool {
 
 /// The counter-clockwise circle without compensation; the clockwise one is its mirror image.
 fn alone(test: &CircularTest) -> Result<Comparison, CircleError> {
-    let job = Job {
+    let job = LapRun {
         compensation: Switched::Off,
         direction: Direction::Ccw,
     };

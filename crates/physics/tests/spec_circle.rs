@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 use frictcomp::lists::{FrictionList, Points};
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Aim, Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
-    FreeParameter, Job, Lap, Method, PathFigures, PathShape, Ranges, Shaping, Task, Tuned,
-    diagnose, diagnose_comparison, tune,
+    Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
+    FreeParameter, Lap, LapRun, Method, PathFigures, PathShape, Ranges, Shaping, Task, Tuned,
+    TuningAim, diagnose, diagnose_comparison, tune,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{
@@ -40,7 +40,7 @@ fn lists(test: &mut CircularTest) -> impl Iterator<Item = &mut FrictionList> {
 }
 
 fn lap(test: &CircularTest, compensation: Switched, direction: Direction) -> Lap {
-    test.run(Job {
+    test.run(LapRun {
         compensation,
         direction,
     })
@@ -385,10 +385,10 @@ fn circles_beyond_all_bounds_are_refused() {
     // A loop that does not settle is said so.
     let mut test = circular_test(5000.0);
     test.plant.x.position_gain_per_s = 1900.0;
-    let limited = test.run(Job::ALL[0]).expect("held by the largest force");
+    let limited = test.run(LapRun::ALL[0]).expect("held by the largest force");
     assert!(limited.saturated_cycles > 1000, "{limited:?}");
     test.plant.x.max_force_n = 1e12;
-    let unstable = test.run(Job::ALL[0]).expect_err("an unstable loop");
+    let unstable = test.run(LapRun::ALL[0]).expect_err("an unstable loop");
     assert!(
         matches!(unstable, CircleError::Unstable { axis: "X", .. }),
         "{unstable}"
@@ -454,7 +454,7 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
         reading: Reading::default(),
         points: Points::Whole,
         shaping: Shaping::None,
-        aim: Aim::Plant,
+        aim: TuningAim::Plant,
     };
     let tuned: Tuned = tune(&task).expect("a circle");
     let [x, y] = &tuned.axes;
@@ -517,7 +517,7 @@ proptest! {
             plant,
             reading: Reading::default(),
         };
-        match test.run(Job::ALL[2]) {
+        match test.run(LapRun::ALL[2]) {
             Ok(lap) => {
                 let comparison = Comparison::of([lap]);
                 let path = comparison.on.figures.ccw.expect("a path");

@@ -3,8 +3,8 @@
 use frictcomp::lists::Points;
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Aim, Circle, CircularTest, Comparison, Direction, FreeParameter, Job, Method, Ranges, Shaping,
-    Task, Tuned, tune,
+    Circle, CircularTest, Comparison, Direction, FreeParameter, LapRun, Method, Ranges, Shaping,
+    Task, Tuned, TuningAim, tune,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant};
@@ -33,7 +33,7 @@ fn glitch(plant: Plant, circle: Circle, compensation: Switched) -> f64 {
         model: FrictionModel::Lugre,
         reading: Reading::default(),
     };
-    let job = Job {
+    let job = LapRun {
         compensation,
         direction: Direction::Ccw,
     };
@@ -153,7 +153,7 @@ fn mp1511_and_mp1512_are_tuned() {
         reading: Reading::default(),
         points: Points::Whole,
         shaping: Shaping::Allowed,
-        aim: Aim::Plant,
+        aim: TuningAim::Plant,
     };
     let found = |tuned: &Tuned| *tuned.axes[0].stiction().expect("stiction");
     let tuned = tune(&task(Ranges::default())).expect("a circle");

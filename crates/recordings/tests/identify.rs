@@ -20,7 +20,8 @@ use std::fmt::Write as _;
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::TablePoint;
 use frictcomp_recordings::identify::{
-    FrictionCurve, Identified, IdentifyError, IdentifyOptions, Track, TrackError, Wanted, identify,
+    FrictionCurve, Identified, IdentifyError, IdentifyOptions, RequestedPoints, Track, TrackError,
+    identify,
 };
 use plant::{ASYMMETRY, Bench, FC, FV, Recorded, UNIT, VS, WEIGHT};
 
@@ -255,7 +256,7 @@ fn few_points_stay_close_to_the_curve() {
     };
     let track = track(bench.record());
     for (points, limit) in [(4, 1.7), (5, 0.9), (8, 0.3), (20, 0.04)] {
-        let options = with(Wanted::Points(points));
+        let options = with(RequestedPoints::Points(points));
         let found = identify(&track, &options).expect("friction");
         assert!(found.points.len() <= points);
         assert_eq!(found.points[0].input, 0.0);
@@ -275,7 +276,7 @@ fn few_points_stay_close_to_the_curve() {
     }
     let found = identify(
         &track,
-        &with(Wanted::Error {
+        &with(RequestedPoints::Error {
             part: 0.01,
             most: 20,
         }),
@@ -285,7 +286,7 @@ fn few_points_stay_close_to_the_curve() {
     assert!(found.point_error * UNIT / FC <= 0.01);
 }
 
-fn with(wanted: Wanted) -> IdentifyOptions {
+fn with(wanted: RequestedPoints) -> IdentifyOptions {
     IdentifyOptions {
         wanted,
         ..IdentifyOptions::default()

@@ -152,7 +152,7 @@ pub fn fitted(text: &str, width: usize) -> String {
 
 /// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
 /// that only the surroundings of the span make sense. Hidden characters have pictures.
-struct Shown<'a> {
+struct ShownText<'a> {
     text: Cow<'a, str>,
     /// The part of the place's text that is shown, without pictures.
     part: &'a str,
@@ -162,7 +162,7 @@ struct Shown<'a> {
     mark: &'static str,
 }
 
-impl Shown<'_> {
+impl ShownText<'_> {
     fn span(&self, place: &Place) -> Range<usize> {
         let shift = |offset: u32| {
             let offset = usize::try_from(offset).unwrap_or(usize::MAX);
@@ -177,10 +177,10 @@ impl Shown<'_> {
 /// Number of characters of a long line shown on either side of the span.
 const SURROUNDINGS: usize = 160;
 
-fn shown(place: &Place) -> Shown<'_> {
+fn shown(place: &Place) -> ShownText<'_> {
     let text = &*place.text;
     if text.contains('\n') || text.len() <= 4 * SURROUNDINGS {
-        return Shown {
+        return ShownText {
             text: visible(text),
             part: text,
             skipped: 0,
@@ -195,7 +195,7 @@ fn shown(place: &Place) -> Shown<'_> {
     let before = if start > 0 { "…" } else { "" };
     let after = if end < text.len() { "…" } else { "" };
     let part = &text[start..end];
-    Shown {
+    ShownText {
         text: Cow::Owned(format!("{before}{}{after}", visible(part))),
         part,
         skipped: start,
@@ -215,7 +215,7 @@ fn floor(text: &str, offset: usize) -> usize {
 fn element<'a>(
     group: Group<'a>,
     place: &'a Place,
-    annotations: impl FnOnce(&Shown<'a>) -> Vec<Annotation<'a>>,
+    annotations: impl FnOnce(&ShownText<'a>) -> Vec<Annotation<'a>>,
 ) -> Group<'a> {
     if place.text.is_empty() {
         return group.element(Origin::path(visible_line(&place.file)));
@@ -237,7 +237,7 @@ fn element<'a>(
     )
 }
 
-fn annotate<'a>(shown: &Shown<'_>, label: &'a Label) -> Annotation<'a> {
+fn annotate<'a>(shown: &ShownText<'_>, label: &'a Label) -> Annotation<'a> {
     AnnotationKind::Context
         .span(shown.span(&label.place))
         .label(visible_line(&label.text))

@@ -148,7 +148,7 @@ fn push_curve(out: &mut String, found: &Identified) {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct IdentifyDocument<'a> {
     schema: u32,
     axis: Option<&'a str>,
     points: Vec<PointRecord>,
@@ -222,7 +222,7 @@ pub(super) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
         fv: fit.viscous,
         chi_square: fit.chi_square,
     };
-    Document {
+    IdentifyDocument {
         schema: 1,
         axis: report.axis.as_deref(),
         points: found

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use frictcomp::timeline::{Record, Sink};
 
 use super::output::{Gathered, Output};
-use super::records::{Encoder, Frame};
+use super::records::{Encoder, RecordFrame};
 use super::view::View;
 
 /// Text before the first record.
@@ -24,7 +24,7 @@ pub struct Json<W> {
 impl<W: Write> Json<W> {
     /// A timeline in one document.
     pub fn new(writer: W, view: View) -> Self {
-        let frame = Frame {
+        let frame = RecordFrame {
             before: b",\n",
             after: b"",
         };

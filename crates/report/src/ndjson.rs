@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use frictcomp::timeline::{Record, Sink};
 
 use super::output::{Gathered, Output};
-use super::records::{Encoder, Frame};
+use super::records::{Encoder, RecordFrame};
 use super::view::View;
 
 /// Writes records as newline-delimited JSON.
@@ -19,7 +19,7 @@ pub struct Ndjson<W> {
 impl<W: Write> Ndjson<W> {
     /// A timeline of JSON lines.
     pub fn new(writer: W, view: View) -> Self {
-        let frame = Frame {
+        let frame = RecordFrame {
             before: b"",
             after: b"\n",
         };

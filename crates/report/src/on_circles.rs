@@ -96,7 +96,7 @@ pub fn render_text(report: &OnCirclesReport) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct OnCirclesDocument<'a> {
     schema: u32,
     axis: Option<&'a str>,
     points: Vec<PointRecord>,
@@ -117,7 +117,7 @@ pub fn render_json(report: &OnCirclesReport) -> String {
             input: speed * PER_MM,
             out: *friction,
         });
-    to_pretty(&Document {
+    to_pretty(&OnCirclesDocument {
         schema: 1,
         axis: report.axis.as_deref(),
         points: points.collect(),

@@ -10,7 +10,7 @@ use super::view::View;
 
 /// Text before and after an object.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct RecordFrame {
     pub(super) before: &'static [u8],
     pub(super) after: &'static [u8],
 }
@@ -43,12 +43,12 @@ impl KeptStates {
 #[derive(Debug)]
 pub(super) struct Encoder {
     view: View,
-    frame: Frame,
+    frame: RecordFrame,
     states: Option<KeptStates>,
 }
 
 impl Encoder {
-    pub(super) fn new(view: View, frame: Frame) -> Self {
+    pub(super) fn new(view: View, frame: RecordFrame) -> Self {
         Self {
             view,
             frame,

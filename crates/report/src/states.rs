@@ -94,16 +94,16 @@ pub fn render_text(report: &StatesReport) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a, T> {
+struct StatesDocument<'a, T> {
     schema: u32,
     working: &'a str,
     spread: Option<f64>,
-    speeds: Vec<Row<'a>>,
+    speeds: Vec<SpeedStateRecord<'a>>,
     states: Vec<State<'a, T>>,
 }
 
 #[derive(Serialize)]
-struct Row<'a> {
+struct SpeedStateRecord<'a> {
     /// In µm/s or 0.001°/s.
     v: f64,
     frictions: &'a [Option<[f64; 2]>],
@@ -124,12 +124,12 @@ pub fn render_json(report: &StatesReport) -> String {
         file: &found.name,
         identified: identify::record(found),
     });
-    let rows = report.compared.rows.iter().map(|row| Row {
+    let rows = report.compared.rows.iter().map(|row| SpeedStateRecord {
         v: row.speed * 1000.0,
         frictions: &row.frictions,
         spread: row.spread,
     });
-    to_pretty(&Document {
+    to_pretty(&StatesDocument {
         schema: 1,
         working: report.working_name(),
         spread: report.compared.widest().and_then(|it| it.spread),

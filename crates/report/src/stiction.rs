@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use frictcomp_physics::stiction::{Effect, Guideline, Quantity, Solution};
+use frictcomp_physics::stiction::{FeedEffect, Guideline, Quantity, Solution};
 
 /// The values as a table, what was computed with its formula, and what there is to say about them.
 pub fn render_stiction(solution: &Solution) -> String {
@@ -26,9 +26,11 @@ pub fn render_stiction(solution: &Solution) -> String {
         );
     }
     let effect = match solution.effect {
-        Effect::Acts => "the feed is at most MP1513: stiction is compensated, with feed precontrol",
-        Effect::TooFast => "the feed is above MP1513: stiction is not compensated",
-        Effect::Unknown => {
+        FeedEffect::Acts => {
+            "the feed is at most MP1513: stiction is compensated, with feed precontrol"
+        }
+        FeedEffect::TooFast => "the feed is above MP1513: stiction is not compensated",
+        FeedEffect::Unknown => {
             "stiction is compensated up to a feed of MP1513, and only with feed precontrol"
         }
     };

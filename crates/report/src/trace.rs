@@ -137,7 +137,7 @@ fn number(value: f64) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct TraceDocument<'a> {
     schema: u32,
     file: &'a str,
     layout: &'static str,
@@ -167,7 +167,7 @@ struct ChannelRecord<'a> {
 /// The channels for machines.
 pub fn render_json(report: &TraceReport<'_>) -> String {
     let recording = report.recording;
-    to_pretty(&Document {
+    to_pretty(&TraceDocument {
         schema: 1,
         file: &report.name,
         layout: recording.layout().as_str(),

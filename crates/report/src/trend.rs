@@ -110,13 +110,13 @@ fn sentence(report: &TrendReport, change: &FrictionChange) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct TrendDocument<'a> {
     schema: u32,
     axis: Option<&'a str>,
     unit: &'a str,
     dates: Vec<Dated<'a>>,
     changes: Vec<Changed<'a>>,
-    left_out: Vec<LeftOut<'a>>,
+    left_out: Vec<LeftOutRecord<'a>>,
 }
 
 #[derive(Serialize)]
@@ -140,7 +140,7 @@ struct Changed<'a> {
 }
 
 #[derive(Serialize)]
-struct LeftOut<'a> {
+struct LeftOutRecord<'a> {
     file: &'a str,
     reason: &'a str,
 }
@@ -172,7 +172,7 @@ pub fn render_json(report: &TrendReport) -> String {
         part: it.part,
         errors: it.errors,
     });
-    to_pretty(&Document {
+    to_pretty(&TrendDocument {
         schema: 1,
         axis: report.axis.as_deref(),
         unit: &report.unit,
@@ -181,7 +181,7 @@ pub fn render_json(report: &TrendReport) -> String {
         left_out: report
             .left_out
             .iter()
-            .map(|(file, reason)| LeftOut { file, reason })
+            .map(|(file, reason)| LeftOutRecord { file, reason })
             .collect(),
     })
 }

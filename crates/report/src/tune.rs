@@ -10,7 +10,7 @@ use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp_physics::circle::Checked;
+use frictcomp_physics::circle::RemainingGlitch;
 use frictcomp_physics::circle::Robust;
 use frictcomp_physics::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
 use frictcomp_physics::stiction::StictionParameters;
@@ -48,7 +48,7 @@ pub(crate) fn tuned_range(tuned: &Tuned) -> String {
 
 /// What was checked between the circles, and on machines that deviate from the plant (R5.29).
 fn checked(tuned: &Tuned) -> String {
-    let largest = |of: fn(&Checked) -> f64| tuned.check.iter().map(of).fold(0.0, f64::max);
+    let largest = |of: fn(&RemainingGlitch) -> f64| tuned.check.iter().map(of).fold(0.0, f64::max);
     let worst = tuned
         .check
         .iter()
@@ -181,7 +181,7 @@ fn list_line(list: &FrictionList, tuned: &TunedAxis) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct TuneDocument<'a> {
     schema: u32,
     #[serde(flatten)]
     first: PlantRecord<'a>,
@@ -197,11 +197,11 @@ struct PlantRecord<'a> {
     not_modelled: &'a [&'static str],
     trials: usize,
     /// Those of X.
-    parameters: Option<Parameters>,
+    parameters: Option<TunedParameters>,
     axes: AxisRecords,
     tuned_for: Accelerations,
     feeds: Vec<FeedResult>,
-    check: Vec<Checked>,
+    check: Vec<RemainingGlitch>,
     #[serde(skip_serializing_if = "Option::is_none")]
     robust: Option<Robust>,
     glitch_max: f64,
@@ -211,15 +211,15 @@ struct PlantRecord<'a> {
 #[derive(Serialize)]
 struct AxisRecords {
     #[serde(rename = "X")]
-    x: AxisRecord,
+    x: AxisTuningRecord,
     #[serde(rename = "Y")]
-    y: AxisRecord,
+    y: AxisTuningRecord,
 }
 
 #[derive(Serialize)]
-struct AxisRecord {
+struct AxisTuningRecord {
     /// `null` for an axis that nothing compensates.
-    parameters: Option<Parameters>,
+    parameters: Option<TunedParameters>,
     is_shaped: bool,
     /// Pairs of velocity and output; absent where there is no value list.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -229,12 +229,12 @@ struct AxisRecord {
 /// Those of a value list, or of stiction compensation.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Parameters {
+enum TunedParameters {
     List(Candidate),
     Stiction(StictionParameters),
 }
 
-impl Parameters {
+impl TunedParameters {
     fn of(axis: &TunedAxis) -> Option<Self> {
         Some(match axis.compensation.as_ref()? {
             Method::Current(list) => Self::List(Candidate::of(list)),
@@ -250,11 +250,11 @@ struct Accelerations {
     acceleration_max: f64,
 }
 
-impl AxisRecord {
+impl AxisTuningRecord {
     fn of(axis: &TunedAxis) -> Self {
         let pair = |point: &TablePoint| [point.input, point.output];
         Self {
-            parameters: Parameters::of(axis),
+            parameters: TunedParameters::of(axis),
             is_shaped: axis.is_shaped,
             table: axis
                 .list()
@@ -282,10 +282,10 @@ impl<'a> PlantRecord<'a> {
             reading: &report.reading,
             not_modelled: &report.not_modelled,
             trials: report.tuned.trials,
-            parameters: Parameters::of(x),
+            parameters: TunedParameters::of(x),
             axes: AxisRecords {
-                x: AxisRecord::of(x),
-                y: AxisRecord::of(y),
+                x: AxisTuningRecord::of(x),
+                y: AxisTuningRecord::of(y),
             },
             tuned_for: Accelerations {
                 acceleration_min,
@@ -299,8 +299,8 @@ impl<'a> PlantRecord<'a> {
     }
 }
 
-fn rounded(row: &Checked) -> Checked {
-    Checked {
+fn rounded(row: &RemainingGlitch) -> RemainingGlitch {
+    RemainingGlitch {
         acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
         glitch_off_um: round(row.glitch_off_um),
         glitch_on_um: round(row.glitch_on_um),
@@ -316,7 +316,7 @@ pub fn render_json(reports: &[TuneReport]) -> String {
     let Some((first, others)) = reports.split_first() else {
         return String::new();
     };
-    let document = Document {
+    let document = TuneDocument {
         schema: 1,
         first: PlantRecord::of(first),
         compared: others.iter().map(PlantRecord::of).collect(),

@@ -81,7 +81,7 @@ pub fn render_text(report: &VerifyReport) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct VerifyDocument<'a> {
     schema: u32,
     verdict: Vec<String>,
     scale: f64,
@@ -124,7 +124,7 @@ pub fn render_json(report: &VerifyReport) -> String {
         recorded: turn.recorded,
         predicted: turn.predicted,
     });
-    to_pretty(&Document {
+    to_pretty(&VerifyDocument {
         schema: 1,
         verdict: verified.verdict(),
         scale: verified.scale,

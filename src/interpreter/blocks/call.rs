@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::Code;
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -19,7 +19,7 @@ impl Interpreter {
         &mut self,
         call: &Call,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Wanted>, Box<Fault>> {
+    ) -> Result<Option<WantedCall>, Box<Fault>> {
         let name = self.called_name(call.name, at)?;
         let mut own = BTreeMap::new();
         for (index, operand) in &call.arguments {
@@ -29,7 +29,7 @@ impl Interpreter {
             self.value(*operand, at)?;
         }
         match name {
-            Value::Text(name) => Ok(Some(Wanted {
+            Value::Text(name) => Ok(Some(WantedCall {
                 scope: call.scope,
                 name: name.trim().to_owned(),
                 own,

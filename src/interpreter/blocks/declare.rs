@@ -4,7 +4,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::state::State;
-use crate::interpreter::values::target::Place;
+use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Declaration, Hash, Operand};
@@ -20,18 +20,18 @@ impl Interpreter {
                 continue;
             };
             match self.target_place(place, at)? {
-                Place::Parameter(_, index) => {
+                AssignedPlace::Parameter(_, index) => {
                     self.state.write_anything();
                     self.state.control.memory.delete_parameter(index);
                 }
-                Place::Variable(name) => {
+                AssignedPlace::Variable(name) => {
                     self.state.write_anything();
                     self.state.control.memory.delete(&name);
                 }
-                unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
+                unknown @ (AssignedPlace::Elements(_, _) | AssignedPlace::Parameters(_)) => {
                     self.write(unknown, Value::Number(0.0));
                 }
-                Place::Nowhere => {}
+                AssignedPlace::Nowhere => {}
             }
         }
         Ok(())

@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
-use crate::interpreter::run::step::Step;
+use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
@@ -64,7 +64,7 @@ impl Interpreter {
         flow: &Flow,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let Some(frame) = self.state.control.frames.running_mut() else {
             return Ok(None);
         };
@@ -76,7 +76,7 @@ impl Interpreter {
             return Ok(None);
         }
         let links = index.links(entry);
-        let after = Step::Jump(links.end + 1);
+        let after = ControlStep::Jump(links.end + 1);
         if let Some(level) = self.split_level() {
             return Ok(self.skip_unknown(entry..links.end, &skip_level(level), span, at));
         }
@@ -104,7 +104,7 @@ impl Interpreter {
                     self.skip_unknown(entry..links.end, cause, span, at)
                 } else {
                     self.state.control.seek(Seeking::Case(value));
-                    Some(Step::Jump(links.next))
+                    Some(ControlStep::Jump(links.next))
                 }
             }
             Flow::Case(operand) => match seeking {
@@ -116,7 +116,7 @@ impl Interpreter {
                         None
                     } else {
                         self.state.control.seek(Seeking::Case(wanted));
-                        Some(Step::Jump(links.next))
+                        Some(ControlStep::Jump(links.next))
                     }
                 }
                 // The case before ends without `$BREAK`: the control goes on with this one.
@@ -143,7 +143,7 @@ impl Interpreter {
             Flow::While(condition) | Flow::Do(Some(condition)) => {
                 self.loop_while(*condition, entry..links.end, span, at)?
             }
-            Flow::EndWhile | Flow::EndDo(None) => Some(Step::Jump(links.opener)),
+            Flow::EndWhile | Flow::EndDo(None) => Some(ControlStep::Jump(links.opener)),
             Flow::EndDo(Some(condition)) => {
                 self.repeat_where((*condition, Truth::Holds), links.opener..entry, at)?
             }
@@ -151,7 +151,7 @@ impl Interpreter {
                 self.repeat_where((*condition, Truth::Fails), links.opener..entry, at)?
             }
             Flow::Break => Some(after),
-            Flow::Continue => Some(Step::Jump(links.end)),
+            Flow::Continue => Some(ControlStep::Jump(links.end)),
             Flow::Goto(target) => self.jump(target, span, at)?,
             Flow::Default | Flow::EndIf | Flow::EndSwitch | Flow::Do(None) | Flow::Repeat => None,
         })
@@ -163,7 +163,7 @@ impl Interpreter {
         next: EntryIndex,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
             (Value::Unknown(cause), _) => {
@@ -178,7 +178,7 @@ impl Interpreter {
             (_, Some(true)) => None,
             (_, Some(false)) => {
                 self.state.control.seek(Seeking::Condition);
-                Some(Step::Jump(next))
+                Some(ControlStep::Jump(next))
             }
             (_, None) => return Err(no_condition(span)),
         })
@@ -190,7 +190,7 @@ impl Interpreter {
         region: Range<EntryIndex>,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
             (Value::Unknown(cause), _) => {
@@ -201,7 +201,7 @@ impl Interpreter {
                 self.skip_unknown(region, cause, span, at)
             }
             (_, Some(true)) => None,
-            (_, Some(false)) => Some(Step::Jump(region.end + 1)),
+            (_, Some(false)) => Some(ControlStep::Jump(region.end + 1)),
             (_, None) => return Err(no_condition(span)),
         })
     }
@@ -212,7 +212,7 @@ impl Interpreter {
         (condition, repeats): (Operand, Truth),
         region: Range<EntryIndex>,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = self.value(condition, at)?;
         if let Value::Unknown(cause) = &value {
             let span = flow_span(at.block);
@@ -226,7 +226,7 @@ impl Interpreter {
             return Ok(self.skip_unknown(region, cause, span, at));
         }
         let is_repeated = value.truth() == Some(repeats == Truth::Holds);
-        Ok(is_repeated.then_some(Step::Jump(region.start)))
+        Ok(is_repeated.then_some(ControlStep::Jump(region.start)))
     }
 
     /// Goes through the loop once more, or leaves it when the counter passed the end.
@@ -236,7 +236,7 @@ impl Interpreter {
         opener: EntryIndex,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let counter = &count.counter;
         let end = self.value(count.end, at)?;
         let step = self.value(count.step, at)?;
@@ -262,7 +262,7 @@ impl Interpreter {
         } else {
             step < 0.0 && counter < end
         };
-        Ok(Some(Step::Jump(if passed {
+        Ok(Some(ControlStep::Jump(if passed {
             region_end + 1
         } else {
             opener + 1
@@ -275,12 +275,12 @@ impl Interpreter {
         opener: EntryIndex,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Ok(None);
         };
         let parsed = self.programs.parsed(unit, opener);
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let head = at.other(&parsed, &shown);
         let statement = head.block.items.iter().find_map(|item| match item {
             Item::Flow(
@@ -315,7 +315,7 @@ impl Interpreter {
             step,
         };
         let mut step = self.pass(&count, opener, span, &head).map_err(shown)?;
-        if let Some(Step::Jump(entry)) = &mut step {
+        if let Some(ControlStep::Jump(entry)) = &mut step {
             // A jump into the loop found no opener before it; the index knows it all the same.
             *entry = (*entry).max(opener + 1);
         }
@@ -327,7 +327,7 @@ impl Interpreter {
         target: &BlockReference,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Result<Option<Step>, Box<Fault>> {
+    ) -> Result<Option<ControlStep>, Box<Fault>> {
         let value = match target {
             BlockReference::Number(operand) => self.value(*operand, at)?,
             BlockReference::Label(name) => Value::Text(name.of(at.text).into()),
@@ -351,7 +351,7 @@ impl Interpreter {
             .index(frame.unit)
             .label(frame.section, label.clone());
         match found {
-            Some(entry) => Ok(Some(Step::Jump(entry))),
+            Some(entry) => Ok(Some(ControlStep::Jump(entry))),
             None if at.macro_depth == 0
                 && matches!(
                     target,
@@ -404,7 +404,7 @@ impl Interpreter {
         cause: &Arc<str>,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Option<Step> {
+    ) -> Option<ControlStep> {
         let whole = self.current_block();
         let region = match flow {
             Flow::Goto(_) => {

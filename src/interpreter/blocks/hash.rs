@@ -6,7 +6,7 @@ use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
-use crate::interpreter::effects::machine_data::{Written, enables, is_machine_data, written};
+use crate::interpreter::effects::machine_data::{WriteTarget, enables, is_machine_data, written};
 use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
@@ -15,7 +15,7 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::run::step::Step;
+use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::value::Value;
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
@@ -150,7 +150,7 @@ impl Interpreter {
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let text = hash.rest.of(at.text);
         let lost = self.transferred(hash, at);
-        let friction = written(text) == Written::Friction;
+        let friction = written(text) == WriteTarget::Friction;
         if lost.is_empty() && !friction {
             return;
         }
@@ -221,7 +221,7 @@ impl Interpreter {
             .with_help("with `RC=0` it is a warning, and the program goes on");
         self.scratch.diagnostics.push(at.diagnostic(fault));
         if self.options.stop == StopPolicy::FirstError {
-            outcome.step = Some(Step::End(EndedBy::Error));
+            outcome.step = Some(ControlStep::End(EndedBy::Error));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::diagnostic::Code;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
-use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -62,7 +62,7 @@ impl Interpreter {
         match self.configured(word) {
             Configured::None => return false,
             Configured::Program(name) => {
-                let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
+                let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
                 outcome.calls.push(wanted);
             }
             Configured::Unknown(cause) => {
@@ -115,8 +115,8 @@ impl Interpreter {
         }
         match self.configured(FunctionWord::g(call.number)) {
             Configured::Program(name) => {
-                let wanted = Wanted::program(CallScope::Global, name, at.in_block(call.span));
-                outcome.calls.push(Wanted { own, ..wanted });
+                let wanted = WantedCall::program(CallScope::Global, name, at.in_block(call.span));
+                outcome.calls.push(WantedCall { own, ..wanted });
             }
             Configured::Unknown(cause) => {
                 self.unknown_call("which program is called", &cause, call.span, at);

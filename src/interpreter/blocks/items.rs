@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
+use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::hash_parts::point_after;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -277,7 +277,7 @@ impl Interpreter {
         let mut block = Block::default();
         let lines = crate::text::TextLines::new(&code);
         let _ = crate::syntax::BlockReader::new(lines, 1, FastPath::On).next(&mut block);
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let code = MacroCode {
             text: &code,
             block: &block,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
@@ -14,12 +14,12 @@ use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::Marked;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
-use crate::interpreter::unknown::branching::{Goal, Question};
+use crate::interpreter::unknown::branching::{Goal, MachineQuestion};
 use crate::interpreter::values::cause::{PROBE, skip_level};
 use crate::interpreter::values::plain::{
     Asking, Truth, Writer, conclusions, is_one_comparison, reads, text_of, variable,
 };
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
@@ -62,7 +62,7 @@ impl Interpreter {
             no.ruled_out.clone_from(&yes.values);
         }
         let (text, place) = text_of(at.block, at.text, expression);
-        let question = Question {
+        let question = MachineQuestion {
             kind,
             span: if kind == ConditionKind::Loop {
                 span
@@ -86,7 +86,7 @@ impl Interpreter {
             return None;
         };
         for truth in [Truth::Holds, Truth::Fails] {
-            if let [(Target::Variable(name), Value::Number(number))] =
+            if let [(RegionTarget::Variable(name), Value::Number(number))] =
                 conclusions(at.block, at.text, expression, truth).as_slice()
                 && let Some(of) = self.active_variable(name)
                 && self.state.control.is_effective(of)
@@ -107,11 +107,11 @@ impl Interpreter {
 
     /// Whether a condition may say what a value is: one that the program and the machine hold, and
     /// that does not follow from something else.
-    fn may_conclude(&self, target: &Target) -> bool {
+    fn may_conclude(&self, target: &RegionTarget) -> bool {
         match target {
-            Target::Variable(name) => !name.starts_with("V.L.") && !self.is_own(name),
-            Target::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
-            Target::Elements(_) | Target::Parameters => false,
+            RegionTarget::Variable(name) => !name.starts_with("V.L.") && !self.is_own(name),
+            RegionTarget::Parameter(owner, _) => *owner == crate::syntax::ast::Owner::Program,
+            RegionTarget::Elements(_) | RegionTarget::Parameters => false,
         }
     }
 
@@ -123,7 +123,7 @@ impl Interpreter {
         goals: [Goal; 2],
         at: &BlockContext<'_>,
     ) -> bool {
-        let question = Question {
+        let question = MachineQuestion {
             kind: ConditionKind::Loop,
             span,
             texts: vec![span.of(at.text).trim().into()],
@@ -154,7 +154,7 @@ impl Interpreter {
             return false;
         };
         let next = self.state.control.frames.running().map_or(0, |it| it.next);
-        let question = Question {
+        let question = MachineQuestion {
             kind: ConditionKind::Probe,
             span,
             texts: vec!["the probe answers".into()],
@@ -225,7 +225,7 @@ impl Interpreter {
             // Cases of the same values are the same question.
             asking.meaning = format!("{} {}", asking.meaning, texts.join("|"));
         }
-        let question = Question {
+        let question = MachineQuestion {
             kind: ConditionKind::Case,
             span: if place.end > place.start { place } else { span },
             texts,
@@ -246,7 +246,7 @@ impl Interpreter {
             if parsed.block.skip.is_some() {
                 return None;
             }
-            let shown = Shown::default();
+            let shown = ShownBlockLines::default();
             let head = at.other(&parsed, &shown);
             let flow = head.block.items.iter().find_map(|item| match item {
                 Item::Flow(flow, _) => Some(flow),
@@ -303,7 +303,7 @@ impl Interpreter {
             first: entry,
             after,
         };
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let at = BlockContext::of_parsed(parsed, self.state.control.frames.level(), &shown);
         let mark = parsed.text.trim_start();
         let is_bare = mark.strip_prefix('/').is_some_and(|rest| {
@@ -318,7 +318,7 @@ impl Interpreter {
         if !is_bare && self.is_level_read_again(level, &at.place(span)) {
             self.state.rests_on.insert(Open::SkipLevel);
         }
-        let question = Question {
+        let question = MachineQuestion {
             kind: ConditionKind::Skip(level),
             span,
             texts: vec![cause.clone()],

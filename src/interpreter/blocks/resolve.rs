@@ -4,14 +4,14 @@ use crate::diagnostic::{Advice, Budget, Code};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
 use crate::interpreter::programs::store::Caller;
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::LeftOpen;
 use crate::interpreter::run::cycles::{ModalCycles, Repeated, RepeatedCall};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
-use crate::interpreter::run::step::{Passage, Request, Step};
+use crate::interpreter::run::step::{ControlStep, Passage, Request};
 use crate::interpreter::run::stopping::stops;
 use crate::interpreter::values::cause::program;
 use crate::machine::Keeps;
@@ -24,7 +24,7 @@ impl Interpreter {
     #[inline(never)]
     pub(in crate::interpreter) fn resolve_all(
         &mut self,
-        calls: Vec<Wanted>,
+        calls: Vec<WantedCall>,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Vec<Request> {
@@ -42,7 +42,7 @@ impl Interpreter {
     /// Looks for the wanted program.
     pub(in crate::interpreter) fn resolve(
         &mut self,
-        wanted: Wanted,
+        wanted: WantedCall,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Request> {
@@ -128,7 +128,7 @@ impl Interpreter {
     }
 
     /// A program that is on the machine only (R2.83): whatever it may change is unknown after it.
-    fn pass_over_external(&mut self, wanted: Wanted, at: &BlockContext<'_>) {
+    fn pass_over_external(&mut self, wanted: WantedCall, at: &BlockContext<'_>) {
         let name = wanted.name;
         self.pass_over(&name, wanted.span, at);
         self.leave_to_machine(&name);
@@ -172,16 +172,16 @@ impl Interpreter {
     /// cycle's.
     pub(in crate::interpreter) fn repetition(
         &mut self,
-        step: Option<Step>,
+        step: Option<ControlStep>,
         moved: bool,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
-    ) -> Option<Step> {
+    ) -> Option<ControlStep> {
         if self.state.control.cycles.is_empty() {
             return step;
         }
         let mut calls = match step {
-            Some(Step::Call(calls)) => calls,
+            Some(ControlStep::Call(calls)) => calls,
             // What was called with this block is the cycle itself.
             step => {
                 debug_assert!(step.is_none());
@@ -193,7 +193,7 @@ impl Interpreter {
                 calls.extend(self.repeat(cycle, &calls, at, finder));
             }
         }
-        (!calls.is_empty()).then_some(Step::Call(calls))
+        (!calls.is_empty()).then_some(ControlStep::Call(calls))
     }
 
     /// A modal cycle after a block that made some calls.
@@ -235,7 +235,7 @@ impl Interpreter {
     }
 
     /// Whether a part is one of the program that is executed.
-    pub(in crate::interpreter) fn is_here(&self, wanted: &Wanted) -> bool {
+    pub(in crate::interpreter) fn is_here(&self, wanted: &WantedCall) -> bool {
         let own_name = || {
             let found = self.state.control.frames.program()?;
             let index = self.programs.index(found.unit);
@@ -250,7 +250,7 @@ impl Interpreter {
     /// The blocks that a call asks for; `Err` where they are not in the program.
     pub(in crate::interpreter) fn passage(
         &mut self,
-        wanted: &Wanted,
+        wanted: &WantedCall,
         found: ProgramId,
         at: &BlockContext<'_>,
     ) -> Result<Option<Passage>, ()> {
@@ -326,18 +326,19 @@ impl Interpreter {
         by: EndedBy,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
-    ) -> Step {
+    ) -> ControlStep {
         if self.state.control.ending.is_none() {
             self.meet_at_end(finder);
             if let Some(name) = self.machine.programs.end.clone() {
-                let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
+                let wanted =
+                    WantedCall::program(CallScope::Global, name, Span::new(0, at.text.len()));
                 self.state.control.frames.clear();
                 if let Some(request) = self.resolve(wanted, at, finder) {
                     self.state.control.ending = Some(by);
-                    return Step::Call(vec![request]);
+                    return ControlStep::Call(vec![request]);
                 }
             }
         }
-        Step::End(self.state.control.ending.take().unwrap_or(by))
+        ControlStep::End(self.state.control.ending.take().unwrap_or(by))
     }
 }

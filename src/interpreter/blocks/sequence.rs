@@ -4,24 +4,24 @@ use std::sync::Arc;
 
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{LabelName, ProgramId};
-use crate::interpreter::programs::wanted::{Part, Wanted};
+use crate::interpreter::programs::wanted::{CalledPart, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{BlockScratch, PassedBy};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::journal::Scan;
+use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::run::stack::Frame;
-use crate::interpreter::run::step::{Destination, PendingLabel, Step};
+use crate::interpreter::run::stack::CallFrame;
+use crate::interpreter::run::step::{AwaitedBlock, ControlStep, Destination};
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::Fault;
-use crate::syntax::ast::{BlockReference, CallScope, Levels, Operand, Return, Sequence};
+use crate::syntax::ast::{BlockReference, CallScope, Operand, Return, ReturnLevels, SequenceCall};
 use crate::text::Span;
 
 impl Interpreter {
     /// `L SEQUENCE […]`
     pub(in crate::interpreter) fn sequence(
         &mut self,
-        sequence: &Sequence,
+        sequence: &SequenceCall,
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
@@ -67,15 +67,15 @@ impl Interpreter {
                 return Ok(());
             }
         };
-        let part = Part {
+        let part = CalledPart {
             first,
             last,
             end_tag: sequence.end_tag,
             passes: u64::try_from(passes).unwrap_or_default().max(1),
             here: name.is_empty(),
         };
-        let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
-        outcome.calls.push(Wanted {
+        let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
+        outcome.calls.push(WantedCall {
             part: Some(part),
             ..wanted
         });
@@ -100,8 +100,8 @@ impl Interpreter {
             let own = self.programs.section(ProgramId { unit, section });
             self.note_passed(unit, own.start..own.end, cause, PassedBy::Call);
         } else {
-            self.pending.push(Scan {
-                call: Wanted::program(CallScope::Global, name, at.in_block(span)),
+            self.pending.push(RegionCall {
+                call: WantedCall::program(CallScope::Global, name, at.in_block(span)),
                 cause: cause.clone(),
                 unit,
                 region: None,
@@ -143,9 +143,9 @@ impl Interpreter {
     ) -> Result<(), Box<Fault>> {
         let here = self.state.control.frames.level();
         let level = match back.levels {
-            Levels::One => here.saturating_sub(1),
-            Levels::Main => 0,
-            Levels::Number(operand) => {
+            ReturnLevels::One => here.saturating_sub(1),
+            ReturnLevels::Main => 0,
+            ReturnLevels::Number(operand) => {
                 let value = self.value(operand, at)?;
                 if let Value::Unknown(cause) = &value {
                     self.unknown_return("how many programs are left", cause, back.span, at);
@@ -185,7 +185,7 @@ impl Interpreter {
                             .control
                             .frames
                             .at_level(level)
-                            .map(Frame::program);
+                            .map(CallFrame::program);
                         if let Some(program) = program {
                             let whole = self.programs.section(program);
                             self.note_passed(
@@ -195,12 +195,13 @@ impl Interpreter {
                                 PassedBy::Call,
                             );
                         }
-                        outcome.step = Some(Step::ReturnTo(Destination { level, entry: None }));
+                        outcome.step =
+                            Some(ControlStep::ReturnTo(Destination { level, entry: None }));
                         return Ok(());
                     }
                 };
                 let frame = self.state.control.frames.at_level(level);
-                let program = frame.map_or(ProgramId::FIRST, Frame::program);
+                let program = frame.map_or(ProgramId::FIRST, CallFrame::program);
                 let found = self.programs.block_of(program, &name, &self.state.effort);
                 if found.is_none() {
                     let missing = Fault::new(
@@ -214,7 +215,7 @@ impl Interpreter {
                     if !arrives || level > 0 {
                         return Err(Box::new(missing));
                     }
-                    self.sought = Some(PendingLabel {
+                    self.sought = Some(AwaitedBlock {
                         label: name,
                         missing: at.diagnostic(missing),
                     });
@@ -222,7 +223,7 @@ impl Interpreter {
                 found
             }
         };
-        outcome.step = Some(Step::ReturnTo(Destination { level, entry }));
+        outcome.step = Some(ControlStep::ReturnTo(Destination { level, entry }));
         Ok(())
     }
 }

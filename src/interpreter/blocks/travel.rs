@@ -2,10 +2,10 @@
 
 use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
-use crate::interpreter::coordinates::geometry::{Geometry, Given};
+use crate::interpreter::coordinates::geometry::{Geometry, WordValue};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
-    Arc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
+    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::block_scratch::BlockScratch;
@@ -109,7 +109,7 @@ impl Interpreter {
         let geometry = geometry.unwrap_or_default();
         let motion = self.motion(&geometry, from, words);
         if let Some(Motion::Travel(travel)) = &motion
-            && matches!(travel.form, Form::Arc(_))
+            && matches!(travel.form, PathForm::Arc(_))
         {
             self.scratch.aside.arc = Some(travel.clone());
         }
@@ -132,7 +132,9 @@ impl Interpreter {
         let form = match words {
             _ if !moves => return None,
             AxisWords::Motion | AxisWords::Measuring => self.form(geometry, &from),
-            AxisWords::Homing => Form::Unknown("homing ends at a reference point of the machine"),
+            AxisWords::Homing => {
+                PathForm::Unknown("homing ends at a reference point of the machine")
+            }
             AxisWords::Reference | AxisWords::Other => return None,
         };
         let modal = &self.state.control.modal;
@@ -153,30 +155,30 @@ impl Interpreter {
         }))
     }
 
-    fn form(&self, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+    fn form(&self, geometry: &Geometry, from: &[Option<f64>]) -> PathForm {
         let modal = &self.state.control.modal;
         if let Some(reason) = geometry.foreign {
-            return Form::Unknown(reason);
+            return PathForm::Unknown(reason);
         }
         if !modal.is_known(Group::Motion) {
-            return Form::Unknown("it is not known whether G00, G01, G02 or G03 is active");
+            return PathForm::Unknown("it is not known whether G00, G01, G02 or G03 is active");
         }
         match modal.functions.motion {
-            0 => Form::Rapid,
-            1 => Form::Line,
+            0 => PathForm::Rapid,
+            1 => PathForm::Line,
             motion => self.arc(motion, geometry, from),
         }
     }
 
-    fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+    fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> PathForm {
         let modal = &self.state.control.modal;
         let letters = [b'X', b'Y'].map(|letter| modal.main_axis(letter));
         let [Some(first), Some(second)] = letters else {
-            return Form::Unknown("the active plane is not known");
+            return PathForm::Unknown("the active plane is not known");
         };
         let axes = [first, second].map(|letter| self.letters[usize::from(letter - b'A')]);
         let [Some(one), Some(two)] = axes else {
-            return Form::Unknown("the machine lacks an axis of the plane");
+            return PathForm::Unknown("the machine lacks an axis of the plane");
         };
         let centre = if geometry.centre.iter().any(Option::is_some) {
             let offset = |letter: u8| geometry.centre[usize::from(letter - b'X')];
@@ -184,15 +186,17 @@ impl Interpreter {
                 |axis: AxisIndex, letter| self.state.control.centre_of(axis, offset(letter), from);
             match (at(one, first), at(two, second)) {
                 (Some(a), Some(b)) => Centre::Point([a, b]),
-                _ => return Form::Unknown("the centre of the circle is not known"),
+                _ => return PathForm::Unknown("the centre of the circle is not known"),
             }
         } else {
             match modal.radius {
                 Some(radius) => Centre::Radius(radius),
-                None => return Form::Unknown("the circle has neither a centre nor a known radius"),
+                None => {
+                    return PathForm::Unknown("the circle has neither a centre nor a known radius");
+                }
             }
         };
-        Form::Arc(Arc {
+        PathForm::Arc(Arc {
             axes: [one, two],
             turn: if motion == 2 {
                 Turn::Clockwise
@@ -292,7 +296,7 @@ impl BlockScratch {
 impl ControlState {
     /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
     /// program (PM/206537483). Only with G162 a word may be left out.
-    fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
+    fn centre_of(&self, axis: AxisIndex, word: WordValue, from: &[Option<f64>]) -> Option<f64> {
         let modal = &self.modal;
         if !modal.is_known(Group::CircleCentre) {
             return None;

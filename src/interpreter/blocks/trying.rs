@@ -3,7 +3,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::PassedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -65,7 +65,7 @@ impl Interpreter {
             let section = self.programs.section(own);
             own.unit == unit && (section.start..section.end).contains(&entry)
         });
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let at = BlockContext::of_parsed(&block, frames.level(), &shown);
         if is_own {
             self.perhaps_refused(cause, &at);
@@ -86,7 +86,7 @@ impl Interpreter {
         if self.is_skipped(&block.block) {
             return;
         }
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let at = BlockContext::of_parsed(&block, self.state.control.frames.level(), &shown);
         let said = self.refused_comp(cause, &at);
         self.held.extend(said.into_iter().map(|said| (place, said)));

@@ -7,7 +7,7 @@ use super::group::Group;
 
 /// Effect of a `#` command on positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Step {
+pub(in crate::interpreter) enum ChainStep {
     /// It switches to other coordinates, and back.
     Coordinates,
     /// It switches all offsets off, and on again (PM/208517515).
@@ -19,42 +19,43 @@ pub(in crate::interpreter) enum Step {
 }
 
 /// The `#` commands that touch the chain, by their first words.
-const COMMANDS: [(&str, Step); 29] = [
-    ("#TRAFO", Step::Coordinates),
-    ("#CS", Step::Coordinates),
-    ("#ACS", Step::Coordinates),
-    ("#BCS", Step::Coordinates),
-    ("#ECS", Step::Coordinates),
-    ("#ROTATION", Step::Coordinates),
-    ("#SCALE", Step::Coordinates),
-    ("#KIN", Step::Coordinates),
-    ("#MIRROR", Step::Coordinates),
-    ("#RTCP", Step::Coordinates),
-    ("#TLC", Step::Coordinates),
-    ("#CYL", Step::Coordinates),
-    ("#FACE", Step::Coordinates),
-    ("#TRANSFORM", Step::Coordinates),
-    ("#TRACK CS", Step::Coordinates),
-    ("#SYNC", Step::Coordinates),
-    ("#MCS", Step::Machine),
-    ("#SPLINE", Step::Path),
-    ("#SET SPLINE", Step::Path),
-    ("#PSET", Step::Origin),
-    ("#PRESET", Step::Origin),
-    ("#SHIFT", Step::Origin),
-    ("#SET OFFSET", Step::Origin),
-    ("#SUPPRESS OFFSETS", Step::Origin),
-    ("#SET IPO SOLLPOS", Step::Origin),
-    ("#CALL AX", Step::Origin),
-    ("#SET AX", Step::Origin),
-    ("#AX REQUEST", Step::Origin),
-    ("#AX DEF", Step::Origin),
+const COMMANDS: [(&str, ChainStep); 29] = [
+    ("#TRAFO", ChainStep::Coordinates),
+    ("#CS", ChainStep::Coordinates),
+    ("#ACS", ChainStep::Coordinates),
+    ("#BCS", ChainStep::Coordinates),
+    ("#ECS", ChainStep::Coordinates),
+    ("#ROTATION", ChainStep::Coordinates),
+    ("#SCALE", ChainStep::Coordinates),
+    ("#KIN", ChainStep::Coordinates),
+    ("#MIRROR", ChainStep::Coordinates),
+    ("#RTCP", ChainStep::Coordinates),
+    ("#TLC", ChainStep::Coordinates),
+    ("#CYL", ChainStep::Coordinates),
+    ("#FACE", ChainStep::Coordinates),
+    ("#TRANSFORM", ChainStep::Coordinates),
+    ("#TRACK CS", ChainStep::Coordinates),
+    ("#SYNC", ChainStep::Coordinates),
+    ("#MCS", ChainStep::Machine),
+    ("#SPLINE", ChainStep::Path),
+    ("#SET SPLINE", ChainStep::Path),
+    ("#PSET", ChainStep::Origin),
+    ("#PRESET", ChainStep::Origin),
+    ("#SHIFT", ChainStep::Origin),
+    ("#SET OFFSET", ChainStep::Origin),
+    ("#SUPPRESS OFFSETS", ChainStep::Origin),
+    ("#SET IPO SOLLPOS", ChainStep::Origin),
+    ("#CALL AX", ChainStep::Origin),
+    ("#SET AX", ChainStep::Origin),
+    ("#AX REQUEST", ChainStep::Origin),
+    ("#AX DEF", ChainStep::Origin),
 ];
 
 /// Whether a name stands for a transformation between the coordinates of the program and those of
 /// the axes. `#KIN` only chooses one (R1.42).
 pub(in crate::interpreter) fn is_transformation(name: &str) -> bool {
-    let is_one = |(words, step): &(&str, Step)| *words == name && *step == Step::Coordinates;
+    let is_one =
+        |(words, step): &(&str, ChainStep)| *words == name && *step == ChainStep::Coordinates;
     name != "#KIN" && COMMANDS.iter().any(is_one)
 }
 
@@ -69,7 +70,7 @@ const APART: [&str; 5] = [
 ];
 
 /// The words of the command that is meant, what it does, and whether it switches that off.
-pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, Step, bool)> {
+pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, ChainStep, bool)> {
     let begins = |words: &str| {
         name.strip_prefix(words)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))

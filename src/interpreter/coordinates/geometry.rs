@@ -5,20 +5,20 @@ use super::simplified::Simplifications;
 use crate::text::Span;
 
 /// Value of a word: absent, or a value that may be unknown.
-pub(in crate::interpreter) type Given = Option<Option<f64>>;
+pub(in crate::interpreter) type WordValue = Option<Option<f64>>;
 
 /// The words of a block that shape its motion and nothing else.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Geometry {
     /// I, J, K.
-    pub(in crate::interpreter) centre: [Given; 3],
+    pub(in crate::interpreter) centre: [WordValue; 3],
     /// R.
-    pub(in crate::interpreter) radius: Given,
+    pub(in crate::interpreter) radius: WordValue,
     /// The seconds of `G04 2.5` and `#TIME 2.5`.
-    pub(in crate::interpreter) dwell: Given,
+    pub(in crate::interpreter) dwell: WordValue,
     pub(in crate::interpreter) end: BlockEnd,
     /// E: the feed at the end of the block.
-    pub(in crate::interpreter) end_feed: Given,
+    pub(in crate::interpreter) end_feed: WordValue,
     /// G166: overrides do not count.
     pub(in crate::interpreter) at_full_speed: bool,
     /// Simplifications of the commanded trace in this block.

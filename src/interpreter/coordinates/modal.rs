@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use super::axis_words::{AxisWord, shifted};
-use super::chain::{self, Step};
+use super::chain::{self, ChainStep};
 use super::contouring::{Contouring, ContouringCommand};
 use super::group::{Group, GroupSet};
 use super::motion::BlockEnd;
@@ -18,7 +18,7 @@ use crate::machine::{ChannelSettings, SlopeProfile};
 /// Whether a position is one of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum Frame {
+pub enum PositionFrame {
     /// No transformation is active.
     Machine,
     /// A transformation, rotation, mirroring or cutter radius compensation is active: positions
@@ -34,7 +34,7 @@ pub struct AxisPosition {
     /// known.
     pub value: Option<f64>,
     /// Whether it is one of the machine.
-    pub frame: Frame,
+    pub frame: PositionFrame,
 }
 
 /// The G functions in force and the feeds.
@@ -301,11 +301,11 @@ impl Modal {
             return;
         };
         match step {
-            Step::Coordinates => self.transform(words, !off),
-            Step::Machine => self.machine_coordinates(words, off),
-            Step::Path if off => _ = self.transformed.remove(words),
-            Step::Path => self.note_transformed(words),
-            Step::Origin => {
+            ChainStep::Coordinates => self.transform(words, !off),
+            ChainStep::Machine => self.machine_coordinates(words, off),
+            ChainStep::Path if off => _ = self.transformed.remove(words),
+            ChainStep::Path => self.note_transformed(words),
+            ChainStep::Origin => {
                 self.note_transformed(words);
                 self.havoc_positions();
             }
@@ -568,9 +568,9 @@ impl Modal {
         AxisPosition {
             value: self.positions[axis.get()],
             frame: if self.transformed.is_empty() {
-                Frame::Machine
+                PositionFrame::Machine
             } else {
-                Frame::Programmed
+                PositionFrame::Programmed
             },
         }
     }

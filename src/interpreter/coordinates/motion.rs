@@ -35,7 +35,7 @@ pub enum Motion {
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Travel {
     /// Along what.
-    pub form: Form,
+    pub form: PathForm,
     /// The axes that it moves.
     pub axes: Vec<AxisIndex>,
     /// The position of each axis of the machine before, in mm or degrees, where that is known.
@@ -59,7 +59,7 @@ pub struct Travel {
 /// Shape of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum Form {
+pub enum PathForm {
     /// G00: a straight line, as fast as the axes can.
     Rapid,
     /// G01: a straight line at the path feed.

@@ -71,7 +71,7 @@ impl MovedAxis {
 
 /// A form that moves axes.
 #[derive(Debug, Clone, Copy)]
-enum Form {
+enum MovingForm {
     /// Axis words with a G function of this number.
     G(u32),
     /// A command in the bracket of an axis that begins with this keyword, and a second word without
@@ -106,15 +106,15 @@ pub(in crate::interpreter) enum Moves {
 
 /// A row of the table.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::interpreter) struct Row {
-    form: Form,
+pub(in crate::interpreter) struct MovingRow {
+    form: MovingForm,
     pub(in crate::interpreter) kind: MotionKind,
     pub(in crate::interpreter) moves: Moves,
     pub(in crate::interpreter) certainty: Certainty,
 }
 
-const fn certain(form: Form, kind: MotionKind, moves: Moves) -> Row {
-    Row {
+const fn certain(form: MovingForm, kind: MotionKind, moves: Moves) -> MovingRow {
+    MovingRow {
         form,
         kind,
         moves,
@@ -122,8 +122,8 @@ const fn certain(form: Form, kind: MotionKind, moves: Moves) -> Row {
     }
 }
 
-const fn possible(form: Form, kind: MotionKind, moves: Moves) -> Row {
-    Row {
+const fn possible(form: MovingForm, kind: MotionKind, moves: Moves) -> MovingRow {
+    MovingRow {
         form,
         kind,
         moves,
@@ -132,10 +132,10 @@ const fn possible(form: Form, kind: MotionKind, moves: Moves) -> Row {
 }
 
 /// Causes of axis motion besides the words of G00 to G03; the first row that fits counts.
-const TABLE: [Row; 46] = {
-    use Form::{Bracket, Command, G};
+const TABLE: [MovingRow; 46] = {
     use MotionKind::{Coupled, Feed, Frame, Homing, Independent, Unknown};
     use Moves::{Channel, Follower, Gantry, Main, NamedOrAll, Own, Plane, Words, WordsOrAll};
+    use MovingForm::{Bracket, Command, G};
     [
         certain(G(33), Feed, Words),
         certain(G(63), Feed, Words),
@@ -221,22 +221,22 @@ const AT_REST: [&str; 14] = [
 
 /// Returns the row of a G function for its axis words; `None` where they move as its group says, or
 /// not at all.
-pub(in crate::interpreter) fn of_g(number: u32) -> Option<Row> {
-    let is = |row: &&Row| matches!(row.form, Form::G(it) if it == number);
+pub(in crate::interpreter) fn of_g(number: u32) -> Option<MovingRow> {
+    let is = |row: &&MovingRow| matches!(row.form, MovingForm::G(it) if it == number);
     TABLE.iter().find(is).copied()
 }
 
 /// Returns the row of a command in the bracket of an axis: `keyword` is its first word, `body` the whole
 /// text, both in upper case.
-pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Row> {
+pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<MovingRow> {
     if AT_REST.iter().any(|word| keyword.starts_with(word)) {
         return None;
     }
     let has = |wanted: &str| body.split(is_between).any(|word| word == wanted);
-    let is = |row: &&Row| match row.form {
-        Form::Bracket(begin, None) => keyword.starts_with(begin),
-        Form::Bracket(begin, Some(second)) => keyword.starts_with(begin) && has(second),
-        Form::G(_) | Form::Command(_) => false,
+    let is = |row: &&MovingRow| match row.form {
+        MovingForm::Bracket(begin, None) => keyword.starts_with(begin),
+        MovingForm::Bracket(begin, Some(second)) => keyword.starts_with(begin) && has(second),
+        MovingForm::G(_) | MovingForm::Command(_) => false,
     };
     let row = TABLE.iter().find(is)?;
     // An independent motion that is only computed (PM/208612235).
@@ -244,12 +244,12 @@ pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Ro
 }
 
 /// Returns the row of a `#` command that moves axes from here on.
-pub(in crate::interpreter) fn of_command(name: &str) -> Option<Row> {
+pub(in crate::interpreter) fn of_command(name: &str) -> Option<MovingRow> {
     let begins = |words: &str| {
         name.strip_prefix(words)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
     };
-    let is = |row: &&Row| matches!(row.form, Form::Command(words) if begins(words));
+    let is = |row: &&MovingRow| matches!(row.form, MovingForm::Command(words) if begins(words));
     TABLE.iter().find(is).copied()
 }
 

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::group::Group;
-use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::journal::Scan;
+use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -162,8 +162,8 @@ impl Interpreter {
         unit: usize,
         cause: &Arc<str>,
     ) {
-        let calls = names.into_iter().map(|name| Scan {
-            call: Wanted::program(scope, name, span),
+        let calls = names.into_iter().map(|name| RegionCall {
+            call: WantedCall::program(scope, name, span),
             cause: cause.clone(),
             unit,
             region: None,
@@ -186,8 +186,8 @@ impl Interpreter {
             match configured {
                 Configured::None => {}
                 Configured::Unknown(_) => self.havoc_all(cause),
-                Configured::Program(name) => self.pending.push(Scan {
-                    call: Wanted::program(CallScope::Global, name, Span::default()),
+                Configured::Program(name) => self.pending.push(RegionCall {
+                    call: WantedCall::program(CallScope::Global, name, Span::default()),
                     cause: cause.clone(),
                     unit,
                     region: None,

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::diagnostic::Code;
-use crate::interpreter::coordinates::modal::Frame as PositionFrame;
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::coordinates::modal::PositionFrame;
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::values::expression::{Evaluator, Given, Macros, Scope};
-use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros, ParameterSource};
+use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Expression, Node, Operand, Owner};
@@ -68,8 +68,8 @@ impl Interpreter {
         static NONE: BTreeMap<u32, Value> = BTreeMap::new();
         let frame = self.state.control.frames.running();
         let given = match frame {
-            Some(frame) if frame.level > 0 => Given::ByCall,
-            _ => Given::FromOutside,
+            Some(frame) if frame.level > 0 => ParameterSource::ByCall,
+            _ => ParameterSource::FromOutside,
         };
         let taken = self.options.notes == Notes::Taken;
         work(&Evaluator {
@@ -83,7 +83,7 @@ impl Interpreter {
                 until: self.work_bound(),
             },
             effort: &self.state.effort,
-            scope: Scope {
+            scope: ExpressionScope {
                 memory: &self.state.control.memory,
                 reads: self.state.watching.then_some(&self.state.reads),
                 own: frame.map_or(&NONE, |frame| &frame.own),
@@ -206,11 +206,11 @@ impl Interpreter {
     /// FC322: what an assignment to such a variable does is not known.
     pub(in crate::interpreter) fn warn_own(
         &mut self,
-        place: &Place,
+        place: &AssignedPlace,
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let Place::Variable(name) = place else {
+        let AssignedPlace::Variable(name) = place else {
             return;
         };
         let Some(own) = self.own_variable(name) else {
@@ -277,15 +277,15 @@ impl Interpreter {
         &mut self,
         place: Expression,
         at: &BlockContext<'_>,
-    ) -> Result<Place, Box<Fault>> {
+    ) -> Result<AssignedPlace, Box<Fault>> {
         let mut stack = std::mem::take(&mut self.scratch.stack);
         let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
         self.scratch.stack = stack;
         found
     }
 
-    pub(in crate::interpreter) fn write(&mut self, place: Place, value: Value) {
-        if let Place::Variable(name) = &place
+    pub(in crate::interpreter) fn write(&mut self, place: AssignedPlace, value: Value) {
+        if let AssignedPlace::Variable(name) = &place
             && let Some(own) = self.own_variable(name)
         {
             return self.havoc_own(own);
@@ -299,20 +299,20 @@ impl Interpreter {
             self.state.track.ways.write(&place, self.state.seq);
         }
         match place {
-            Place::Parameter(Owner::Program, index) => {
+            AssignedPlace::Parameter(Owner::Program, index) => {
                 self.state.control.memory.set_parameter(index, value);
             }
-            Place::Parameter(Owner::Call, index) => {
+            AssignedPlace::Parameter(Owner::Call, index) => {
                 if let Some(frame) = self.state.control.frames.running_mut() {
                     frame.own.insert(index, value);
                 }
             }
-            Place::Variable(name) => self.state.control.memory.set_variable(&name, value),
-            Place::Elements(name, cause) => {
+            AssignedPlace::Variable(name) => self.state.control.memory.set_variable(&name, value),
+            AssignedPlace::Elements(name, cause) => {
                 self.state.control.memory.havoc_elements(&name, &cause);
             }
-            Place::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
-            Place::Nowhere => {}
+            AssignedPlace::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
+            AssignedPlace::Nowhere => {}
         }
     }
 
@@ -324,7 +324,7 @@ impl Interpreter {
     ) -> Option<f64> {
         let mut block = Block::default();
         let operand = crate::syntax::parse_expression(text, &mut block)?;
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let inner = at.part(text, &block, &shown);
         match self.value(operand, &inner) {
             Ok(Value::Number(number)) => Some(number),
@@ -333,17 +333,24 @@ impl Interpreter {
     }
 
     /// A value may have been written.
-    pub(in crate::interpreter) fn lose(&mut self, target: &Target, cause: &Arc<str>) {
+    pub(in crate::interpreter) fn lose(&mut self, target: &RegionTarget, cause: &Arc<str>) {
         let unknown = || Value::Unknown(cause.clone());
         match target {
-            Target::Parameter(owner, index) => {
-                self.write(Place::Parameter(*owner, *index), unknown());
+            RegionTarget::Parameter(owner, index) => {
+                self.write(AssignedPlace::Parameter(*owner, *index), unknown());
             }
-            Target::Variable(name) => self.write(Place::Variable(name.clone()), unknown()),
-            Target::Elements(name) => {
-                self.write(Place::Elements(name.clone(), cause.clone()), unknown());
+            RegionTarget::Variable(name) => {
+                self.write(AssignedPlace::Variable(name.clone()), unknown())
             }
-            Target::Parameters => self.write(Place::Parameters(cause.clone()), unknown()),
+            RegionTarget::Elements(name) => {
+                self.write(
+                    AssignedPlace::Elements(name.clone(), cause.clone()),
+                    unknown(),
+                );
+            }
+            RegionTarget::Parameters => {
+                self.write(AssignedPlace::Parameters(cause.clone()), unknown())
+            }
         }
     }
 }
@@ -390,7 +397,7 @@ fn compensation_kind(name: &str) -> Option<Kind> {
 /// Whether an assignment counts: `P1 = P1 + 1`.
 pub(in crate::interpreter) fn only_counts(
     assignment: Assignment,
-    place: &Place,
+    place: &AssignedPlace,
     at: &BlockContext<'_>,
 ) -> bool {
     let Operand::Expression(value) = assignment.value else {
@@ -414,10 +421,10 @@ pub(in crate::interpreter) fn only_counts(
         _ => None,
     };
     match (read, place) {
-        (Some((Node::Parameter { owner, index }, _)), Place::Parameter(to, number)) => {
+        (Some((Node::Parameter { owner, index }, _)), AssignedPlace::Parameter(to, number)) => {
             owner == to && index == number
         }
-        (Some((Node::Variable { subscripts: 0 }, Some(span))), Place::Variable(name)) => {
+        (Some((Node::Variable { subscripts: 0 }, Some(span))), AssignedPlace::Variable(name)) => {
             span.of(at.text) == name
         }
         _ => false,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use crate::comp::{AxisIndex, CompensationError, Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
+use crate::interpreter::run::channel_axes::{Addressed, AxisNameMeaning, ChannelAxes};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
@@ -99,7 +99,7 @@ impl Interpreter {
             let number = number.and_then(|number| self.number_in(number, at));
             let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
-            if let Some(Meaning::Axis(axis)) = meaning
+            if let Some(AxisNameMeaning::Axis(axis)) = meaning
                 && self.state.control.was_released(axis)
             {
                 self.state.rests_on.insert(Question::AxisExchange);
@@ -109,10 +109,10 @@ impl Interpreter {
             }
             let names = &mut self.state.control.channel_axes.names;
             let own = self.machine.find(name);
-            if own.is_some() && meaning == own.map(Meaning::Axis) {
+            if own.is_some() && meaning == own.map(AxisNameMeaning::Axis) {
                 names.remove(name);
             } else {
-                names.insert(name.to_owned(), meaning.unwrap_or(Meaning::Unknown));
+                names.insert(name.to_owned(), meaning.unwrap_or(AxisNameMeaning::Unknown));
             }
         }
     }
@@ -133,7 +133,7 @@ impl Interpreter {
 
     /// Returns the axis of a name after a request with this logical axis number, if it is known. An axis
     /// of the machine without a number is taken to be the one of its name.
-    fn requested(&self, name: &str, number: Option<u32>) -> Option<Meaning> {
+    fn requested(&self, name: &str, number: Option<u32>) -> Option<AxisNameMeaning> {
         let number = number?;
         let axes = self.machine.axes.iter();
         let by_number = axes.clone().position(|axis| axis.number == Some(number));
@@ -141,18 +141,18 @@ impl Interpreter {
             .clone()
             .position(|axis| axis.name == name && axis.number.is_none());
         let found = by_number.or(by_name)?;
-        Some(Meaning::Axis(AxisIndex::new(found)))
+        Some(AxisNameMeaning::Axis(AxisIndex::new(found)))
     }
 
     fn release_axis(&mut self, name: &str) {
         let names = &mut self.state.control.channel_axes.names;
         let known = names.get(name).copied();
-        let own = self.machine.find(name).map(Meaning::Axis);
+        let own = self.machine.find(name).map(AxisNameMeaning::Axis);
         let released = match known.or(own) {
-            Some(Meaning::Axis(axis)) => Meaning::Released(Some(axis)),
-            Some(Meaning::Unknown) => Meaning::Released(None),
+            Some(AxisNameMeaning::Axis(axis)) => AxisNameMeaning::Released(Some(axis)),
+            Some(AxisNameMeaning::Unknown) => AxisNameMeaning::Released(None),
             // The channel does not have it; the control does not mind.
-            Some(Meaning::Released(_)) | None => return,
+            Some(AxisNameMeaning::Released(_)) | None => return,
         };
         names.insert(name.to_owned(), released);
     }
@@ -160,7 +160,7 @@ impl Interpreter {
     /// Releases every axis but those of these names.
     fn release_others(&mut self, stay: &[&str]) {
         let names = &self.state.control.channel_axes.names;
-        let is_here = |name: &str| !matches!(names.get(name), Some(Meaning::Released(_)));
+        let is_here = |name: &str| !matches!(names.get(name), Some(AxisNameMeaning::Released(_)));
         let machine = self.machine.axes.iter().map(|axis| &axis.name);
         let gone: BTreeSet<String> = machine
             .chain(names.keys())
@@ -188,9 +188,9 @@ impl ControlState {
         }
         Ok(match channel.names.get(name) {
             None => Addressed::Axis(self.compensation.resolve(name)?),
-            Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
-            Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
-            Some(Meaning::Unknown) => Addressed::Any,
+            Some(AxisNameMeaning::Axis(axis)) => Addressed::Axis(*axis),
+            Some(AxisNameMeaning::Released(axis)) => Addressed::Absent(*axis),
+            Some(AxisNameMeaning::Unknown) => Addressed::Any,
         })
     }
 
@@ -203,7 +203,7 @@ impl ControlState {
     fn was_released(&self, axis: AxisIndex) -> bool {
         let names = self.channel_axes.names.values();
         let mut names = names.copied();
-        names.any(|meaning| meaning == Meaning::Released(Some(axis)))
+        names.any(|meaning| meaning == AxisNameMeaning::Released(Some(axis)))
     }
 }
 

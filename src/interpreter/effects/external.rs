@@ -1,13 +1,13 @@
 //! Programs that are on the machine only (R2.83).
 
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::cause::program;
 use crate::syntax::ast::CallScope;
 
 impl Interpreter {
     /// Whether only the machine has the program.
-    pub(in crate::interpreter) fn is_external(&self, wanted: &Wanted) -> bool {
+    pub(in crate::interpreter) fn is_external(&self, wanted: &WantedCall) -> bool {
         wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
     }
 

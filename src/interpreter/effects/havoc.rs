@@ -11,7 +11,7 @@ use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
 use crate::interpreter::values::memory::unescaped;
-use crate::interpreter::values::target::Place;
+use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Effect as Unread;
 use crate::text::Span;
@@ -23,7 +23,7 @@ impl Interpreter {
             Unread::Everything => self.havoc_all(cause),
             Unread::Parameters => {
                 self.write(
-                    Place::Parameters(cause.clone()),
+                    AssignedPlace::Parameters(cause.clone()),
                     Value::Unknown(cause.clone()),
                 );
             }

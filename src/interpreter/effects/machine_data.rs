@@ -10,7 +10,7 @@ use crate::syntax::ast::Hash;
 
 /// Target of a write to the machine data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Written {
+pub(in crate::interpreter) enum WriteTarget {
     /// A parameter of friction compensation.
     Friction,
     /// Another parameter.
@@ -19,7 +19,7 @@ pub(in crate::interpreter) enum Written {
 
 /// An axis as the command names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Named<'a> {
+enum AxisName<'a> {
     Name(&'a str),
     Number(&'a str),
 }
@@ -31,13 +31,13 @@ pub(in crate::interpreter) fn is_machine_data(name: &str) -> bool {
 }
 
 /// Returns the target in the text of a command.
-pub(in crate::interpreter) fn written(text: &str) -> Written {
+pub(in crate::interpreter) fn written(text: &str) -> WriteTarget {
     let text = text.to_ascii_lowercase();
     let is_friction = text.contains("frict_comp") || text.contains("p-axis-00522");
     if is_friction {
-        Written::Friction
+        WriteTarget::Friction
     } else {
-        Written::Other
+        WriteTarget::Other
     }
 }
 
@@ -60,7 +60,7 @@ impl Interpreter {
     ) -> Vec<(AxisIndex, KindSet)> {
         let text = hash.rest.of(at.text);
         let axes = match named(text) {
-            Some(Named::Number(number)) => {
+            Some(AxisName::Number(number)) => {
                 let number = self.number_in(number, at).and_then(rounded);
                 numbered(&self.machine, number)
             }
@@ -70,7 +70,7 @@ impl Interpreter {
         let now = &self.state.control.compensation;
         let is_lost = |axis: AxisIndex, kind: &Kind| {
             let (now, start) = (now.state(axis, *kind), start.state(axis, *kind));
-            written(text) == Written::Friction || (now != start && now != State::Unknown)
+            written(text) == WriteTarget::Friction || (now != start && now != State::Unknown)
         };
         let lost = axes.into_iter().map(|axis| {
             let kinds = Kind::ALL.into_iter().filter(|kind| is_lost(axis, kind));
@@ -82,7 +82,7 @@ impl Interpreter {
     /// The axes that the command may name in a region that may or may not be executed.
     pub(in crate::interpreter) fn perhaps_transferred(&self, text: &str) -> Vec<AxisIndex> {
         match named(text) {
-            Some(Named::Number(number)) => {
+            Some(AxisName::Number(number)) => {
                 let number = number.parse().ok().and_then(rounded);
                 numbered(&self.machine, number)
             }
@@ -92,7 +92,7 @@ impl Interpreter {
 }
 
 /// The axis of a command: `AX=X`, `AX X`, `AXNR=1`, with blanks and in either case.
-fn named(text: &str) -> Option<Named<'_>> {
+fn named(text: &str) -> Option<AxisName<'_>> {
     let mut rest = text;
     while let Some(at) = rest.find(|c: char| c.is_ascii_alphanumeric()) {
         rest = &rest[at..];
@@ -101,10 +101,10 @@ fn named(text: &str) -> Option<Named<'_>> {
         let value = after.trim_start().trim_start_matches('=').trim_start();
         if word.eq_ignore_ascii_case("AX") {
             let end = value.find(|c: char| c.is_whitespace() || matches!(c, ']' | ','));
-            return Some(Named::Name(&value[..end.unwrap_or(value.len())]));
+            return Some(AxisName::Name(&value[..end.unwrap_or(value.len())]));
         }
         if word.eq_ignore_ascii_case("AXNR") {
-            return Some(Named::Number(number(value)));
+            return Some(AxisName::Number(number(value)));
         }
         rest = after;
     }
@@ -146,9 +146,9 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
 }
 
 /// The axis of a name. A command that names none writes to any axis, unless it is about the channel.
-fn plainly_named(machine: &Machine, named: Option<Named<'_>>, text: &str) -> Vec<AxisIndex> {
+fn plainly_named(machine: &Machine, named: Option<AxisName<'_>>, text: &str) -> Vec<AxisIndex> {
     match named {
-        Some(Named::Name(name)) => {
+        Some(AxisName::Name(name)) => {
             let name = name.trim_matches('"');
             let upper = name.to_ascii_uppercase();
             let found = machine.find(name).or_else(|| machine.find(&upper));
@@ -172,16 +172,16 @@ mod tests {
             "[ ax = X p-axis-00522 = 0 ]",
             "[AX X,P-AXIS-00522=0]",
         ] {
-            assert_eq!(named(text), Some(Named::Name("X")), "{text}");
-            assert_eq!(written(text), Written::Friction, "{text}");
+            assert_eq!(named(text), Some(AxisName::Name("X")), "{text}");
+            assert_eq!(written(text), WriteTarget::Friction, "{text}");
         }
         assert_eq!(
             named("[AXNR=[P1 + 1] a=2]"),
-            Some(Named::Number("[P1 + 1]"))
+            Some(AxisName::Number("[P1 + 1]"))
         );
-        assert_eq!(named("[AXNR 2 a=2]"), Some(Named::Number("2")));
+        assert_eq!(named("[AXNR 2 a=2]"), Some(AxisName::Number("2")));
         assert_eq!(named("[P-CHAN-00001=0]"), None);
-        assert_eq!(written("[AX=X kenngr.swe_pos=1]"), Written::Other);
+        assert_eq!(written("[AX=X kenngr.swe_pos=1]"), WriteTarget::Other);
         assert!(enables("[AX=X P-AXIS-00522=1]") && enables("[AX X lr_param.frict_comp 1]"));
         assert!(!enables("[AX=X P-AXIS-00522=0]") && !enables("[AX=X P-AXIS-00522=10]"));
         assert!(is_machine_data("#MACHINE DATA SYN") && !is_machine_data("#MACHINE DATABASE"));

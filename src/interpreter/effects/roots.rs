@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::undecided::Told;
+use crate::interpreter::run::undecided::MentionedUnknowns;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -34,7 +34,7 @@ impl Interpreter {
     }
 }
 
-impl Told {
+impl MentionedUnknowns {
     /// Remembers where an unknown value came in first.
     pub(in crate::interpreter) fn enter_root(
         &mut self,

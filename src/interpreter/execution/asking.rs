@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::step::Step;
+use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, RawBlock, Stretch, parse_expression};
@@ -16,7 +16,9 @@ impl Interpreter {
     pub fn settled(&self) -> Self {
         let mut copy = self.clone();
         match copy.state.parked.take() {
-            Some(step @ (Step::Call(_) | Step::Return | Step::ReturnTo(_))) => {
+            Some(
+                step @ (ControlStep::Call(_) | ControlStep::Return | ControlStep::ReturnTo(_)),
+            ) => {
                 // A return of the main program ends it; then nothing comes next.
                 let _ = copy.follow(step);
             }
@@ -35,7 +37,7 @@ impl Interpreter {
         let operand = parse_expression(text, &mut block)
             .ok_or_else(|| format!("`{text}` is no expression"))?;
         let mut copy = self.settled();
-        let (file, shown) = (Arc::from(""), Shown::default());
+        let (file, shown) = (Arc::from(""), ShownBlockLines::default());
         let raw = RawBlock {
             stretch: Stretch::Block,
             text,

@@ -13,9 +13,9 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::path::Track;
+use crate::interpreter::run::path::RunTrack;
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::step::{Departure, Request, Step};
+use crate::interpreter::run::step::{ControlStep, NextBlock, Request};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::untouched::FoundStates;
 use crate::interpreter::run::way_condition::limit_to;
@@ -104,7 +104,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<Departure> {
+    ) -> ControlFlow<NextBlock> {
         let met = self.begin_block(at, finder);
         let mut outcome = BlockOutcome::default();
         let limit = self.first_refusal(at.block);
@@ -140,16 +140,16 @@ impl Interpreter {
         self.state.remember_last(at);
         self.scratch.gather_asked();
         let step = if is_over || self.scratch.too_deep {
-            Some(Step::End(EndedBy::Budget))
+            Some(ControlStep::End(EndedBy::Budget))
         } else if stopped {
-            Some(Step::End(ended_by(&self.scratch.diagnostics)))
+            Some(ControlStep::End(ended_by(&self.scratch.diagnostics)))
         } else if undecided.is_some() {
             outcome.step
         } else if calls.is_empty() && outcome.goes_on() && self.state.control.cycles.is_empty() {
             None
         } else {
             match self.step(outcome, calls, at, finder) {
-                Some(Step::Jump(target)) if self.state.control.frames.is_passed(target) => {
+                Some(ControlStep::Jump(target)) if self.state.control.frames.is_passed(target) => {
                     Some(self.come_round(target, at, finder))
                 }
                 step => step,
@@ -200,10 +200,10 @@ impl Interpreter {
         match step {
             step if flow.is_break() => {
                 self.state.parked = step;
-                ControlFlow::Break(Departure::Paused)
+                ControlFlow::Break(NextBlock::Paused)
             }
             None => ControlFlow::Continue(()),
-            Some(step) => ControlFlow::Break(Departure::Step(step)),
+            Some(step) => ControlFlow::Break(NextBlock::Step(step)),
         }
     }
 
@@ -264,10 +264,10 @@ impl Interpreter {
         calls: Vec<Request>,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
-    ) -> Option<Step> {
+    ) -> Option<ControlStep> {
         let moved = !self.scratch.moved.is_empty();
         if !calls.is_empty() {
-            outcome.step = Some(Step::Call(calls));
+            outcome.step = Some(ControlStep::Call(calls));
         }
         if let Some(by) = outcome.end {
             if self.state.control.ending.is_none() && at.level > 0 {
@@ -288,10 +288,10 @@ impl Interpreter {
             return Some(self.program_end(by, at, finder));
         }
         if outcome.returns {
-            return Some(Step::Return);
+            return Some(ControlStep::Return);
         }
         let step = outcome.step.take();
-        if step.is_none() || matches!(step, Some(Step::Call(_))) {
+        if step.is_none() || matches!(step, Some(ControlStep::Call(_))) {
             return self.repetition(step, moved, at, finder);
         }
         step
@@ -342,7 +342,7 @@ impl State {
     }
 }
 
-impl Track {
+impl RunTrack {
     /// Drops readings that an action of the control may change; a `#` command may wait for any
     /// value (R14.1).
     #[cold]

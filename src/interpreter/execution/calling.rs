@@ -7,8 +7,8 @@ use std::sync::Arc;
 use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::stack::{Frame, Retains};
-use crate::interpreter::run::step::{Destination, Request, Step};
+use crate::interpreter::run::stack::{CallFrame, Retains};
+use crate::interpreter::run::step::{ControlStep, Destination, Request};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
@@ -26,7 +26,7 @@ impl Interpreter {
         self.journal.begin_anew();
         let depth = self.state.control.frames.depth();
         self.state.track.change_level(depth);
-        self.state.control.frames.push(Frame {
+        self.state.control.frames.push(CallFrame {
             unit,
             section,
             next: request.passage.map_or(
@@ -134,7 +134,7 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn enter(&mut self, unit: usize, section: usize) {
         let next = self.programs.section(ProgramId { unit, section }).start;
-        self.state.control.frames.push(Frame {
+        self.state.control.frames.push(CallFrame {
             unit,
             section,
             next,
@@ -150,11 +150,11 @@ impl Interpreter {
     }
 
     /// Does what a block asked for. `Break` when the program ends.
-    pub(in crate::interpreter) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
+    pub(in crate::interpreter) fn follow(&mut self, step: ControlStep) -> ControlFlow<EndedBy> {
         match step {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
-            Step::Begin => {}
-            Step::Jump(entry) => {
+            ControlStep::Begin => {}
+            ControlStep::Jump(entry) => {
                 if let Some(endless) = self.endless_loop() {
                     self.scratch.over.push(endless);
                     self.scratch.endless = true;
@@ -164,7 +164,7 @@ impl Interpreter {
                     frame.next = entry;
                 }
             }
-            Step::Call(mut requests) => {
+            ControlStep::Call(mut requests) => {
                 let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
                     return ControlFlow::Continue(());
                 };
@@ -174,7 +174,7 @@ impl Interpreter {
                 }
                 self.push_call(first);
             }
-            Step::Return => match self.state.control.frames.running() {
+            ControlStep::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
                     // A subprogram run by itself ends as it should.
@@ -182,9 +182,9 @@ impl Interpreter {
                     return ControlFlow::Break(EndedBy::EndOfFile);
                 }
             },
-            Step::ReturnTo(destination) => self.go_back(&destination),
-            Step::End(by) => return ControlFlow::Break(by),
-            Step::Covered => {
+            ControlStep::ReturnTo(destination) => self.go_back(&destination),
+            ControlStep::End(by) => return ControlFlow::Break(by),
+            ControlStep::Covered => {
                 self.scratch.covered = true;
                 return ControlFlow::Break(EndedBy::EndOfFile);
             }

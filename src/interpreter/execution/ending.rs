@@ -6,9 +6,9 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::programs::store::Programs;
-use crate::interpreter::programs::unit::Unit;
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::programs::store::ProgramStore;
+use crate::interpreter::programs::unit::SourceUnit;
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
@@ -163,7 +163,7 @@ impl Interpreter {
     /// The messages on the blocks of a file, each program that is never run before its blocks.
     fn check_unexecuted_of(
         &self,
-        unit: &Unit,
+        unit: &SourceUnit,
         never_run: impl Iterator<Item = (EntryIndex, Diagnostic)>,
         notes: &mut Collected,
     ) {
@@ -205,7 +205,7 @@ impl Interpreter {
         block: &Block,
         notes: &mut Collected,
     ) {
-        let shown = Shown::default();
+        let shown = ShownBlockLines::default();
         let at = BlockContext::of_raw(file, raw, block, &shown);
         notes.extend(
             block
@@ -217,7 +217,7 @@ impl Interpreter {
     }
 }
 
-impl Programs {
+impl ProgramStore {
     /// The place of a block that was not executed.
     fn place_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Place> {
         let index = &self.units().get(unit)?.index;

@@ -13,18 +13,18 @@ use std::sync::Arc;
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::programs::store::Programs;
+use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{LeftLoop, Loop, Mark};
-use crate::interpreter::run::path::{Path, Track};
+use crate::interpreter::run::path::{Path, RunTrack};
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::step::Step;
+use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::reads::Reads;
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::work_budget::ITEM;
 
 /// Greatest number of passes after which a repeated state is recognised.
@@ -73,7 +73,7 @@ impl Interpreter {
         target: EntryIndex,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
-    ) -> Step {
+    ) -> ControlStep {
         let why = self.note_pass(target);
         if self.state.is_left_meanwhile() {
             return self.follow_loop(target, Repeats::Known, finder);
@@ -85,7 +85,7 @@ impl Interpreter {
             let out = self.state.track.way_out()?;
             self.leave_loop(&why, &out, at, finder)
         });
-        left.unwrap_or(Step::Jump(target))
+        left.unwrap_or(ControlStep::Jump(target))
     }
 
     /// A way that only the machine decides leads back: what the control does next on it.
@@ -93,7 +93,7 @@ impl Interpreter {
         &mut self,
         target: EntryIndex,
         finder: &mut dyn Finder,
-    ) -> Step {
+    ) -> ControlStep {
         let _ = self.note_pass(target);
         self.follow_loop(target, Repeats::Unknown, finder)
     }
@@ -106,9 +106,9 @@ impl Interpreter {
         target: EntryIndex,
         repeats: Repeats,
         finder: &mut dyn Finder,
-    ) -> Step {
+    ) -> ControlStep {
         let Some(mut known) = self.state.track.loops.pop() else {
-            return Step::Jump(target);
+            return ControlStep::Jump(target);
         };
         if let Some(counters) = known.endless.take() {
             self.state.lose_counters(&counters, known.since);
@@ -126,12 +126,12 @@ impl Interpreter {
             let after = known.from.saturating_add(1);
             self.state.track.loops.push(known);
             self.havoc_loop(&"a loop that goes on too long".into(), finder);
-            return Step::Jump(after);
+            return ControlStep::Jump(after);
         }
         let now = self.at_head(target);
         let cause = "a loop that is repeated".into();
         match known.covered.take() {
-            Some(before) if before.covers(&now, &cause) => return Step::Covered,
+            Some(before) if before.covers(&now, &cause) => return ControlStep::Covered,
             Some(mut before) if known.passes > most => {
                 before.join(now, &cause);
                 let Path { control, track, .. } = (*before).clone();
@@ -145,7 +145,7 @@ impl Interpreter {
             _ => known.covered = Some(Box::new(now)),
         }
         self.state.track.loops.push(known);
-        Step::Jump(target)
+        ControlStep::Jump(target)
     }
 
     /// The state with which a pass begins.
@@ -158,11 +158,11 @@ impl Interpreter {
         self.state.effort.charge(cost);
         Path {
             control: control.clone(),
-            track: Track {
+            track: RunTrack {
                 reach: track.reach.clone(),
                 asked: track.asked.clone(),
                 assumed: track.assumed.clone(),
-                ..Track::default()
+                ..RunTrack::default()
             },
             parted: self.state.seq,
         }
@@ -250,7 +250,7 @@ impl Interpreter {
         out: &WayOut,
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
-    ) -> Option<Step> {
+    ) -> Option<ControlStep> {
         let known = self.state.track.loops.pop()?;
         let (unit, head) = (known.unit, known.head);
         let mut left = self.state.track.left_loops.iter_mut();
@@ -285,8 +285,8 @@ impl Interpreter {
         let said = said.with_help(how_to_set(&out.cause));
         self.scratch.diagnostics.push(said);
         Some(match out.to {
-            Leaving::To(block) => Step::Jump(block),
-            Leaving::Return => Step::Return,
+            Leaving::To(block) => ControlStep::Jump(block),
+            Leaving::Return => ControlStep::Return,
             Leaving::End => self.program_end(EndedBy::M30, at, finder),
         })
     }
@@ -301,7 +301,7 @@ impl Interpreter {
 
 impl State {
     /// Makes counters unknown where other ways have left a loop that is not run to its end.
-    fn lose_counters(&mut self, counters: &[Target], since: u64) {
+    fn lose_counters(&mut self, counters: &[RegionTarget], since: u64) {
         let cause: Arc<str> = "a loop that is repeated".into();
         let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
         for path in self.pending.iter_mut().chain(ended) {
@@ -349,7 +349,7 @@ impl State {
     }
 }
 
-impl Track {
+impl RunTrack {
     /// The value that may end a loop which was left often enough.
     fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
         let mut left = self.left_loops.iter();
@@ -372,8 +372,8 @@ impl Track {
     }
 }
 
-impl Programs {
-    fn endless(&self, known: &Loop, counters: &[Target]) -> Diagnostic {
+impl ProgramStore {
+    fn endless(&self, known: &Loop, counters: &[RegionTarget]) -> Diagnostic {
         let place = self.index(known.unit).block_place(known.head);
         let passes = known.passes;
         let names: Vec<String> = counters.iter().map(|name| format!("`{name}`")).collect();
@@ -395,7 +395,7 @@ impl Programs {
 
 /// Returns the differences from the present state if they are counters; `None` where anything else
 /// differs.
-fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
+fn counters(mark: &Mark, state: &State) -> Option<Vec<RegionTarget>> {
     if mark.occurred != state.occurred {
         return None;
     }
@@ -406,6 +406,6 @@ fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
 }
 
 /// Whether a loop is compared with an earlier pass.
-pub(super) fn watches(track: &Track) -> bool {
+pub(super) fn watches(track: &RunTrack) -> bool {
     track.loops.iter().any(|known| known.mark.is_some())
 }

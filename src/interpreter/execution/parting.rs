@@ -8,14 +8,14 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{BranchSide, Path};
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::step::Step;
+use crate::interpreter::run::step::ControlStep;
 
 impl Interpreter {
     /// The ways part after the block that asked.
     #[cold]
     pub(in crate::interpreter) fn take_sides(
         &mut self,
-        step: Option<&Step>,
+        step: Option<&ControlStep>,
         finder: &mut dyn Finder,
     ) {
         let sides = std::mem::take(&mut self.sides);
@@ -35,12 +35,12 @@ impl Interpreter {
             let goes_on = if is_back && self.options.branches != Branches::Passed {
                 self.come_back(to, finder)
             } else {
-                Step::Jump(to)
+                ControlStep::Jump(to)
             };
-            if let Step::Jump(to) = goes_on {
+            if let ControlStep::Jump(to) = goes_on {
                 self.state.control.set_next(to);
                 // A program that the block calls runs on each way.
-                if let Some(call @ Step::Call(_)) = step {
+                if let Some(call @ ControlStep::Call(_)) = step {
                     let _ = self.follow(call.clone());
                 }
                 open.push(self.state.leave_path());

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Collected, Diagnostic};
-use crate::interpreter::programs::unit::Unit;
+use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
@@ -33,7 +33,7 @@ impl Interpreter {
     }
 
     /// The last line of a file that was reached, or more than all lines where the rest is checked, too.
-    fn reached_line(&self, number: usize, unit: &Unit, by: EndedBy) -> u32 {
+    fn reached_line(&self, number: usize, unit: &SourceUnit, by: EndedBy) -> u32 {
         if self.options.stop == StopPolicy::CheckAll {
             return u32::MAX;
         }

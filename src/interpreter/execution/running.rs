@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::index::ProgramId;
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Event, Joined, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::RunOutcome;
-use crate::interpreter::run::step::{Departure, Step};
+use crate::interpreter::run::step::{ControlStep, NextBlock};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -71,7 +71,7 @@ impl Interpreter {
                 .running_mut()
                 .and_then(|frame| frame.called_from.take());
             let level = self.state.control.frames.level();
-            let shown = Shown::default();
+            let shown = ShownBlockLines::default();
             let at =
                 BlockContext::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
             if let Some(over) = self.over_budget(&at) {
@@ -95,8 +95,8 @@ impl Interpreter {
             }
             let step = match flow {
                 ControlFlow::Continue(()) => None,
-                ControlFlow::Break(Departure::Step(step)) => Some(step),
-                ControlFlow::Break(Departure::Paused) => {
+                ControlFlow::Break(NextBlock::Step(step)) => Some(step),
+                ControlFlow::Break(NextBlock::Paused) => {
                     let step = self.state.parked.take();
                     self.state.parked = self.part_and_step(step, finder);
                     return RunOutcome::Paused;
@@ -151,12 +151,16 @@ impl Interpreter {
 
     /// The run parts after a block that asked, unless it ends or returns in any case. Returns what is
     /// left to do.
-    fn part_and_step(&mut self, step: Option<Step>, finder: &mut dyn Finder) -> Option<Step> {
+    fn part_and_step(
+        &mut self,
+        step: Option<ControlStep>,
+        finder: &mut dyn Finder,
+    ) -> Option<ControlStep> {
         if self.sides.is_empty() {
             return step;
         }
         match step {
-            None | Some(Step::Call(_)) => {
+            None | Some(ControlStep::Call(_)) => {
                 self.take_sides(step.as_ref(), finder);
                 None
             }

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::fingerprint::Fingerprint;
 use super::trust::Trust;
 use crate::interpreter::programs::index::{EntryIndex, Index};
-use crate::interpreter::programs::store::Programs;
-use crate::interpreter::programs::unit::Unit;
+use crate::interpreter::programs::store::ProgramStore;
+use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Options, SourceMode, StopPolicy};
 use crate::interpreter::run::state::State;
@@ -95,7 +95,7 @@ impl Snapshot {
     }
 }
 
-impl Unit {
+impl SourceUnit {
     fn executed(&self) -> Vec<EntryIndex> {
         (0..)
             .zip(&self.executed)
@@ -111,7 +111,7 @@ impl Interpreter {
         if self.handed == SourceMode::LineByLine {
             return None;
         }
-        let file = |unit: &Unit| RunFile {
+        let file = |unit: &SourceUnit| RunFile {
             name: unit.index.source.name().to_string(),
             text: Fingerprint::of_text(unit.index.source.text()),
         };
@@ -119,7 +119,12 @@ impl Interpreter {
             schema: Snapshot::SCHEMA,
             files: self.programs.units().iter().map(file).collect(),
             executed: match self.options.stop {
-                StopPolicy::CheckAll => self.programs.units().iter().map(Unit::executed).collect(),
+                StopPolicy::CheckAll => self
+                    .programs
+                    .units()
+                    .iter()
+                    .map(SourceUnit::executed)
+                    .collect(),
                 StopPolicy::FirstError | StopPolicy::KeepGoing => Vec::new(),
             },
             state: self.state.clone(),
@@ -177,7 +182,7 @@ impl Interpreter {
     }
 }
 
-impl Programs {
+impl ProgramStore {
     fn mark_executed(&mut self, executed: &[Vec<EntryIndex>]) -> Result<(), &'static str> {
         if executed.len() > self.units().len() {
             return Err("executed blocks of a file that is not there");

@@ -8,16 +8,16 @@ use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::Index;
 use crate::interpreter::programs::store::Caller;
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::channel_axes::ChannelAxes;
 use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
-use crate::interpreter::run::path::Track;
-use crate::interpreter::run::step::{Request, Step};
+use crate::interpreter::run::path::RunTrack;
+use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::stopping::one;
-use crate::interpreter::run::undecided::Told;
+use crate::interpreter::run::undecided::MentionedUnknowns;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
 
@@ -49,7 +49,7 @@ impl Interpreter {
         self.sought = None;
         self.programs.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
-            self.state.parked = Some(Step::Begin);
+            self.state.parked = Some(ControlStep::Begin);
             return RunOutcome::Paused;
         }
         self.begin(finder, observer)
@@ -84,7 +84,7 @@ impl Interpreter {
         }
         self.offered.clear();
         let outcome = match self.state.parked.take() {
-            Some(Step::Begin) => {
+            Some(ControlStep::Begin) => {
                 return self.begin(finder, observer);
             }
             Some(step) => match self.follow(step) {
@@ -116,14 +116,14 @@ impl Interpreter {
         self.state.control.named.clear();
         self.state.control.channel_axes = ChannelAxes::default();
         self.state.control.described = None;
-        self.state.track = Track::default();
+        self.state.track = RunTrack::default();
         self.begin_search();
         self.state.pending.clear();
         self.state.ended.clear();
         self.sides.clear();
         self.met.clear();
         self.met_withheld.clear();
-        self.state.told = Told::default();
+        self.state.told = MentionedUnknowns::default();
         self.programs.clear();
         self.pending.clear();
         self.departing.clear();
@@ -167,7 +167,7 @@ impl Interpreter {
             first_line: 1,
             span: Span::default(),
         };
-        let wanted = Wanted::program(CallScope::Global, name, Span::default());
+        let wanted = WantedCall::program(CallScope::Global, name, Span::default());
         let caller = Caller {
             unit: 0,
             file: main,

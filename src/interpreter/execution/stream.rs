@@ -11,11 +11,11 @@ use std::sync::Arc;
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
-use crate::interpreter::run::block_context::{BlockContext, Shown};
+use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
-use crate::interpreter::run::step::Departure;
+use crate::interpreter::run::step::NextBlock;
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
@@ -24,7 +24,7 @@ use crate::text::{LineSource, SourceFile};
 
 /// Progress of the program.
 #[derive(Clone, Copy)]
-enum Stage {
+enum ProgramStage {
     /// Nothing was read yet.
     Before,
     /// The program was announced by its `%` line.
@@ -35,7 +35,7 @@ enum Stage {
     Beyond(Option<EndedBy>),
 }
 
-impl Stage {
+impl ProgramStage {
     /// Another program of the file begins.
     fn beyond(self) -> Self {
         match self {
@@ -46,8 +46,8 @@ impl Stage {
 }
 
 /// Progress of the program, and the messages on blocks after its end.
-struct Progress {
-    stage: Stage,
+struct StreamProgress {
+    stage: ProgramStage,
     notes: Collected,
 }
 
@@ -85,7 +85,7 @@ impl Interpreter {
         let file: Arc<str> = file.into();
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.scratch.block);
-        let mut stage = Stage::Before;
+        let mut stage = ProgramStage::Before;
         let mut notes = Collected::default();
         let mut never_begun = None;
         while let Some(raw) = reader.next(&mut block) {
@@ -99,22 +99,22 @@ impl Interpreter {
                 reader.append_rest(&mut text);
                 self.note_lost(&file, reader.lost_remarks());
                 let rest = SourceFile::new(file, text).from_line(first);
-                let progress = Progress { stage, notes };
+                let progress = StreamProgress { stage, notes };
                 return self.go_on_with(rest, progress, finder, observer);
             }
             if let Stretch::Program { name, local } = raw.stretch {
                 let faults = block.faults.drain(..);
                 self.lost
                     .extend(faults.map(|fault| raw.opening_said(&file, fault)));
-                if matches!(stage, Stage::Before) {
-                    stage = Stage::Announced;
+                if matches!(stage, ProgramStage::Before) {
+                    stage = ProgramStage::Announced;
                     if self.announce(Some(name.of(raw.text)), observer).is_break() {
                         return RunOutcome::Paused;
                     }
                     continue;
                 }
-                if let Stage::Announced = stage {
-                    stage = Stage::Running;
+                if let ProgramStage::Announced = stage {
+                    stage = ProgramStage::Running;
                     if let Some(outcome) = self.begin_lines(&file, finder, observer) {
                         return outcome;
                     }
@@ -128,18 +128,20 @@ impl Interpreter {
                 continue;
             }
             match stage {
-                Stage::Running => {}
-                Stage::Beyond(_) => {
+                ProgramStage::Running => {}
+                ProgramStage::Beyond(_) => {
                     if !self.is_skipped(&block) {
                         self.check_unexecuted(&file, &raw, &block, &mut notes);
                     }
                     continue;
                 }
-                Stage::Before | Stage::Announced => {
-                    if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+                ProgramStage::Before | ProgramStage::Announced => {
+                    if matches!(stage, ProgramStage::Before)
+                        && self.announce(None, observer).is_break()
+                    {
                         return RunOutcome::Paused;
                     }
-                    stage = Stage::Running;
+                    stage = ProgramStage::Running;
                     if let Some(outcome) = self.begin_lines(&file, finder, observer) {
                         return outcome;
                     }
@@ -148,7 +150,7 @@ impl Interpreter {
             if self.is_on_the_way(&block) {
                 continue;
             }
-            let shown = Shown::default();
+            let shown = ShownBlockLines::default();
             let at = BlockContext::of_raw(&file, &raw, &block, &shown);
             if let Some(over) = self.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &one(over), observer);
@@ -158,8 +160,8 @@ impl Interpreter {
             }
             let step = match self.execute(&at, finder, observer) {
                 ControlFlow::Continue(()) => continue,
-                ControlFlow::Break(Departure::Step(step)) => step,
-                ControlFlow::Break(Departure::Paused) => return RunOutcome::Paused,
+                ControlFlow::Break(NextBlock::Step(step)) => step,
+                ControlFlow::Break(NextBlock::Paused) => return RunOutcome::Paused,
             };
             match self.follow(step) {
                 ControlFlow::Continue(()) => match self.run_called(finder, observer) {
@@ -167,7 +169,7 @@ impl Interpreter {
                     Some(outcome) => return outcome,
                 },
                 ControlFlow::Break(ended) => {
-                    stage = Stage::Beyond(Some(ended));
+                    stage = ProgramStage::Beyond(Some(ended));
                     if self.options.stop != StopPolicy::CheckAll {
                         break;
                     }
@@ -176,7 +178,7 @@ impl Interpreter {
         }
         self.note_lost(&file, reader.lost_remarks());
         self.scratch.block = block;
-        let progress = Progress { stage, notes };
+        let progress = StreamProgress { stage, notes };
         self.after_lines(&file, &progress, finder, observer)
     }
 
@@ -184,15 +186,15 @@ impl Interpreter {
     fn after_lines(
         &mut self,
         file: &str,
-        progress: &Progress,
+        progress: &StreamProgress,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         let stage = progress.stage;
-        if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+        if matches!(stage, ProgramStage::Before) && self.announce(None, observer).is_break() {
             return RunOutcome::Paused;
         }
-        if let Stage::Before | Stage::Announced = stage
+        if let ProgramStage::Before | ProgramStage::Announced = stage
             && let Some(outcome) = self.begin_lines(file, finder, observer)
         {
             return outcome;
@@ -258,12 +260,12 @@ impl Interpreter {
     fn go_on_with(
         &mut self,
         rest: SourceFile,
-        progress: Progress,
+        progress: StreamProgress,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        let Progress { stage, notes } = progress;
-        if matches!(stage, Stage::Before) {
+        let StreamProgress { stage, notes } = progress;
+        if matches!(stage, ProgramStage::Before) {
             return self.whole(rest, finder, observer);
         }
         // The blocks so far stood in front of the first one of the index, and so does the frame.
@@ -271,9 +273,9 @@ impl Interpreter {
         index.main = Some(0);
         self.programs.hold_first(index);
         match stage {
-            Stage::Before | Stage::Announced => self.begin(finder, observer),
-            Stage::Running if self.is_refused() => self.refuse(observer),
-            Stage::Running => {
+            ProgramStage::Before | ProgramStage::Announced => self.begin(finder, observer),
+            ProgramStage::Running if self.is_refused() => self.refuse(observer),
+            ProgramStage::Running => {
                 if let Some(sought) = self.sought.take() {
                     let found =
                         self.programs
@@ -286,14 +288,14 @@ impl Interpreter {
                 let outcome = self.run(finder, observer);
                 self.close(outcome, observer)
             }
-            Stage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
+            ProgramStage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
         }
     }
 
     /// Ends a program all of whose lines were read; `notes` are about blocks after its end.
     fn end_of_lines(
         &mut self,
-        stage: Stage,
+        stage: ProgramStage,
         notes: &Collected,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
@@ -301,7 +303,7 @@ impl Interpreter {
             return self.ended(EndedBy::Error, &one(sought.missing), observer);
         }
         let mut said = self.programs.refused();
-        let by = if let Stage::Beyond(Some(by)) = stage {
+        let by = if let ProgramStage::Beyond(Some(by)) = stage {
             by
         } else {
             said.extend(self.state.missing_end());

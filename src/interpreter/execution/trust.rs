@@ -2,16 +2,16 @@
 //! looked up later without further checks.
 
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::programs::store::Programs;
+use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{ModalCycles, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::path::{Loop, Track};
-use crate::interpreter::run::possible::Possible;
+use crate::interpreter::run::path::{Loop, RunTrack};
+use crate::interpreter::run::possible::PossibleKinds;
 use crate::interpreter::run::search::BeforeSearch;
-use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
-use crate::interpreter::run::step::{Request, Step};
+use crate::interpreter::run::step::{ControlStep, Request};
 use crate::interpreter::run::untouched::Untouched;
 use crate::interpreter::run::ways::Ways;
 use crate::machine::Machine;
@@ -24,12 +24,12 @@ const MOST_COUNTED: u64 = 1 << 60;
 const MOST_LINES: u32 = 1 << 31;
 
 /// Verdict on a saved state, with the missing item that it names.
-type Doubt = Result<(), &'static str>;
+type Validity = Result<(), &'static str>;
 
 /// The machine and the files that a state has to fit.
 pub(in crate::interpreter) struct Trust<'a> {
     machine: &'a Machine,
-    programs: &'a Programs,
+    programs: &'a ProgramStore,
     state: &'a State,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Trust<'a> {
     }
 
     /// Whether everything that the state names is there.
-    pub(in crate::interpreter) fn check(&self) -> Doubt {
+    pub(in crate::interpreter) fn check(&self) -> Validity {
         let state = self.state;
         holds(
             state.occurred.len() == self.machine.axes.len(),
@@ -66,7 +66,7 @@ impl<'a> Trust<'a> {
     }
 
     /// A way through the program, and its loops with the states at their beginnings.
-    fn check_path(&self, control: &ControlState, track: &Track) -> Doubt {
+    fn check_path(&self, control: &ControlState, track: &RunTrack) -> Validity {
         let is_machine = control.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a way on another machine")?;
         self.check_axes(control)?;
@@ -88,7 +88,7 @@ impl<'a> Trust<'a> {
         track.loops.iter().try_for_each(|it| self.check_loop(it))
     }
 
-    fn check_axes(&self, control: &ControlState) -> Doubt {
+    fn check_axes(&self, control: &ControlState) -> Validity {
         let axes = self.machine.axes.len();
         let described = control.described.iter().map(|described| &described.before);
         let mut modals = described.chain([&control.modal]);
@@ -100,26 +100,26 @@ impl<'a> Trust<'a> {
         holds(control.channel_axes.fits(axes), "a name of another axis")
     }
 
-    fn check_possible(&self, possible: &Possible, untouched: &Untouched) -> Doubt {
+    fn check_possible(&self, possible: &PossibleKinds, untouched: &Untouched) -> Validity {
         let axes = self.machine.axes.len();
         let conditions = self.state.conditions.len();
         let fit = possible.fits(axes, conditions) && untouched.fits(axes, conditions);
         holds(fit, "a condition that is not there")
     }
 
-    fn check_conditions(&self, mut named: impl Iterator<Item = u32>) -> Doubt {
+    fn check_conditions(&self, mut named: impl Iterator<Item = u32>) -> Validity {
         let conditions = self.state.conditions.len();
         let known = named.all(|condition| (condition as usize) < conditions);
         holds(known, "a condition that is not there")
     }
 
-    fn check_search(&self, before: &BeforeSearch) -> Doubt {
+    fn check_search(&self, before: &BeforeSearch) -> Validity {
         let is_machine = before.compensation.fits(self.machine.axis_setups());
         holds(is_machine, "a block search on another machine")?;
         self.check_possible(&before.possible, &before.untouched)
     }
 
-    fn check_loop(&self, it: &Loop) -> Doubt {
+    fn check_loop(&self, it: &Loop) -> Validity {
         let known = it.fits(MOST_COUNTED) && self.has(it.program());
         holds(known, "a loop in a program that is not there")?;
         it.covered.as_deref().map_or(Ok(()), |covered| {
@@ -127,7 +127,7 @@ impl<'a> Trust<'a> {
         })
     }
 
-    fn check_counters(&self) -> Doubt {
+    fn check_counters(&self) -> Validity {
         let state = self.state;
         let counted = [
             state.seq,
@@ -143,33 +143,41 @@ impl<'a> Trust<'a> {
         holds(lines, "a line that no text has")
     }
 
-    fn check_frames(&self, control: &ControlState) -> Doubt {
+    fn check_frames(&self, control: &ControlState) -> Validity {
         let depth = control.frames.depth();
         let mut frames = control.frames.iter();
         let frames = frames.all(|frame| self.has_frame(frame, depth));
         holds(frames, "a block that is not there")
     }
 
-    fn check_parked(&self) -> Doubt {
+    fn check_parked(&self) -> Validity {
         let state = self.state;
         let parked = match &state.parked {
-            Some(Step::Jump(entry)) => state
+            Some(ControlStep::Jump(entry)) => state
                 .control
                 .frames
                 .running()
                 .is_some_and(|frame| self.has_block(frame.program(), *entry)),
-            Some(Step::Call(requests)) => requests.iter().all(|request| self.has_request(request)),
-            Some(Step::ReturnTo(back)) => back.entry.is_none_or(|entry| {
-                let to = |frame: &&Frame| frame.level <= back.level;
+            Some(ControlStep::Call(requests)) => {
+                requests.iter().all(|request| self.has_request(request))
+            }
+            Some(ControlStep::ReturnTo(back)) => back.entry.is_none_or(|entry| {
+                let to = |frame: &&CallFrame| frame.level <= back.level;
                 let frame = state.control.frames.iter().rev().find(to);
                 frame.is_none_or(|frame| self.has_block(frame.program(), entry))
             }),
-            Some(Step::Begin | Step::Return | Step::End(_) | Step::Covered) | None => true,
+            Some(
+                ControlStep::Begin
+                | ControlStep::Return
+                | ControlStep::End(_)
+                | ControlStep::Covered,
+            )
+            | None => true,
         };
         holds(parked, "a step to a block that is not there")
     }
 
-    fn check_ways(&self, ways: &Ways) -> Doubt {
+    fn check_ways(&self, ways: &Ways) -> Validity {
         let axes = self.machine.axes.len();
         holds(ways.fit(axes), "a way of other axes")?;
         let tails = ways.tails().all(|(place, _)| self.has(place));
@@ -190,7 +198,7 @@ impl<'a> Trust<'a> {
         section.is_some_and(|section| (section.start..=section.end).contains(&entry))
     }
 
-    fn has_frame(&self, frame: &Frame, depth: usize) -> bool {
+    fn has_frame(&self, frame: &CallFrame, depth: usize) -> bool {
         let program = frame.program();
         let is_deep = usize::try_from(frame.level).is_ok_and(|level| level > depth);
         let called = frame.called_from.iter();
@@ -221,7 +229,7 @@ impl<'a> Trust<'a> {
     }
 }
 
-fn holds(is: bool, otherwise: &'static str) -> Doubt {
+fn holds(is: bool, otherwise: &'static str) -> Validity {
     if is { Ok(()) } else { Err(otherwise) }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
+use super::index::{EntryIndex, Index, IndexEntry, LabelName, Links, ProgramSection};
 use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
@@ -27,7 +27,7 @@ struct Open {
 }
 
 /// A jump whose label is looked up when the section is known.
-struct Jump {
+struct PendingJump {
     section: usize,
     label: LabelName,
     entry: EntryIndex,
@@ -89,7 +89,7 @@ struct Builder {
     index: Index,
     nesting: usize,
     open: Vec<Open>,
-    jumps: Vec<Jump>,
+    jumps: Vec<PendingJump>,
     /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
     inner: Vec<(EntryIndex, EntryIndex)>,
     /// The last block so far, once something was refused in it.
@@ -119,7 +119,7 @@ impl Builder {
                 }
                 Stretch::Block => {
                     let entry = Span::new(self.index.entries.len(), raw.offset);
-                    self.index.entries.push(Entry {
+                    self.index.entries.push(IndexEntry {
                         offset: entry.end,
                         line: raw.line,
                     });
@@ -168,7 +168,7 @@ impl Builder {
             let locals = &mut self.index.locals;
             locals.entry(name.clone()).or_insert(number);
         }
-        self.index.sections.push(Section {
+        self.index.sections.push(ProgramSection {
             name,
             local,
             opening,
@@ -388,7 +388,7 @@ impl Builder {
             BlockReference::Label(name) => LabelName::Text(name.of(at.text).to_owned()),
             _ => return,
         };
-        self.jumps.push(Jump {
+        self.jumps.push(PendingJump {
             section: self.index.sections.len() - 1,
             label,
             entry: at.entry,
@@ -457,8 +457,8 @@ fn stray(kind: ControlBlock, at: Statement<'_>) -> Fault {
 
 /// The section that a run of a file begins with: blocks in front of any `%` line, else the first
 /// program that is no local subprogram.
-fn main_of(sections: &[Section]) -> Option<usize> {
-    let is_main = |section: &Section| match section.name {
+fn main_of(sections: &[ProgramSection]) -> Option<usize> {
+    let is_main = |section: &ProgramSection| match section.name {
         None => section.end > section.start,
         Some(_) => !section.local,
     };

@@ -33,14 +33,14 @@ impl ProgramId {
 
 /// One block of the text.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::interpreter) struct Entry {
+pub(in crate::interpreter) struct IndexEntry {
     pub(in crate::interpreter) offset: u32,
     pub(in crate::interpreter) line: u32,
 }
 
 /// A main program or a local subprogram.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Section {
+pub(in crate::interpreter) struct ProgramSection {
     pub(in crate::interpreter) name: Option<String>,
     pub(in crate::interpreter) local: bool,
     /// Its name in the `%` line, where it has one.
@@ -98,8 +98,8 @@ impl std::fmt::Display for LabelName {
 #[derive(Debug)]
 pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) source: SourceFile,
-    pub(in crate::interpreter) entries: Vec<Entry>,
-    pub(in crate::interpreter) sections: Vec<Section>,
+    pub(in crate::interpreter) entries: Vec<IndexEntry>,
+    pub(in crate::interpreter) sections: Vec<ProgramSection>,
     pub(in crate::interpreter) links: BTreeMap<EntryIndex, Links>,
     /// The statements that open loops.
     pub(in crate::interpreter) loops: Vec<EntryIndex>,

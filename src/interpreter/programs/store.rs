@@ -5,9 +5,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::finder::{Finder, NoProgram};
-use super::index::{EntryIndex, Index, LabelName, ProgramId, Section};
-use super::unit::{Parsed, Unit};
-use super::wanted::Wanted;
+use super::index::{EntryIndex, Index, LabelName, ProgramId, ProgramSection};
+use super::unit::{Parsed, SourceUnit};
+use super::wanted::WantedCall;
 use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::syntax::Fault;
@@ -33,8 +33,8 @@ pub(in crate::interpreter) struct Caller<'a> {
 
 /// The files of a run, the main program first.
 #[derive(Clone, Default)]
-pub(in crate::interpreter) struct Programs {
-    units: Vec<Unit>,
+pub(in crate::interpreter) struct ProgramStore {
+    units: Vec<SourceUnit>,
     /// Depth of nested control blocks.
     nesting: u32,
     /// The files by name.
@@ -53,7 +53,7 @@ pub(in crate::interpreter) struct Programs {
     compared: usize,
 }
 
-impl Programs {
+impl ProgramStore {
     /// No file yet.
     pub(in crate::interpreter) fn new(nesting: u32) -> Self {
         Self {
@@ -68,12 +68,12 @@ impl Programs {
     }
 
     /// The files.
-    pub(in crate::interpreter) fn units(&self) -> &[Unit] {
+    pub(in crate::interpreter) fn units(&self) -> &[SourceUnit] {
         &self.units
     }
 
     /// A file.
-    pub(in crate::interpreter) fn unit_mut(&mut self, unit: usize) -> &mut Unit {
+    pub(in crate::interpreter) fn unit_mut(&mut self, unit: usize) -> &mut SourceUnit {
         &mut self.units[unit]
     }
 
@@ -85,7 +85,7 @@ impl Programs {
 
     /// A program.
     #[inline]
-    pub(in crate::interpreter) fn section(&self, program: ProgramId) -> &Section {
+    pub(in crate::interpreter) fn section(&self, program: ProgramId) -> &ProgramSection {
         &self.units[program.unit].index.sections[program.section]
     }
 
@@ -101,7 +101,7 @@ impl Programs {
         let unit = self.units.len();
         let name = index.source.name().clone();
         self.names.entry(name).or_insert(unit);
-        self.units.push(Unit::new(index));
+        self.units.push(SourceUnit::new(index));
         unit
     }
 
@@ -185,7 +185,7 @@ impl Programs {
     /// The program that a call means; `None` where its file holds nothing to execute.
     pub(in crate::interpreter) fn find(
         &mut self,
-        wanted: &Wanted,
+        wanted: &WantedCall,
         caller: Caller<'_>,
         finder: &mut dyn Finder,
         effort: &WorkBudget,
@@ -243,7 +243,7 @@ impl Programs {
 
     /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
     /// that all fail has as many names as calls (R2.60).
-    fn no_local(&mut self, wanted: &Wanted, unit: usize, effort: &WorkBudget) -> Box<Fault> {
+    fn no_local(&mut self, wanted: &WantedCall, unit: usize, effort: &WorkBudget) -> Box<Fault> {
         let name = wanted.name.as_str();
         let fault = Fault::new(
             Code::Fc320,
@@ -270,7 +270,7 @@ impl Programs {
     }
 }
 
-fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
+fn not_at_hand(wanted: &WantedCall, why: &NoProgram) -> Box<Fault> {
     let name = &wanted.name;
     let fault = |code, what: &str| {
         Fault::new(

@@ -11,7 +11,7 @@ use crate::syntax::{Comments, Remark, Stretch};
 
 /// A file of the run.
 #[derive(Clone)]
-pub(in crate::interpreter) struct Unit {
+pub(in crate::interpreter) struct SourceUnit {
     pub(in crate::interpreter) index: Arc<Index>,
     /// Blocks that were executed more than once, parsed.
     pub(in crate::interpreter) kept: Vec<Option<Arc<Parsed>>>,
@@ -29,7 +29,7 @@ pub(in crate::interpreter) struct Unit {
     pub(in crate::interpreter) returned: bool,
 }
 
-impl Unit {
+impl SourceUnit {
     pub(in crate::interpreter) fn new(index: Index) -> Self {
         Self {
             kept: Vec::new(),

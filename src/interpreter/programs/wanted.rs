@@ -34,7 +34,7 @@ impl FunctionWord {
 
 /// A call whose program has not been looked for yet.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Wanted {
+pub(in crate::interpreter) struct WantedCall {
     pub(in crate::interpreter) scope: CallScope,
     pub(in crate::interpreter) name: String,
     pub(in crate::interpreter) own: BTreeMap<u32, Value>,
@@ -46,10 +46,10 @@ pub(in crate::interpreter) struct Wanted {
     /// Set for a modal cycle: whether it waits for motion.
     pub(in crate::interpreter) repeat: Option<bool>,
     /// The part of the program, where it is not the whole.
-    pub(in crate::interpreter) part: Option<Part>,
+    pub(in crate::interpreter) part: Option<CalledPart>,
 }
 
-impl Wanted {
+impl WantedCall {
     /// A call of a program without parameters.
     pub(in crate::interpreter) fn program(scope: CallScope, name: String, span: Span) -> Self {
         Self {
@@ -67,7 +67,7 @@ impl Wanted {
 
 /// The part of a program that `L SEQUENCE` calls.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Part {
+pub(in crate::interpreter) struct CalledPart {
     pub(in crate::interpreter) first: LabelName,
     pub(in crate::interpreter) last: Option<LabelName>,
     /// Whether the call itself ends the part, too.

@@ -24,7 +24,7 @@ pub(in crate::interpreter) struct BlockContext<'a> {
     /// Span of the use of the outermost of them in the block.
     pub(in crate::interpreter) used: Option<Span>,
     /// The lines of the text that messages showed last.
-    pub(in crate::interpreter) shown: &'a Shown,
+    pub(in crate::interpreter) shown: &'a ShownBlockLines,
 }
 
 /// The code of a macro in place of words.
@@ -38,10 +38,10 @@ pub(in crate::interpreter) struct MacroCode<'a> {
 /// The lines of a block that a message showed last. The next one often shows the same, and then
 /// they are held once; a block of many lines is gone through once for all its messages (R2.85).
 #[derive(Debug, Default)]
-pub(in crate::interpreter) struct Shown(RefCell<Option<Lines>>);
+pub(in crate::interpreter) struct ShownBlockLines(RefCell<Option<LineSpan>>);
 
 #[derive(Debug)]
-struct Lines {
+struct LineSpan {
     /// Offset of their start in the block's text.
     from: usize,
     to: usize,
@@ -52,7 +52,7 @@ struct Lines {
     breaks: Option<(usize, usize)>,
 }
 
-impl Shown {
+impl ShownBlockLines {
     /// The place of a span: the lines that it touches, no more of the block.
     fn place(&self, at: &BlockContext<'_>, span: Span) -> Place {
         let text = at.text;
@@ -75,7 +75,7 @@ impl Shown {
                 _ => (0, at.line),
             };
             let breaks = memchr::memchr_iter(b'\n', &bytes[counted..from]).count();
-            last.insert(Lines {
+            last.insert(LineSpan {
                 from,
                 to,
                 number: number.saturating_add(u32::try_from(breaks).unwrap_or(u32::MAX)),
@@ -94,7 +94,7 @@ impl Shown {
     }
 }
 
-impl Lines {
+impl LineSpan {
     /// Whether what stands between two offsets is shown with these lines.
     fn show(&self, start: usize, end: usize) -> bool {
         let is_within = self.from <= start && start <= self.to && end <= self.to;
@@ -113,7 +113,7 @@ impl<'a> BlockContext<'a> {
         file: &'a Arc<str>,
         raw: &RawBlock<'a>,
         block: &'a Block,
-        shown: &'a Shown,
+        shown: &'a ShownBlockLines,
     ) -> Self {
         Self {
             block,
@@ -134,7 +134,7 @@ impl<'a> BlockContext<'a> {
     pub(in crate::interpreter) fn of_parsed(
         parsed: &'a Parsed,
         level: u32,
-        shown: &'a Shown,
+        shown: &'a ShownBlockLines,
     ) -> Self {
         Self {
             block: &parsed.block,
@@ -160,7 +160,11 @@ impl<'a> BlockContext<'a> {
     }
 
     /// Another block of the same program.
-    pub(in crate::interpreter) fn other(&self, parsed: &'a Parsed, shown: &'a Shown) -> Self {
+    pub(in crate::interpreter) fn other(
+        &self,
+        parsed: &'a Parsed,
+        shown: &'a ShownBlockLines,
+    ) -> Self {
         Self {
             block: &parsed.block,
             text: &parsed.text,
@@ -175,7 +179,7 @@ impl<'a> BlockContext<'a> {
         &self,
         text: &'a str,
         block: &'a Block,
-        shown: &'a Shown,
+        shown: &'a ShownBlockLines,
     ) -> Self {
         Self {
             block,
@@ -195,7 +199,7 @@ impl<'a> BlockContext<'a> {
         &self,
         code: &MacroCode<'a>,
         used: Span,
-        shown: &'a Shown,
+        shown: &'a ShownBlockLines,
     ) -> Self {
         Self {
             block: code.block,
@@ -239,7 +243,7 @@ mod tests {
     #[test]
     fn a_place_holds_the_lines_it_touches_and_shares_them() {
         // R2.85
-        let (file, shown) = (Arc::from("a.nc"), Shown::default());
+        let (file, shown) = (Arc::from("a.nc"), ShownBlockLines::default());
         let text = "V.P.T[3] = [1,\\\n2, x,\\\n3, y]";
         let mut block = Block::default();
         let mut reader = BlockReader::new(TextLines::new(text), 7, FastPath::On);

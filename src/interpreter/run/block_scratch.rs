@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
-use crate::interpreter::coordinates::moving::{MovedAxis, Row};
+use crate::interpreter::coordinates::moving::{MovedAxis, MovingRow};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -71,7 +71,7 @@ pub(in crate::interpreter) struct BlockScratch {
     /// The axes that it moves, or may, without a word of their own.
     pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
     /// Motion of its axis words, where the G functions in force do not decide it.
-    pub(in crate::interpreter) word_row: Option<Row>,
+    pub(in crate::interpreter) word_row: Option<MovingRow>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// Words of axes that the machine does not have.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
-use super::possible::{Possible, Split};
+use super::possible::{PossibleKinds, Split};
 use crate::comp::{Compensation, Kind};
 use crate::machine::Machine;
 
@@ -26,7 +26,7 @@ struct CarriedState {
 
 impl CarriedWays {
     pub(in crate::interpreter) fn of(
-        possible: &Possible,
+        possible: &PossibleKinds,
         conditions: &[Condition],
         machine: &Machine,
     ) -> Self {
@@ -69,7 +69,7 @@ impl CarriedWays {
         self,
         machine: &Machine,
         compensation: &Compensation,
-    ) -> (Vec<Condition>, Possible) {
+    ) -> (Vec<Condition>, PossibleKinds) {
         let states = self.states.into_iter().filter_map(|state| {
             let axis = machine.find(&state.axis)?;
             let is_unknown = compensation.unknown(axis).contains(state.kind);

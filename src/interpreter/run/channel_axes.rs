@@ -9,7 +9,7 @@ use crate::comp::AxisIndex;
 /// The names of the channel's axes, as far as the program changed them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ChannelAxes {
-    pub(in crate::interpreter) names: BTreeMap<String, Meaning>,
+    pub(in crate::interpreter) names: BTreeMap<String, AxisNameMeaning>,
     /// Whether the meaning of every name is unknown.
     pub(in crate::interpreter) doubtful: bool,
 }
@@ -18,8 +18,10 @@ impl ChannelAxes {
     /// Whether it names no axis beyond so many.
     pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
-            Meaning::Axis(axis) | Meaning::Released(Some(axis)) => axis.get() < count,
-            Meaning::Released(None) | Meaning::Unknown => true,
+            AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {
+                axis.get() < count
+            }
+            AxisNameMeaning::Released(None) | AxisNameMeaning::Unknown => true,
         })
     }
 
@@ -31,7 +33,7 @@ impl ChannelAxes {
 
 /// Meaning of an axis name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Meaning {
+pub(in crate::interpreter) enum AxisNameMeaning {
     /// This axis of the machine, whatever its own name is.
     Axis(AxisIndex),
     /// An axis that the channel has given back.

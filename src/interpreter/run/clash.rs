@@ -9,9 +9,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::condition::{Clash, Condition, ConditionKind, MAX_ANSWERS};
-use super::way_set::{Answer, Way};
+use super::way_set::{Way, WayAnswer};
 use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 
 /// Conditions on values of the machine that are remembered; older ones contradict nothing.
@@ -22,23 +22,23 @@ const MAX_COMPARED: usize = 8;
 
 /// Values that follow from an answer.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Says {
+pub(in crate::interpreter) struct ImpliedValues {
     /// The values that follow from it.
-    pub(in crate::interpreter) is: Vec<(Target, Value)>,
+    pub(in crate::interpreter) is: Vec<(RegionTarget, Value)>,
     /// The values that it rules out.
-    pub(in crate::interpreter) is_not: Vec<(Target, Value)>,
+    pub(in crate::interpreter) is_not: Vec<(RegionTarget, Value)>,
 }
 
-impl Says {
+impl ImpliedValues {
     /// A variable for which no value gives both answers.
-    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a Target> {
-        let differs = |(target, value): &&(Target, Value)| {
+    fn contradicts<'a>(&'a self, other: &'a Self) -> Option<&'a RegionTarget> {
+        let differs = |(target, value): &&(RegionTarget, Value)| {
             let mut known = other.is.iter();
             let mut ruled_out = other.is_not.iter();
             known.any(|(of, other)| of == target && other != value)
                 || ruled_out.any(|(of, other)| of == target && other == value)
         };
-        let is_ruled_out = |pair: &&(Target, Value)| other.is.contains(pair);
+        let is_ruled_out = |pair: &&(RegionTarget, Value)| other.is.contains(pair);
         let found = self.is.iter().find(differs);
         let found = found.or_else(|| self.is_not.iter().find(is_ruled_out));
         found.map(|(target, _)| target)
@@ -47,21 +47,21 @@ impl Says {
 
 /// A condition on values of the machine that the program has not written since.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Reading {
+pub(in crate::interpreter) struct RememberedCondition {
     pub(in crate::interpreter) condition: u32,
     /// Number of the time that the condition is asked.
     time: u32,
     meaning: Arc<str>,
     writer: Writer,
-    reads: Vec<Target>,
-    answers: Vec<Says>,
+    reads: Vec<RegionTarget>,
+    answers: Vec<ImpliedValues>,
 }
 
-impl Reading {
+impl RememberedCondition {
     pub(in crate::interpreter) fn of(
         (condition, time): (u32, u32),
         asking: &Asking,
-        answers: Vec<Says>,
+        answers: Vec<ImpliedValues>,
     ) -> Self {
         Self {
             condition,
@@ -113,25 +113,25 @@ impl Reading {
     }
 }
 
-fn name_of(target: &Target) -> Option<String> {
+fn name_of(target: &RegionTarget) -> Option<String> {
     match target {
-        Target::Variable(name) => Some(name.clone()),
-        Target::Parameter(..) | Target::Elements(_) | Target::Parameters => None,
+        RegionTarget::Variable(name) => Some(name.clone()),
+        RegionTarget::Parameter(..) | RegionTarget::Elements(_) | RegionTarget::Parameters => None,
     }
 }
 
 /// The conditions on values of the machine that are remembered, the latest last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Readings(Vec<Arc<Reading>>);
+pub(in crate::interpreter) struct RememberedConditions(Vec<Arc<RememberedCondition>>);
 
-impl Readings {
+impl RememberedConditions {
     #[inline]
     pub(in crate::interpreter) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// A condition is asked: the answers that contradict earlier ones.
-    pub(in crate::interpreter) fn ask(&mut self, reading: Reading) -> Vec<Clash> {
+    pub(in crate::interpreter) fn ask(&mut self, reading: RememberedCondition) -> Vec<Clash> {
         let earlier = self.0.iter();
         let clashes = earlier.flat_map(|it| it.clashes(&reading)).collect();
         if self.0.len() >= MAX_READINGS {
@@ -146,8 +146,9 @@ impl Readings {
         match asking {
             None => self.0.clear(),
             Some(asking) => {
-                let is_read =
-                    |it: &Arc<Reading>| it.reads.iter().any(|of| asking.reads.contains(of));
+                let is_read = |it: &Arc<RememberedCondition>| {
+                    it.reads.iter().any(|of| asking.reads.contains(of))
+                };
                 self.0
                     .retain(|it| !is_read(it) && *it.meaning != *asking.meaning);
             }
@@ -155,13 +156,13 @@ impl Readings {
     }
 
     /// The program writes a value.
-    pub(in crate::interpreter) fn write(&mut self, place: &Place) {
-        let is_it = |target: &Target| match (target, place) {
-            (Target::Parameter(of, one), Place::Parameter(owner, other)) => {
+    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace) {
+        let is_it = |target: &RegionTarget| match (target, place) {
+            (RegionTarget::Parameter(of, one), AssignedPlace::Parameter(owner, other)) => {
                 (of, one) == (owner, other)
             }
-            (Target::Variable(one), Place::Variable(other)) => one == other,
-            (_, Place::Elements(..) | Place::Parameters(_)) => true,
+            (RegionTarget::Variable(one), AssignedPlace::Variable(other)) => one == other,
+            (_, AssignedPlace::Elements(..) | AssignedPlace::Parameters(_)) => true,
             _ => false,
         };
         self.0.retain(|it| !it.reads.iter().any(is_it));
@@ -173,7 +174,7 @@ impl Readings {
     }
 
     /// Some values are others from here on.
-    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&Target) -> bool) {
+    pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&RegionTarget) -> bool) {
         self.0.retain(|it| !it.reads.iter().any(&is_other));
     }
 
@@ -193,7 +194,7 @@ impl Readings {
     /// Two ways meet: what only one of them asked counts where the other names no answer to it.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
-        let is_only_mine = |it: &Arc<Reading>| !theirs.contains(&it.condition);
+        let is_only_mine = |it: &Arc<RememberedCondition>| !theirs.contains(&it.condition);
         self.0.retain(|it| other.0.contains(it) || is_only_mine(it));
         for reading in &other.0 {
             let is_known = self.conditions().any(|it| it == reading.condition);
@@ -208,7 +209,7 @@ impl Readings {
 
 /// The clash of an answer with an earlier one of the same way, the nearest of them.
 pub(in crate::interpreter) fn clash<'a>(
-    answer: &Answer,
+    answer: &WayAnswer,
     way: &Way,
     conditions: &'a [Condition],
 ) -> Option<&'a Clash> {

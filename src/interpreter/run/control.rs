@@ -10,7 +10,7 @@ use super::coupling::Couplings;
 use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
-use super::possible::{self, Possible};
+use super::possible::{self, PossibleKinds};
 use super::stack::CallStack;
 use super::untouched::Untouched;
 use super::way_set::WaySet;
@@ -19,7 +19,7 @@ use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::values::memory::Memory;
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 
 /// The state of the control. A copy is cheap: it shares what does not change.
@@ -27,7 +27,7 @@ use crate::interpreter::values::value::Value;
 pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) compensation: Compensation,
     /// Kinds that are unknown because ways differ.
-    pub(in crate::interpreter) possible: Possible,
+    pub(in crate::interpreter) possible: PossibleKinds,
     /// Kinds that are as the program found them.
     pub(in crate::interpreter) untouched: Untouched,
     pub(in crate::interpreter) memory: Memory,
@@ -53,7 +53,7 @@ impl ControlState {
     pub(in crate::interpreter) fn new(compensation: Compensation, modal: Modal) -> Self {
         Self {
             compensation,
-            possible: Possible::default(),
+            possible: PossibleKinds::default(),
             untouched: Untouched::default(),
             memory: Memory::default(),
             modal,
@@ -92,12 +92,12 @@ impl ControlState {
             named,
             described,
         } = other;
-        let mine = possible::Side {
+        let mine = possible::PossibleSide {
             compensation: &self.compensation,
             possible: &self.possible,
             reach: reach[0],
         };
-        let theirs = possible::Side {
+        let theirs = possible::PossibleSide {
             compensation,
             possible,
             reach: reach[1],
@@ -143,7 +143,10 @@ impl ControlState {
     }
 
     /// The values whose numbers differ in another state; `None` where anything else does.
-    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
+    pub(in crate::interpreter) fn differing_numbers(
+        &self,
+        other: &Self,
+    ) -> Option<Vec<RegionTarget>> {
         let Self {
             compensation,
             possible,

@@ -14,7 +14,7 @@ use crate::interpreter::coordinates::moving::Certainty;
 /// enabled, where only definitions changed and no group was in force.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Couplings {
-    groups: BTreeMap<String, Group>,
+    groups: BTreeMap<String, CoupledAxes>,
     /// The groups in force, in the order in which they were enabled.
     enabled: BTreeMap<u64, String>,
     /// Number of groups in force that couple each axis.
@@ -38,10 +38,10 @@ pub(in crate::interpreter) struct Couplings {
 }
 
 /// An axis, the one that it follows, `None` for any, and whether it does so for sure.
-pub(in crate::interpreter) type Link = (AxisIndex, Option<AxisIndex>, Certainty);
+pub(in crate::interpreter) type CouplingLink = (AxisIndex, Option<AxisIndex>, Certainty);
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-struct Group {
+struct CoupledAxes {
     axes: Vec<AxisIndex>,
     /// The turn at which it was enabled, while it is in force.
     enabled: Option<u64>,
@@ -73,7 +73,7 @@ impl Couplings {
     }
 
     /// Returns the followers of each axis.
-    pub(in crate::interpreter) fn links(&self) -> Vec<Link> {
+    pub(in crate::interpreter) fn links(&self) -> Vec<CouplingLink> {
         let groups = self
             .enabled
             .values()
@@ -179,9 +179,9 @@ impl Couplings {
         let (was_enabled, mut changed) = self.take_out(group);
         changed.extend(&axes);
         self.named.extend(&axes);
-        let defined = Group {
+        let defined = CoupledAxes {
             axes,
-            ..Group::default()
+            ..CoupledAxes::default()
         };
         self.groups.insert(group.to_owned(), defined);
         if let Some(turn) = was_enabled {

@@ -19,7 +19,7 @@ pub(in crate::interpreter) fn declared_name(
 /// whose spans are those of the whole.
 pub(in crate::interpreter) fn point_after(hash: &Hash, at: &BlockContext<'_>) -> Option<Block> {
     let (_, step, _) = chain::command(&hash.name)?;
-    if !matches!(step, chain::Step::Path | chain::Step::Machine) {
+    if !matches!(step, chain::ChainStep::Path | chain::ChainStep::Machine) {
         return None;
     }
     let text = hash.span.of(at.text);

@@ -7,20 +7,20 @@ use std::sync::Arc;
 
 use super::block_scratch::BlockScratch;
 use super::control::ControlState;
-use super::journal::{Journal, Regions, Scan};
+use super::journal::{Journal, RegionCall, Regions};
 use super::options::{Options, SourceMode};
-use super::path::{BranchSide, Track};
+use super::path::{BranchSide, RunTrack};
 use super::possible_state::{PossibleStates, shown, ways_of};
 use super::state::State;
-use super::step::PendingLabel;
-use super::undecided::Told;
+use super::step::AwaitedBlock;
+use super::undecided::MentionedUnknowns;
 use super::way_condition::WayCondition;
 use super::ways::Branch;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::programs::store::Programs;
+use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::variable::set_name;
 use crate::interpreter::values::work_budget::WorkBudget;
@@ -64,17 +64,17 @@ pub struct Interpreter {
     pub(in crate::interpreter) stable: BTreeSet<String>,
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(in crate::interpreter) any_required: bool,
-    pub(in crate::interpreter) programs: Programs,
+    pub(in crate::interpreter) programs: ProgramStore,
     /// Label at which a main program that is read line by line goes on.
-    pub(in crate::interpreter) sought: Option<PendingLabel>,
+    pub(in crate::interpreter) sought: Option<AwaitedBlock>,
     /// Calls in regions that may or may not be executed.
-    pub(in crate::interpreter) pending: Vec<Scan>,
+    pub(in crate::interpreter) pending: Vec<RegionCall>,
     /// Ways that leave at the block that is executed.
     pub(in crate::interpreter) departing: Vec<Branch>,
     /// Targets of the answers to the condition of the current block.
     pub(in crate::interpreter) sides: Vec<BranchSide>,
     /// The states that are possible, as users see them, and where they count.
-    pub(in crate::interpreter) shown: Shown,
+    pub(in crate::interpreter) shown: ShownWays,
     /// Messages on ways that joined before the current block.
     pub(in crate::interpreter) met: Vec<Diagnostic>,
     /// The same where it was said before, or where nothing differs.
@@ -97,7 +97,7 @@ pub struct Interpreter {
 
 /// Ways to a block, as far as they are shown.
 #[derive(Debug, Clone, Default)]
-pub(in crate::interpreter) struct Shown {
+pub(in crate::interpreter) struct ShownWays {
     version: u64,
     pub(in crate::interpreter) possible: Vec<PossibleStates>,
     pub(in crate::interpreter) branch: Option<Vec<Vec<WayCondition>>>,
@@ -126,7 +126,7 @@ impl Interpreter {
             ..
         } = &self.state;
         let state = (&control.compensation, &control.possible);
-        self.shown = Shown {
+        self.shown = ShownWays {
             version: self.version,
             possible: shown(state, &track.reach, conditions),
             branch: (!track.reach.is_always()).then(|| ways_of(&track.reach, conditions)),
@@ -155,7 +155,7 @@ impl Interpreter {
         let modal = Modal::at_start(axes, &machine.channel);
         let state = State {
             control: ControlState::new(compensation, modal),
-            track: Track::default(),
+            track: RunTrack::default(),
             pending: Vec::new(),
             ended: Vec::new(),
             conditions: Vec::new(),
@@ -169,7 +169,7 @@ impl Interpreter {
             reads: RefCell::default(),
             last: None,
             parked: None,
-            told: Told::default(),
+            told: MentionedUnknowns::default(),
             rests_on: QuestionSet::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
@@ -200,7 +200,7 @@ impl Interpreter {
             any_required: machine.axes.iter().any(|axis| !axis.monitored().is_empty()),
             machine,
             options,
-            programs: Programs::new(options.limits.nesting),
+            programs: ProgramStore::new(options.limits.nesting),
             handed: SourceMode::Whole,
             letters,
             names,
@@ -213,7 +213,7 @@ impl Interpreter {
             held: Vec::new(),
             offered: Vec::new(),
             chosen: VecDeque::new(),
-            shown: Shown::default(),
+            shown: ShownWays::default(),
             regions: Regions::new(),
             lost: Collected::default(),
             journal: Journal::default(),

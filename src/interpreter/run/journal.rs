@@ -6,14 +6,14 @@ use std::sync::Arc;
 
 use super::region::Region;
 use crate::interpreter::programs::index::EntryIndex;
-use crate::interpreter::programs::wanted::Wanted;
-use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::programs::wanted::WantedCall;
+use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
-pub(in crate::interpreter) struct Scan {
-    pub(in crate::interpreter) call: Wanted,
+pub(in crate::interpreter) struct RegionCall {
+    pub(in crate::interpreter) call: WantedCall,
     pub(in crate::interpreter) cause: Arc<str>,
     /// The file that holds the call.
     pub(in crate::interpreter) unit: usize,
@@ -25,7 +25,7 @@ pub(in crate::interpreter) struct Scan {
 /// these.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Journal {
-    written: Vec<Target>,
+    written: Vec<RegionTarget>,
     /// Rises when the list is restarted.
     epoch: u64,
     /// Up to where the list counted when a region was made unknown.
@@ -35,19 +35,22 @@ pub(in crate::interpreter) struct Journal {
 impl Journal {
     /// A value became known.
     #[inline]
-    pub(in crate::interpreter) fn write(&mut self, place: &Place, value: &Value) {
+    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
         // Where no region was looked through, nothing has to be kept.
         if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
             return;
         }
         match place {
-            Place::Parameter(owner, index) => self.note(Target::Parameter(*owner, *index)),
-            Place::Variable(name) => self.note(Target::Variable(name.clone())),
-            Place::Elements(..) | Place::Parameters(_) | Place::Nowhere => {}
+            AssignedPlace::Parameter(owner, index) => {
+                self.note(RegionTarget::Parameter(*owner, *index))
+            }
+            AssignedPlace::Variable(name) => self.note(RegionTarget::Variable(name.clone())),
+            AssignedPlace::Elements(..) | AssignedPlace::Parameters(_) | AssignedPlace::Nowhere => {
+            }
         }
     }
 
-    fn note(&mut self, target: Target) {
+    fn note(&mut self, target: RegionTarget) {
         if self.written.len() >= MAX_WRITTEN {
             self.begin_anew();
         } else {
@@ -63,7 +66,7 @@ impl Journal {
     }
 
     /// Returns the writes since the region was last made unknown; `None` where they are not known.
-    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[Target]> {
+    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[RegionTarget]> {
         let &(epoch, from) = self.seen.get(&key)?;
         (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
     }

@@ -1,10 +1,10 @@
 //! The actions of a block after its words.
 
 use super::event::EndedBy;
-use super::step::Step;
+use super::step::ControlStep;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::group::Group;
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::text::Span;
 
 /// The F word of a block.
@@ -25,9 +25,9 @@ pub(in crate::interpreter) struct BlockOutcome {
     /// M17, M29.
     pub(in crate::interpreter) returns: bool,
     /// A jump, or a control block's business.
-    pub(in crate::interpreter) step: Option<Step>,
+    pub(in crate::interpreter) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
-    pub(in crate::interpreter) calls: Vec<Wanted>,
+    pub(in crate::interpreter) calls: Vec<WantedCall>,
     /// The G functions of the block, to find two of one group.
     pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
     /// Meaning of the axis words: G04, G92 … make them something else than coordinates.

@@ -6,24 +6,24 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::clash::Readings;
+use super::clash::RememberedConditions;
 use super::control::ControlState;
 use super::event::EndedBy;
 use super::search::BeforeSearch;
-use super::stack::{CallStack, Frame, Seeking};
+use super::stack::{CallFrame, CallStack, Seeking};
 use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::values::memory::Memory;
-use crate::interpreter::values::target::{Place as Written, Target};
+use crate::interpreter::values::target::{AssignedPlace as Written, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
 /// The way of the run to its present block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Track {
+pub(in crate::interpreter) struct RunTrack {
     /// The loops that were repeated, the outermost first.
     pub(in crate::interpreter) loops: Vec<Loop>,
     /// The loops that were left where a value of the machine may end them.
@@ -33,11 +33,11 @@ pub(in crate::interpreter) struct Track {
     /// The answers of the machine that lead here.
     pub(in crate::interpreter) reach: WaySet,
     /// Conditions whose values nothing has written since they were asked.
-    pub(in crate::interpreter) asked: Vec<Asked>,
+    pub(in crate::interpreter) asked: Vec<AskedCondition>,
     /// Conditions on values of the machine whose answers may contradict later ones.
-    pub(in crate::interpreter) readings: Readings,
+    pub(in crate::interpreter) readings: RememberedConditions,
     /// Values that follow from a condition on the way, with what they were before it.
-    pub(in crate::interpreter) assumed: Assumed,
+    pub(in crate::interpreter) assumed: AssumedValues,
     /// The blocks with a skip mark that the way executes.
     pub(in crate::interpreter) marked: Option<Marked>,
     /// The loops whose condition was not known, by depth, file and opener.
@@ -48,10 +48,10 @@ pub(in crate::interpreter) struct Track {
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Asked {
+pub(in crate::interpreter) struct AskedCondition {
     pub(in crate::interpreter) condition: u32,
     pub(in crate::interpreter) key: Arc<str>,
-    pub(in crate::interpreter) reads: Vec<Target>,
+    pub(in crate::interpreter) reads: Vec<RegionTarget>,
 }
 
 /// Adjacent blocks of one skip level.
@@ -66,42 +66,44 @@ pub(in crate::interpreter) struct Marked {
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
-pub(in crate::interpreter) struct Assumed(BTreeMap<Target, Option<Value>>);
+pub(in crate::interpreter) struct AssumedValues(BTreeMap<RegionTarget, Option<Value>>);
 
-type AssumedRow = (Target, Option<Value>);
+type AssumedRow = (RegionTarget, Option<Value>);
 
-impl From<Vec<AssumedRow>> for Assumed {
+impl From<Vec<AssumedRow>> for AssumedValues {
     fn from(rows: Vec<AssumedRow>) -> Self {
         Self(rows.into_iter().collect())
     }
 }
 
-impl From<Assumed> for Vec<AssumedRow> {
-    fn from(assumed: Assumed) -> Self {
+impl From<AssumedValues> for Vec<AssumedRow> {
+    fn from(assumed: AssumedValues) -> Self {
         assumed.0.into_iter().collect()
     }
 }
 
-impl Assumed {
+impl AssumedValues {
     /// A value that holds on this way from here on.
     pub(in crate::interpreter) fn assume(
         &mut self,
         memory: &mut Memory,
-        target: &Target,
+        target: &RegionTarget,
         value: Value,
     ) {
         let before = match target {
-            Target::Parameter(Owner::Program, index) => {
+            RegionTarget::Parameter(Owner::Program, index) => {
                 let before = memory.parameter(*index);
                 memory.set_parameter(*index, value);
                 before
             }
-            Target::Variable(name) => {
+            RegionTarget::Variable(name) => {
                 let before = memory.variable(name);
                 memory.set_variable(name, value);
                 before
             }
-            Target::Parameter(Owner::Call, _) | Target::Elements(_) | Target::Parameters => return,
+            RegionTarget::Parameter(Owner::Call, _)
+            | RegionTarget::Elements(_)
+            | RegionTarget::Parameters => return,
         };
         self.0.entry(target.clone()).or_insert(before);
     }
@@ -111,19 +113,21 @@ impl Assumed {
         self.undo_but(&BTreeSet::new(), memory);
     }
 
-    fn undo_but(&mut self, kept: &BTreeSet<Target>, memory: &mut Memory) {
+    fn undo_but(&mut self, kept: &BTreeSet<RegionTarget>, memory: &mut Memory) {
         let (stay, go) = std::mem::take(&mut self.0)
             .into_iter()
             .partition(|(target, _)| kept.contains(target));
         self.0 = stay;
-        let go: BTreeMap<Target, Option<Value>> = go;
+        let go: BTreeMap<RegionTarget, Option<Value>> = go;
         for (target, before) in go {
             match (target, before) {
-                (Target::Parameter(_, index), Some(value)) => memory.set_parameter(index, value),
-                (Target::Parameter(_, index), None) => memory.delete_parameter(index),
-                (Target::Variable(name), Some(value)) => memory.set_variable(&name, value),
-                (Target::Variable(name), None) => memory.delete(&name),
-                (Target::Elements(_) | Target::Parameters, _) => {}
+                (RegionTarget::Parameter(_, index), Some(value)) => {
+                    memory.set_parameter(index, value)
+                }
+                (RegionTarget::Parameter(_, index), None) => memory.delete_parameter(index),
+                (RegionTarget::Variable(name), Some(value)) => memory.set_variable(&name, value),
+                (RegionTarget::Variable(name), None) => memory.delete(&name),
+                (RegionTarget::Elements(_) | RegionTarget::Parameters, _) => {}
             }
         }
     }
@@ -133,15 +137,15 @@ impl Assumed {
     }
 }
 
-fn value_of(memory: &Memory, target: &Target) -> Option<Value> {
+fn value_of(memory: &Memory, target: &RegionTarget) -> Option<Value> {
     match target {
-        Target::Parameter(_, index) => memory.parameter(*index),
-        Target::Variable(name) => memory.variable(name),
-        Target::Elements(_) | Target::Parameters => None,
+        RegionTarget::Parameter(_, index) => memory.parameter(*index),
+        RegionTarget::Variable(name) => memory.variable(name),
+        RegionTarget::Elements(_) | RegionTarget::Parameters => None,
     }
 }
 
-impl Track {
+impl RunTrack {
     /// A value is written: what was known of it from conditions is over.
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
@@ -156,8 +160,8 @@ impl Track {
     #[cold]
     fn havoc_written(&mut self, place: &Written, memory: &mut Memory) {
         let target = match place {
-            Written::Parameter(owner, index) => Target::Parameter(*owner, *index),
-            Written::Variable(name) => Target::Variable(name.clone()),
+            Written::Parameter(owner, index) => RegionTarget::Parameter(*owner, *index),
+            Written::Variable(name) => RegionTarget::Variable(name.clone()),
             Written::Elements(..) | Written::Parameters(_) => return self.write_anything(memory),
             Written::Nowhere => return,
         };
@@ -174,10 +178,10 @@ impl Track {
 
     /// Another program runs, with own parameters and variables of its own.
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
-        let is_own = |target: &Target| match target {
-            Target::Parameter(owner, _) => *owner == Owner::Call,
-            Target::Variable(name) => name.starts_with("V.L."),
-            Target::Elements(_) | Target::Parameters => true,
+        let is_own = |target: &RegionTarget| match target {
+            RegionTarget::Parameter(owner, _) => *owner == Owner::Call,
+            RegionTarget::Variable(name) => name.starts_with("V.L."),
+            RegionTarget::Elements(_) | RegionTarget::Parameters => true,
         };
         self.asked.retain(|asked| !asked.reads.iter().any(is_own));
         self.readings.havoc(is_own);
@@ -211,7 +215,7 @@ impl Track {
         self.ways.join(ways);
         self.reach.or(reach);
         // What reads nothing is not written on any way.
-        let is_kept = |asked: &Asked| asked.reads.is_empty();
+        let is_kept = |asked: &AskedCondition| asked.reads.is_empty();
         self.asked
             .retain(|mine| asked.contains(mine) || is_kept(mine));
         for theirs in asked.iter().filter(|asked| is_kept(asked)) {
@@ -233,7 +237,7 @@ impl Track {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Path {
     pub(in crate::interpreter) control: ControlState,
-    pub(in crate::interpreter) track: Track,
+    pub(in crate::interpreter) track: RunTrack,
     /// The executed block at which it parted last.
     pub(in crate::interpreter) parted: u64,
 }
@@ -275,13 +279,13 @@ impl Path {
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
-            let common = |(target, before): (&Target, &Option<Value>)| {
+            let common = |(target, before): (&RegionTarget, &Option<Value>)| {
                 let same = theirs.0.get(target) == Some(before);
                 let now = [&self.control.memory, &other.control.memory];
                 let now = now.map(|memory| value_of(memory, target));
                 (same && now[0] == now[1]).then(|| target.clone())
             };
-            let common: BTreeSet<Target> = mine.0.iter().filter_map(common).collect();
+            let common: BTreeSet<RegionTarget> = mine.0.iter().filter_map(common).collect();
             mine.undo_but(&common, &mut self.control.memory);
             theirs.undo_but(&common, &mut other.control.memory);
         }
@@ -322,7 +326,7 @@ pub(in crate::interpreter) struct BranchSide {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from it.
-    pub(in crate::interpreter) values: Vec<(Target, Value)>,
+    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
     /// The state of a kind that follows from it.
     pub(in crate::interpreter) state: Option<(AxisIndex, Kind, Membership)>,
     pub(in crate::interpreter) marked: Option<Marked>,
@@ -368,7 +372,7 @@ impl CallStack {
 }
 
 /// Returns the key that orders two levels of call stacks.
-fn order(frame: &Frame) -> impl Ord + use<> {
+fn order(frame: &CallFrame) -> impl Ord + use<> {
     let left = frame.passage.map_or(0, |passage| passage.left);
     let waiting = frame.waiting.len();
     (
@@ -397,7 +401,7 @@ pub(in crate::interpreter) struct Loop {
     /// The state at the start of an earlier pass.
     pub(in crate::interpreter) mark: Option<Box<Mark>>,
     /// Counters, once it is known that nothing else changes any more.
-    pub(in crate::interpreter) endless: Option<Vec<Target>>,
+    pub(in crate::interpreter) endless: Option<Vec<RegionTarget>>,
     /// Join of the states at the beginnings of all passes, where the loop is left on some ways
     /// (R14.3).
     pub(in crate::interpreter) covered: Option<Box<Path>>,

@@ -49,13 +49,13 @@ impl Split {
 /// The states of kinds that are unknown because ways differ. A kind that is unknown and not among
 /// them may be in any state on any way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<Row>", from = "Vec<Row>")]
-pub(in crate::interpreter) struct Possible(BTreeMap<(AxisIndex, Kind), Split>);
+#[serde(into = "Vec<PossibleRow>", from = "Vec<PossibleRow>")]
+pub(in crate::interpreter) struct PossibleKinds(BTreeMap<(AxisIndex, Kind), Split>);
 
-type Row = (AxisIndex, Kind, Split);
+type PossibleRow = (AxisIndex, Kind, Split);
 
-impl From<Vec<Row>> for Possible {
-    fn from(rows: Vec<Row>) -> Self {
+impl From<Vec<PossibleRow>> for PossibleKinds {
+    fn from(rows: Vec<PossibleRow>) -> Self {
         let rows = rows.into_iter();
         Self(
             rows.map(|(axis, kind, split)| ((axis, kind), split))
@@ -64,21 +64,21 @@ impl From<Vec<Row>> for Possible {
     }
 }
 
-impl From<Possible> for Vec<Row> {
-    fn from(possible: Possible) -> Self {
+impl From<PossibleKinds> for Vec<PossibleRow> {
+    fn from(possible: PossibleKinds) -> Self {
         let rows = possible.0.into_iter();
         rows.map(|((axis, kind), split)| (axis, kind, split))
             .collect()
     }
 }
 
-impl FromIterator<((AxisIndex, Kind), Split)> for Possible {
+impl FromIterator<((AxisIndex, Kind), Split)> for PossibleKinds {
     fn from_iter<I: IntoIterator<Item = ((AxisIndex, Kind), Split)>>(splits: I) -> Self {
         Self(splits.into_iter().collect())
     }
 }
 
-impl Possible {
+impl PossibleKinds {
     #[inline]
     pub(in crate::interpreter) fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -150,13 +150,13 @@ impl Possible {
 }
 
 /// A state of the compensation with the ways on which the control has it.
-pub(in crate::interpreter) struct Side<'a> {
+pub(in crate::interpreter) struct PossibleSide<'a> {
     pub(in crate::interpreter) compensation: &'a Compensation,
-    pub(in crate::interpreter) possible: &'a Possible,
+    pub(in crate::interpreter) possible: &'a PossibleKinds,
     pub(in crate::interpreter) reach: &'a WaySet,
 }
 
-impl Side<'_> {
+impl PossibleSide<'_> {
     /// On which ways a kind is selected; `None` where that is not known.
     fn split(&self, axis: AxisIndex, kind: Kind) -> Option<Split> {
         if self.compensation.unknown(axis).contains(kind) {
@@ -179,9 +179,12 @@ impl Side<'_> {
 }
 
 /// The state where two ways meet.
-pub(in crate::interpreter) fn join(mine: &Side<'_>, theirs: &Side<'_>) -> (Compensation, Possible) {
+pub(in crate::interpreter) fn join(
+    mine: &PossibleSide<'_>,
+    theirs: &PossibleSide<'_>,
+) -> (Compensation, PossibleKinds) {
     let mut compensation = mine.compensation.clone();
-    let mut possible = Possible::default();
+    let mut possible = PossibleKinds::default();
     for axis in (0..compensation.len()).map(AxisIndex::new) {
         for kind in mine
             .compensation

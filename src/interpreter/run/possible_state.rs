@@ -7,11 +7,12 @@ use serde::{Serialize, Serializer};
 
 use super::clash::clash;
 use super::condition::{Condition, ConditionKind};
-use super::possible::{Possible, Split};
+use super::possible::{PossibleKinds, Split};
 use super::way_condition::{
-    Asked, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change, unless,
+    BlockCondition, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change,
+    unless,
 };
-use super::way_set::{Answer, Way, WaySet};
+use super::way_set::{Way, WayAnswer, WaySet};
 use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
 
 /// The states of a kind on an axis that is unknown, each with the ways that lead to it.
@@ -169,7 +170,7 @@ impl PossibleState {
 
 /// The states that are possible where ways lead on some ways only.
 pub(in crate::interpreter) fn shown(
-    (compensation, possible): (&Compensation, &Possible),
+    (compensation, possible): (&Compensation, &PossibleKinds),
     reach: &WaySet,
     conditions: &[Condition],
 ) -> Vec<PossibleStates> {
@@ -258,7 +259,7 @@ pub(in crate::interpreter) fn ways_of(
     all
 }
 
-fn change_of(answer: &Answer, way: &Way, conditions: &[Condition]) -> Option<WayChange> {
+fn change_of(answer: &WayAnswer, way: &Way, conditions: &[Condition]) -> Option<WayChange> {
     let found = clash(answer, way, conditions)?;
     let earlier = &conditions.get(found.earlier as usize)?.place;
     Some(WayChange {
@@ -268,7 +269,11 @@ fn change_of(answer: &Answer, way: &Way, conditions: &[Condition]) -> Option<Way
     })
 }
 
-fn condition_of(condition: &Condition, answer: Answer, changed: Option<WayChange>) -> WayCondition {
+fn condition_of(
+    condition: &Condition,
+    answer: WayAnswer,
+    changed: Option<WayChange>,
+) -> WayCondition {
     let (file, line) = (condition.place.file.clone(), condition.place.start().line);
     let of = |sides: u64| {
         if let ([only], true) = (condition.texts.as_slice(), sides & 1 != 0) {
@@ -281,7 +286,7 @@ fn condition_of(condition: &Condition, answer: Answer, changed: Option<WayChange
     };
     // The last answer is that none of the texts holds.
     let is_else = answer.sides & (1 << condition.texts.len()) != 0;
-    let asked = Asked {
+    let asked = BlockCondition {
         file: file.clone(),
         line,
         text: if is_else {

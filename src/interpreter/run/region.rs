@@ -6,14 +6,14 @@ use std::hash::Hash;
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::simplified::Simplification;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
-use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
-use crate::interpreter::values::target::Target;
+use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::values::target::RegionTarget;
 use crate::syntax::ast::Owner;
 use crate::text::Span;
 
 /// Something that a region could change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(in crate::interpreter) enum Effect {
+pub(in crate::interpreter) enum RegionEffect {
     /// These kinds on this axis.
     Compensation(String, KindSet),
     /// A G function comes into force; `None` for one that is not known.
@@ -81,11 +81,11 @@ impl Exit {
 /// Possible effects of a region.
 #[derive(Debug, Default)]
 pub(in crate::interpreter) struct Region {
-    pub(in crate::interpreter) effects: Vec<Effect>,
-    pub(in crate::interpreter) targets: Vec<Target>,
+    pub(in crate::interpreter) effects: Vec<RegionEffect>,
+    pub(in crate::interpreter) targets: Vec<RegionTarget>,
     /// The targets, to ask whether something is one.
-    pub(in crate::interpreter) written: HashSet<Target>,
-    pub(in crate::interpreter) calls: Vec<Wanted>,
+    pub(in crate::interpreter) written: HashSet<RegionTarget>,
+    pub(in crate::interpreter) calls: Vec<WantedCall>,
     pub(in crate::interpreter) exits: Vec<Exit>,
     /// Its blocks that end the program, each with its unit.
     pub(in crate::interpreter) ends: Vec<(usize, EntryIndex)>,
@@ -96,21 +96,24 @@ pub(in crate::interpreter) struct Region {
 impl Region {
     /// Whether it could move an axis.
     pub(in crate::interpreter) fn moves(&self) -> bool {
-        let moves = |effect: &Effect| {
+        let moves = |effect: &RegionEffect| {
             matches!(
                 effect,
-                Effect::Position(_) | Effect::Positions | Effect::All
+                RegionEffect::Position(_) | RegionEffect::Positions | RegionEffect::All
             )
         };
         self.effects.iter().any(moves)
     }
 
     /// Whether the region could write what was written.
-    pub(in crate::interpreter) fn writes(&self, written: &Target) -> bool {
+    pub(in crate::interpreter) fn writes(&self, written: &RegionTarget) -> bool {
         let whole = match written {
-            Target::Parameter(Owner::Program, _) => self.written.contains(&Target::Parameters),
-            Target::Variable(name) => name.split_once('[').is_some_and(|(array, _)| {
-                self.written.contains(&Target::Elements(array.to_owned()))
+            RegionTarget::Parameter(Owner::Program, _) => {
+                self.written.contains(&RegionTarget::Parameters)
+            }
+            RegionTarget::Variable(name) => name.split_once('[').is_some_and(|(array, _)| {
+                self.written
+                    .contains(&RegionTarget::Elements(array.to_owned()))
             }),
             _ => false,
         };

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::block_context::BlockContext;
-use super::possible::Possible;
+use super::possible::PossibleKinds;
 use super::untouched::Untouched;
 use crate::comp::Compensation;
 use crate::syntax::ast::Operand;
@@ -71,6 +71,6 @@ impl SearchedBlock {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct BeforeSearch {
     pub(in crate::interpreter) compensation: Compensation,
-    pub(in crate::interpreter) possible: Possible,
+    pub(in crate::interpreter) possible: PossibleKinds,
     pub(in crate::interpreter) untouched: Untouched,
 }

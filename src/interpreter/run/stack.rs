@@ -14,11 +14,11 @@ use crate::text::Place;
 
 /// The programs that run, the main program first.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct CallStack(Vec<Frame>);
+pub(in crate::interpreter) struct CallStack(Vec<CallFrame>);
 
 /// One level of the call stack: where a program or subprogram stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Frame {
+pub(in crate::interpreter) struct CallFrame {
     /// The file, by its position among the files of the run.
     pub(in crate::interpreter) unit: usize,
     pub(in crate::interpreter) section: usize,
@@ -41,7 +41,7 @@ pub(in crate::interpreter) struct Frame {
     pub(in crate::interpreter) passage: Option<Passage>,
 }
 
-impl Frame {
+impl CallFrame {
     /// The program that it belongs to.
     pub(in crate::interpreter) fn program(&self) -> ProgramId {
         ProgramId {
@@ -69,7 +69,7 @@ pub(in crate::interpreter) enum Seeking {
     Case(Value),
 }
 
-impl Frame {
+impl CallFrame {
     /// Another way stands at the same block: what differs becomes unknown.
     fn join(&mut self, other: &Self, cause: &Arc<str>) {
         let Self {
@@ -119,30 +119,30 @@ impl CallStack {
 
     /// The program whose blocks are executed.
     #[inline]
-    pub(in crate::interpreter) fn running(&self) -> Option<&Frame> {
+    pub(in crate::interpreter) fn running(&self) -> Option<&CallFrame> {
         self.0.last()
     }
 
     /// The program whose blocks are executed.
     #[inline]
-    pub(in crate::interpreter) fn running_mut(&mut self) -> Option<&mut Frame> {
+    pub(in crate::interpreter) fn running_mut(&mut self) -> Option<&mut CallFrame> {
         self.0.last_mut()
     }
 
     /// The main program.
-    pub(in crate::interpreter) fn main(&self) -> Option<&Frame> {
+    pub(in crate::interpreter) fn main(&self) -> Option<&CallFrame> {
         self.0.first()
     }
 
     /// The cycle that runs, whose end brings back what was in force before it.
-    pub(in crate::interpreter) fn cycle_mut(&mut self) -> Option<&mut Frame> {
+    pub(in crate::interpreter) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();
         frames.find(|frame| frame.restores.is_some())
     }
 
     /// The place of the program whose blocks are executed.
     pub(in crate::interpreter) fn program(&self) -> Option<ProgramId> {
-        self.running().map(Frame::program)
+        self.running().map(CallFrame::program)
     }
 
     /// The call depth of the program whose blocks are executed; 0 is the main program.
@@ -161,12 +161,12 @@ impl CallStack {
     }
 
     /// The outermost program of a call depth.
-    pub(in crate::interpreter) fn at_level(&self, level: u32) -> Option<&Frame> {
+    pub(in crate::interpreter) fn at_level(&self, level: u32) -> Option<&CallFrame> {
         self.0.iter().find(|frame| frame.level == level)
     }
 
     /// The program so many calls deep, the main program being the first.
-    pub(in crate::interpreter) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut Frame> {
+    pub(in crate::interpreter) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
         self.0.get_mut(depth.checked_sub(1)?)
     }
 
@@ -181,17 +181,17 @@ impl CallStack {
     }
 
     /// The programs, the main program first.
-    pub(in crate::interpreter) fn iter(&self) -> impl DoubleEndedIterator<Item = &Frame> {
+    pub(in crate::interpreter) fn iter(&self) -> impl DoubleEndedIterator<Item = &CallFrame> {
         self.0.iter()
     }
 
     /// A program is called.
-    pub(in crate::interpreter) fn push(&mut self, frame: Frame) {
+    pub(in crate::interpreter) fn push(&mut self, frame: CallFrame) {
         self.0.push(frame);
     }
 
     /// A program is left.
-    pub(in crate::interpreter) fn pop(&mut self) -> Option<Frame> {
+    pub(in crate::interpreter) fn pop(&mut self) -> Option<CallFrame> {
         self.0.pop()
     }
 

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::Condition;
 use super::control::ControlState;
-use super::path::{EndedPath, Last, Path, Track};
-use super::step::Step;
-use super::undecided::Told;
+use super::path::{EndedPath, Last, Path, RunTrack};
+use super::step::ControlStep;
+use super::undecided::MentionedUnknowns;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::readings::QuestionSet;
@@ -23,7 +23,7 @@ pub(in crate::interpreter) struct State {
     /// State of the control.
     pub(in crate::interpreter) control: ControlState,
     /// The way to it.
-    pub(in crate::interpreter) track: Track,
+    pub(in crate::interpreter) track: RunTrack,
     /// The other ways that are still executed.
     pub(in crate::interpreter) pending: Vec<Path>,
     /// The ways that have ended.
@@ -47,9 +47,9 @@ pub(in crate::interpreter) struct State {
     /// The last executed block of the main program.
     pub(in crate::interpreter) last: Option<Last>,
     /// First step of a paused run when it goes on.
-    pub(in crate::interpreter) parked: Option<Step>,
+    pub(in crate::interpreter) parked: Option<ControlStep>,
     /// The unknown values that messages were about.
-    pub(in crate::interpreter) told: Told,
+    pub(in crate::interpreter) told: MentionedUnknowns,
     /// The open questions on whose readings results rest (R15.3).
     pub(in crate::interpreter) rests_on: QuestionSet,
 }

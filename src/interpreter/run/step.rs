@@ -13,7 +13,7 @@ use crate::text::Place;
 
 /// Step of the control after a block, where that is not the next one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Step {
+pub(in crate::interpreter) enum ControlStep {
     /// The program was announced and has not begun.
     Begin,
     /// To a block of the same program.
@@ -30,10 +30,10 @@ pub(in crate::interpreter) enum Step {
 }
 
 /// Why the next block is not the one that follows.
-pub(in crate::interpreter) enum Departure {
+pub(in crate::interpreter) enum NextBlock {
     /// The observer wants to stop.
     Paused,
-    Step(Step),
+    Step(ControlStep),
 }
 
 /// A program to call.
@@ -80,7 +80,7 @@ pub(in crate::interpreter) struct Destination {
 
 /// A block of a main program that is read line by line, and what is said where it never comes.
 #[derive(Clone, Debug)]
-pub(in crate::interpreter) struct PendingLabel {
+pub(in crate::interpreter) struct AwaitedBlock {
     pub(in crate::interpreter) label: LabelName,
     pub(in crate::interpreter) missing: Diagnostic,
 }

@@ -44,7 +44,7 @@ impl Differing {
 
 /// The unknown values that messages of the program were about, by what makes them unknown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Told {
+pub(in crate::interpreter) struct MentionedUnknowns {
     roots: BTreeMap<Arc<str>, Root>,
 }
 
@@ -56,7 +56,7 @@ struct Root {
     named: BTreeMap<String, (Arc<str>, u32)>,
 }
 
-impl Told {
+impl MentionedUnknowns {
     /// Remembers where a value came in first.
     pub(in crate::interpreter) fn enter(
         &mut self,

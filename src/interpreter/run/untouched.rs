@@ -13,18 +13,18 @@ use crate::comp::{AxisIndex, Kind, KindSet};
 /// Axis and kind → the ways on which no command of the program has switched it. What is not among
 /// them was switched on no way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<Row>", from = "Vec<Row>")]
+#[serde(into = "Vec<UntouchedRow>", from = "Vec<UntouchedRow>")]
 pub(in crate::interpreter) struct Untouched(BTreeMap<(AxisIndex, Kind), WaySet>);
 
-type Row = ((AxisIndex, Kind), WaySet);
+type UntouchedRow = ((AxisIndex, Kind), WaySet);
 
-impl From<Vec<Row>> for Untouched {
-    fn from(rows: Vec<Row>) -> Self {
+impl From<Vec<UntouchedRow>> for Untouched {
+    fn from(rows: Vec<UntouchedRow>) -> Self {
         Self(rows.into_iter().collect())
     }
 }
 
-impl From<Untouched> for Vec<Row> {
+impl From<Untouched> for Vec<UntouchedRow> {
     fn from(untouched: Untouched) -> Self {
         untouched.0.into_iter().collect()
     }
@@ -81,7 +81,7 @@ impl Untouched {
 
 /// On which of the ways that lead to a block the state is the one that the program found.
 #[derive(Debug, Clone)]
-pub(crate) enum Found {
+pub(crate) enum UntouchedOn {
     /// On all of them.
     Always,
     /// On none.
@@ -154,14 +154,14 @@ impl FoundStates<'_> {
     }
 
     /// The ways on which a kind of an axis still is in that state, as seen from a file.
-    pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> Found {
+    pub(crate) fn of(self, axis: AxisIndex, kind: Kind, file: &str) -> UntouchedOn {
         let ways = self.untouched.of((axis, kind), self.reach);
         if ways.is_never() {
-            Found::Never
+            UntouchedOn::Never
         } else if ways.is_always() {
-            Found::Always
+            UntouchedOn::Always
         } else {
-            Found::If(if_ways(&ways_of(&ways, self.conditions), file))
+            UntouchedOn::If(if_ways(&ways_of(&ways, self.conditions), file))
         }
     }
 }

@@ -16,13 +16,13 @@ pub(in crate::interpreter) const MAX_NAMED: usize = 4;
 #[non_exhaustive]
 pub enum WayCondition {
     /// A condition of a control block.
-    Condition(Asked),
+    Condition(BlockCondition),
     /// A case of a `$SWITCH`.
-    Case(Asked),
+    Case(BlockCondition),
     /// Whether a loop is repeated.
-    Loop(Asked),
+    Loop(BlockCondition),
     /// Whether a probe answers.
-    Probe(Asked),
+    Probe(BlockCondition),
     /// The switch of a skip level.
     Skip {
         /// The level.
@@ -77,7 +77,7 @@ pub enum WayCondition {
 /// Condition of a block.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
-pub struct Asked {
+pub struct BlockCondition {
     /// The file.
     pub file: Arc<str>,
     /// The line, from 1.
@@ -301,7 +301,7 @@ impl WayCondition {
     }
 }
 
-impl Asked {
+impl BlockCondition {
     fn seen_from(&self, file: &str) -> String {
         seen_from((&self.file, self.line), file)
     }

@@ -10,7 +10,7 @@ const MAX_CONDITIONS: usize = 32;
 
 /// An answer to a condition, or several of which it is one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Answer {
+pub(in crate::interpreter) struct WayAnswer {
     /// The condition, by its number in the run.
     pub(in crate::interpreter) condition: u32,
     /// The answers that are possible, a bit each.
@@ -19,14 +19,14 @@ pub(in crate::interpreter) struct Answer {
     pub(in crate::interpreter) of: u8,
 }
 
-impl Answer {
+impl WayAnswer {
     fn is_any(self) -> bool {
         self.sides.count_ones() >= u32::from(self.of)
     }
 }
 
 /// Answers that hold together, by the number of their condition.
-pub(in crate::interpreter) type Way = Vec<Answer>;
+pub(in crate::interpreter) type Way = Vec<WayAnswer>;
 
 /// The ways on which something holds: on any of them, and on no other.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,7 +50,7 @@ impl WaySet {
     }
 
     /// The ways on which a condition has an answer.
-    pub(in crate::interpreter) fn of(answer: Answer) -> Self {
+    pub(in crate::interpreter) fn of(answer: WayAnswer) -> Self {
         if answer.is_any() {
             Self::always()
         } else {
@@ -95,7 +95,7 @@ impl WaySet {
 
     /// The same with other numbers of the conditions, in the same order.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
-        let answer = |answer: &Answer| Answer {
+        let answer = |answer: &WayAnswer| WayAnswer {
             condition: number(answer.condition),
             ..*answer
         };
@@ -112,10 +112,10 @@ impl WaySet {
 
     /// Returns the conditions of the ways beyond those that hold on all of others.
     pub(in crate::interpreter) fn beyond(mut self, others: &Self) -> Self {
-        let holds = |answer: &Answer| {
+        let holds = |answer: &WayAnswer| {
             !others.is_never()
                 && others.0.iter().all(|other| {
-                    let same = |it: &&Answer| it.condition == answer.condition;
+                    let same = |it: &&WayAnswer| it.condition == answer.condition;
                     let found = other.iter().find(same);
                     found.is_some_and(|found| found.sides & !answer.sides == 0)
                 })
@@ -182,7 +182,7 @@ impl WaySet {
             for outer in (0..count).filter(|outer| *outer != inner) {
                 for place in 0..self.0[inner].len() {
                     let answer = self.0[inner][place];
-                    let same = |it: &&Answer| it.condition == answer.condition;
+                    let same = |it: &&WayAnswer| it.condition == answer.condition;
                     let Some(other) = self.0[outer].iter().find(same).copied() else {
                         continue;
                     };
@@ -221,7 +221,7 @@ fn contains(outer: &Way, inner: &Way, but: Option<u32>) -> bool {
         .iter()
         .filter(|answer| Some(answer.condition) != but)
         .all(|answer| {
-            let same = |it: &&Answer| it.condition == answer.condition;
+            let same = |it: &&WayAnswer| it.condition == answer.condition;
             let found = inner.iter().find(same);
             found.is_some_and(|found| found.sides & !answer.sides == 0)
         })
@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     fn is(condition: u32, holds: bool) -> WaySet {
-        WaySet::of(Answer {
+        WaySet::of(WayAnswer {
             condition,
             sides: if holds { 1 } else { 2 },
             of: 2,

@@ -15,7 +15,7 @@ use super::cycles::ModalCycles;
 use crate::comp::KindSet;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::text::Span;
 
@@ -39,7 +39,7 @@ pub(in crate::interpreter) struct Ways {
     #[serde(default)]
     pub(in crate::interpreter) own: Option<Vec<AxisKinds>>,
     /// Writes since the first of them left, and the block of the last write.
-    pub(in crate::interpreter) written: Written,
+    pub(in crate::interpreter) written: WrittenTargets,
     /// The block that may have written anything.
     pub(in crate::interpreter) everything: u64,
 }
@@ -60,17 +60,19 @@ pub(in crate::interpreter) struct WayEnd {
 
 /// Targets with the executed block that wrote them last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(into = "Vec<(Target, u64)>", from = "Vec<(Target, u64)>")]
-pub(in crate::interpreter) struct Written(pub(in crate::interpreter) BTreeMap<Target, u64>);
+#[serde(into = "Vec<(RegionTarget, u64)>", from = "Vec<(RegionTarget, u64)>")]
+pub(in crate::interpreter) struct WrittenTargets(
+    pub(in crate::interpreter) BTreeMap<RegionTarget, u64>,
+);
 
-impl From<Vec<(Target, u64)>> for Written {
-    fn from(written: Vec<(Target, u64)>) -> Self {
+impl From<Vec<(RegionTarget, u64)>> for WrittenTargets {
+    fn from(written: Vec<(RegionTarget, u64)>) -> Self {
         Self(written.into_iter().collect())
     }
 }
 
-impl From<Written> for Vec<(Target, u64)> {
-    fn from(written: Written) -> Self {
+impl From<WrittenTargets> for Vec<(RegionTarget, u64)> {
+    fn from(written: WrittenTargets) -> Self {
         written.0.into_iter().collect()
     }
 }
@@ -214,16 +216,16 @@ impl Ways {
     }
 
     /// A value was written.
-    pub(in crate::interpreter) fn write(&mut self, place: &Place, seq: u64) {
+    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, seq: u64) {
         if self.written.0.len() >= MAX_WRITTEN {
             return self.write_anything(seq);
         }
         let target = match place {
-            Place::Parameter(owner, index) => Target::Parameter(*owner, *index),
-            Place::Variable(name) => Target::Variable(name.clone()),
-            Place::Elements(name, _) => Target::Elements(name.clone()),
-            Place::Parameters(_) => Target::Parameters,
-            Place::Nowhere => return,
+            AssignedPlace::Parameter(owner, index) => RegionTarget::Parameter(*owner, *index),
+            AssignedPlace::Variable(name) => RegionTarget::Variable(name.clone()),
+            AssignedPlace::Elements(name, _) => RegionTarget::Elements(name.clone()),
+            AssignedPlace::Parameters(_) => RegionTarget::Parameters,
+            AssignedPlace::Nowhere => return,
         };
         self.written.0.insert(target, seq);
     }

@@ -6,18 +6,18 @@ use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::clash::{Reading, Says, is_compared};
+use crate::interpreter::run::clash::{ImpliedValues, RememberedCondition, is_compared};
 use crate::interpreter::run::condition::{Condition, ConditionKind, MAX_ANSWERS};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
-use crate::interpreter::run::path::{Asked, BranchSide};
+use crate::interpreter::run::path::{AskedCondition, BranchSide};
 use crate::interpreter::run::possible_state::ways_of;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::WayCondition;
-use crate::interpreter::run::way_set::{Answer, WaySet};
+use crate::interpreter::run::way_set::{WayAnswer, WaySet};
 use crate::interpreter::values::plain::{Asking, Writer};
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
@@ -35,7 +35,7 @@ const MAX_ASKED: usize = 64;
 const MAX_ROUNDS: u8 = 4;
 
 /// A question to the machine.
-pub(in crate::interpreter) struct Question {
+pub(in crate::interpreter) struct MachineQuestion {
     pub(in crate::interpreter) kind: ConditionKind,
     pub(in crate::interpreter) span: Span,
     /// Text of the condition for each answer but the last.
@@ -45,7 +45,7 @@ pub(in crate::interpreter) struct Question {
     pub(in crate::interpreter) reads: Option<Asking>,
 }
 
-impl Question {
+impl MachineQuestion {
     /// The same question, where nothing but the program writes what it reads.
     fn key(&self) -> Option<Arc<str>> {
         let asking = self.reads.as_ref();
@@ -59,20 +59,20 @@ pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Values that follow from the answer.
-    pub(in crate::interpreter) values: Vec<(Target, Value)>,
+    pub(in crate::interpreter) values: Vec<(RegionTarget, Value)>,
     /// Values that the answer rules out.
-    pub(in crate::interpreter) ruled_out: Vec<(Target, Value)>,
+    pub(in crate::interpreter) ruled_out: Vec<(RegionTarget, Value)>,
 }
 
 impl Goal {
-    fn says(&self) -> Says {
-        Says {
+    fn says(&self) -> ImpliedValues {
+        ImpliedValues {
             is: self.values.clone(),
             is_not: self.ruled_out.clone(),
         }
     }
 
-    fn side(self, answer: Answer) -> BranchSide {
+    fn side(self, answer: WayAnswer) -> BranchSide {
         BranchSide {
             seeking: self.seeking,
             values: self.values,
@@ -95,9 +95,9 @@ impl Goal {
 pub(in crate::interpreter) fn answers(
     condition: u32,
     count: usize,
-) -> impl Iterator<Item = Answer> {
+) -> impl Iterator<Item = WayAnswer> {
     let of = u8::try_from(count).unwrap_or(u8::MAX);
-    (0..count).map(move |place| Answer {
+    (0..count).map(move |place| WayAnswer {
         condition,
         sides: 1 << place,
         of,
@@ -143,7 +143,7 @@ impl Interpreter {
     /// The run parts at a question: one way for each answer. Whether it can.
     pub(in crate::interpreter) fn part(
         &mut self,
-        question: Question,
+        question: MachineQuestion,
         goals: Vec<Goal>,
         at: &BlockContext<'_>,
     ) -> bool {
@@ -170,7 +170,7 @@ impl Interpreter {
     /// answers are offered. Whether one is taken.
     fn take_chosen(
         &mut self,
-        question: Question,
+        question: MachineQuestion,
         mut goals: Vec<Goal>,
         at: &BlockContext<'_>,
     ) -> bool {
@@ -190,9 +190,9 @@ impl Interpreter {
             }
         }
         let condition = self.ask(question, Vec::new(), at);
-        let answers: Vec<Answer> = answers(condition, goals.len()).collect();
+        let answers: Vec<WayAnswer> = answers(condition, goals.len()).collect();
         let reach = &self.state.track.reach;
-        let fits = |answer: &&Answer| !reach.and(&WaySet::of(**answer)).is_never();
+        let fits = |answer: &&WayAnswer| !reach.and(&WaySet::of(**answer)).is_never();
         let mut possible = answers.iter().filter(fits);
         let only = possible.next().filter(|_| possible.next().is_none());
         let answer = match only {
@@ -212,7 +212,12 @@ impl Interpreter {
     }
 
     /// The number of the condition that a question asks for.
-    fn ask(&mut self, question: Question, answers: Vec<Says>, at: &BlockContext<'_>) -> u32 {
+    fn ask(
+        &mut self,
+        question: MachineQuestion,
+        answers: Vec<ImpliedValues>,
+        at: &BlockContext<'_>,
+    ) -> u32 {
         let key = question.key();
         if let Some(key) = &key {
             let mut asked = self.state.track.asked.iter();
@@ -241,7 +246,7 @@ impl Interpreter {
                 track.asked.remove(0);
             }
             let reads = question.reads.map(|asking| asking.reads);
-            track.asked.push(Asked {
+            track.asked.push(AskedCondition {
                 condition,
                 key,
                 reads: reads.unwrap_or_default(),
@@ -253,10 +258,9 @@ impl Interpreter {
     }
 
     /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.
-    fn compare(&mut self, condition: u32, question: &Question, answers: Vec<Says>) {
+    fn compare(&mut self, condition: u32, question: &MachineQuestion, answers: Vec<ImpliedValues>) {
         let place = condition as usize;
-        let is_own =
-            |target: &Target| matches!(target, Target::Variable(name) if self.is_own(name));
+        let is_own = |target: &RegionTarget| matches!(target, RegionTarget::Variable(name) if self.is_own(name));
         let asking = question.reads.as_ref();
         let asking = asking.filter(|asking| !asking.reads.iter().any(is_own));
         let is_again = self.state.is_asked_again(place);
@@ -278,7 +282,7 @@ impl Interpreter {
         // Other ways may name the same condition as it was asked before.
         let is_alone = known.time == 1 || (pending.is_empty() && ended.is_empty());
         if let Some(asking) = asking.filter(|_| is_alone && is_compared(question.kind)) {
-            let reading = Reading::of((condition, known.time), asking, answers);
+            let reading = RememberedCondition::of((condition, known.time), asking, answers);
             known.clashes = track.readings.ask(reading);
         }
     }
@@ -327,7 +331,7 @@ impl State {
     }
 
     /// A question that reads no value, and so has one answer on all ways, as another way asked it.
-    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<Asked> {
+    fn asked_elsewhere(&self, key: &Arc<str>) -> Option<AskedCondition> {
         let ended = self.ended.iter().map(|ended| &ended.path);
         let paths = self.pending.iter().chain(ended);
         let mut asked = paths.flat_map(|path| &path.track.asked);

@@ -11,13 +11,13 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::PassedBy;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{
     AxisKinds, Branch, JumpTarget, OpenPath, PathState, RETURN, Remainder, Ways, join_names,
 };
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -142,7 +142,7 @@ impl Interpreter {
     }
 
     /// A program is left: its ways go on in the caller, after what they still execute.
-    pub(in crate::interpreter) fn leave_ways(&mut self, frame: &Frame) {
+    pub(in crate::interpreter) fn leave_ways(&mut self, frame: &CallFrame) {
         let depth = self.state.control.frames.depth();
         let caller = self.state.control.frames.running().map(|caller| {
             let waiting = caller.waiting.iter().map(|request| Remainder {
@@ -244,7 +244,7 @@ impl Interpreter {
         let written = &self.state.track.ways.written.0;
         self.state.effort.charge(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
-        let later: Vec<Target> = later.map(|(target, _)| target.clone()).collect();
+        let later: Vec<RegionTarget> = later.map(|(target, _)| target.clone()).collect();
         if self.state.track.ways.everything > since {
             self.havoc_memory(&cause);
         }

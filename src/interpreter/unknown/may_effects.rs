@@ -17,21 +17,21 @@ use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
-use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
-use crate::interpreter::run::block_context::{BlockContext, MacroCode, Shown};
+use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
+use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::event::Notes;
 use crate::interpreter::run::hash_parts::{declared_name, point_after};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::region::{Effect, Exit, Region};
+use crate::interpreter::run::region::{Exit, Region, RegionEffect};
 use crate::interpreter::values::expression::unquoted;
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
 use crate::interpreter::values::work_budget::ITEM;
 use crate::syntax::ast::{
     Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
-    Hash as HashCommand, Item, Levels, Node, Operand, Owner, Word,
+    Hash as HashCommand, Item, Node, Operand, Owner, ReturnLevels, Word,
 };
 use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number};
 use crate::text::Span;
@@ -40,7 +40,7 @@ use crate::text::Span;
 struct MayEffects<'a> {
     run: &'a Interpreter,
     region: Region,
-    effects: HashSet<Effect>,
+    effects: HashSet<RegionEffect>,
     calls: HashSet<(bool, Option<bool>, String)>,
     exits: HashSet<Exit>,
     /// The block that is looked at.
@@ -71,7 +71,7 @@ impl MayEffects<'_> {
             }
             left -= 1;
             self.run.state.effort.charge(ITEM + raw.text.len());
-            let shown = Shown::default();
+            let shown = ShownBlockLines::default();
             let at = BlockContext::of_raw(file, &raw, &block, &shown);
             // Blocks that are skipped change nothing (R2.3).
             if !self.run.is_skipped(&block) {
@@ -110,14 +110,14 @@ impl MayEffects<'_> {
             let code = match self.run.state.control.memory.macro_code(&name) {
                 Some(Value::Text(code)) => &**code,
                 Some(Value::Unknown(_)) => {
-                    self.effect(Effect::All);
+                    self.effect(RegionEffect::All);
                     continue;
                 }
                 Some(Value::Number(_)) | None => continue,
             };
             self.run.state.effort.charge(ITEM + code.len());
             let block = crate::syntax::parse_block(code);
-            let shown = Shown::default();
+            let shown = ShownBlockLines::default();
             let code = MacroCode {
                 text: code,
                 block: &block,
@@ -127,21 +127,21 @@ impl MayEffects<'_> {
         }
     }
 
-    fn effect(&mut self, effect: Effect) {
+    fn effect(&mut self, effect: RegionEffect) {
         if !self.effects.contains(&effect) {
             self.effects.insert(effect.clone());
             self.region.effects.push(effect);
         }
     }
 
-    fn writes(&mut self, target: Target) {
+    fn writes(&mut self, target: RegionTarget) {
         if !self.region.written.contains(&target) {
             self.region.written.insert(target.clone());
             self.region.targets.push(target);
         }
     }
 
-    fn calls(&mut self, wanted: Wanted) {
+    fn calls(&mut self, wanted: WantedCall) {
         let local = wanted.scope == CallScope::Local;
         let key = (local, wanted.repeat, wanted.name.clone());
         if self.calls.insert(key) {
@@ -153,7 +153,7 @@ impl MayEffects<'_> {
         match item {
             Item::Comp(command) => {
                 let kinds = command.selection.kinds();
-                self.effect(Effect::Compensation(command.axis.clone(), kinds));
+                self.effect(RegionEffect::Compensation(command.axis.clone(), kinds));
             }
             Item::Assign(assignment) => self.assigns(assignment.target.place, at),
             Item::Flow(Flow::For { counter, .. }, _) => self.assigns(counter.place, at),
@@ -166,13 +166,13 @@ impl MayEffects<'_> {
                 Some(name) => match self.program_name(name, at) {
                     Some(name) => {
                         let span = at.in_block(sequence.span);
-                        self.calls(Wanted::program(CallScope::Global, name, span));
+                        self.calls(WantedCall::program(CallScope::Global, name, span));
                     }
-                    None => self.effect(Effect::All),
+                    None => self.effect(RegionEffect::All),
                 },
             },
             Item::GCall(call) => {
-                self.effect(Effect::Function(FunctionWord::g(call.number)));
+                self.effect(RegionEffect::Function(FunctionWord::g(call.number)));
             }
             Item::Hash(hash) => {
                 for target in &hash.written {
@@ -188,20 +188,20 @@ impl MayEffects<'_> {
             }
             Item::MacroDefinition(name, _) => {
                 let name = unquoted(name.of(at.text)).trim();
-                self.effect(Effect::Macro(name.to_owned()));
+                self.effect(RegionEffect::Macro(name.to_owned()));
             }
             Item::Unread(Unread::Everything, span) => {
                 if !self.run.machine.harmless.has_command(span.of(at.text)) {
-                    self.effect(Effect::All);
+                    self.effect(RegionEffect::All);
                 }
             }
-            Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
+            Item::Unread(Unread::Parameters, _) => self.writes(RegionTarget::Parameters),
             Item::Flow(flow, _) => self.flow(flow, at),
-            Item::Return(back) if back.levels != Levels::One || back.target.is_some() => {
+            Item::Return(back) if back.levels != ReturnLevels::One || back.target.is_some() => {
                 self.exit(Exit::Far);
             }
             Item::Return(_) => self.exit(Exit::Return),
-            Item::Unread(Unread::Spindle, _) => self.effect(Effect::Spindle),
+            Item::Unread(Unread::Spindle, _) => self.effect(RegionEffect::Spindle),
             Item::Bracket { axis, keyword, .. } => {
                 let name = axis.of(at.text);
                 let keyword = keyword.of(at.text).to_ascii_uppercase();
@@ -215,20 +215,20 @@ impl MayEffects<'_> {
     /// A command in the bracket of an axis or spindle.
     fn bracket(&mut self, name: &str, keyword: &str, body: &str) {
         if keyword.starts_with("OVERRIDE") {
-            self.effect(Effect::Overrides);
+            self.effect(RegionEffect::Overrides);
         } else if name.starts_with('S') {
-            self.effect(Effect::Spindle);
+            self.effect(RegionEffect::Spindle);
         }
         if let Some(what) = simplified::of_bracket(keyword, body) {
-            self.effect(Effect::Simplified(what));
+            self.effect(RegionEffect::Simplified(what));
         }
         if let Some(axis) = self.run.axis_named(name) {
             let row = moving::of_bracket(keyword, body);
             if row.is_some() {
-                self.effect(Effect::Position(axis));
+                self.effect(RegionEffect::Position(axis));
             }
             if row.is_some_and(|row| row.moves == Moves::Follower) || ends_following(keyword) {
-                self.effect(Effect::Followers(vec![axis]));
+                self.effect(RegionEffect::Followers(vec![axis]));
             }
         }
     }
@@ -277,14 +277,14 @@ impl MayEffects<'_> {
     fn call(&mut self, call: &Call, at: &BlockContext<'_>) {
         let span = at.in_block(call.span);
         let Some(name) = self.program_name(call.name, at) else {
-            self.effect(Effect::All);
+            self.effect(RegionEffect::All);
             if call.scope == CallScope::Local {
-                self.effect(Effect::AnyLocal(span));
+                self.effect(RegionEffect::AnyLocal(span));
             }
             return;
         };
-        let wanted = Wanted::program(call.scope, name, span);
-        self.calls(Wanted {
+        let wanted = WantedCall::program(call.scope, name, span);
+        self.calls(WantedCall {
             repeat: after_motion_only(call),
             ..wanted
         });
@@ -293,11 +293,11 @@ impl MayEffects<'_> {
     fn hash(&mut self, hash: &HashCommand, at: &BlockContext<'_>) {
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
-            self.effect(Effect::Declaration(name));
+            self.effect(RegionEffect::Declaration(name));
         }
         if is_file_name(&hash.name) {
             for word in named_words(hash.rest.of(at.text)) {
-                self.effect(Effect::FileName(word));
+                self.effect(RegionEffect::FileName(word));
             }
             return;
         }
@@ -310,26 +310,26 @@ impl MayEffects<'_> {
             return;
         }
         if let Some(axes) = self.run.defined_axes(&hash.name, hash.rest.of(at.text)) {
-            self.effect(Effect::Coupling(axes));
+            self.effect(RegionEffect::Coupling(axes));
             return;
         }
         if is_machine_data(&hash.name) {
             for axis in self.run.perhaps_transferred(hash.rest.of(at.text)) {
                 let name = self.run.machine.axis(axis).name.clone();
-                self.effect(Effect::Compensation(name, KindSet::ALL));
+                self.effect(RegionEffect::Compensation(name, KindSet::ALL));
             }
         }
         if is_follower_command(&hash.name) {
             let axes = self.run.axes_in(hash.rest.of(at.text));
-            self.effect(Effect::Followers(axes));
+            self.effect(RegionEffect::Followers(axes));
         }
-        self.effect(Effect::Hash(hash.name.clone()));
+        self.effect(RegionEffect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
-            Some(Touches::Motion) => self.effect(Effect::Positions),
+            Some(Touches::Motion) => self.effect(RegionEffect::Positions),
             Some(Touches::Friction) => {
                 for axis in self.run.axes_or_all(hash.rest.of(at.text)) {
                     let name = self.run.machine.axis(axis).name.clone();
-                    self.effect(Effect::Compensation(name, KindSet::of(Kind::Frict)));
+                    self.effect(RegionEffect::Compensation(name, KindSet::of(Kind::Frict)));
                 }
             }
             _ => {}
@@ -356,9 +356,9 @@ impl MayEffects<'_> {
     fn deletes(&mut self, place: Expression, at: &BlockContext<'_>) {
         let target = Self::target(place, at);
         match &target {
-            Some(Target::Variable(name)) => self.writes(Target::Elements(name.clone())),
-            Some(Target::Parameter(Owner::Program, index)) => {
-                self.writes(Target::Elements(format!("P{index}")));
+            Some(RegionTarget::Variable(name)) => self.writes(RegionTarget::Elements(name.clone())),
+            Some(RegionTarget::Parameter(Owner::Program, index)) => {
+                self.writes(RegionTarget::Elements(format!("P{index}")));
             }
             _ => {}
         }
@@ -369,7 +369,7 @@ impl MayEffects<'_> {
 
     /// Returns the possible targets of an assignment. A place that has to be computed may be
     /// another one each time.
-    fn target(place: Expression, at: &BlockContext<'_>) -> Option<Target> {
+    fn target(place: Expression, at: &BlockContext<'_>) -> Option<RegionTarget> {
         let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;
         let operands = at.block.nodes.get(inner).unwrap_or_default();
@@ -381,14 +381,14 @@ impl MayEffects<'_> {
             canonical(name).into_owned()
         };
         Some(match node {
-            Node::Parameter { owner, index } => Target::Parameter(*owner, *index),
-            Node::Variable { subscripts: 0 } => Target::Variable(name()),
+            Node::Parameter { owner, index } => RegionTarget::Parameter(*owner, *index),
+            Node::Variable { subscripts: 0 } => RegionTarget::Variable(name()),
             Node::Variable { .. } if is_plain => {
                 let values: Vec<String> = operands.iter().map(subscript).collect();
                 let name = with_subscripts(span.of(at.text), &values);
-                Target::Variable(name)
+                RegionTarget::Variable(name)
             }
-            Node::Variable { .. } => Target::Elements(name()),
+            Node::Variable { .. } => RegionTarget::Elements(name()),
             Node::IndexedParameter { owner, subscripts } => {
                 let index = match operands.first() {
                     Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
@@ -396,19 +396,19 @@ impl MayEffects<'_> {
                 };
                 let index = index.and_then(|index| u32::try_from(index).ok());
                 match (index, *subscripts) {
-                    (Some(index), 0) => Target::Parameter(*owner, index),
+                    (Some(index), 0) => RegionTarget::Parameter(*owner, index),
                     (Some(index), _) if is_plain => {
                         let mut element = format!("P{index}");
                         for node in &operands[1..] {
                             element.extend(["[", &subscript(node), "]"]);
                         }
-                        Target::Variable(element)
+                        RegionTarget::Variable(element)
                     }
-                    (Some(index), _) => Target::Elements(format!("P{index}")),
-                    (None, _) => Target::Parameters,
+                    (Some(index), _) => RegionTarget::Elements(format!("P{index}")),
+                    (None, _) => RegionTarget::Parameters,
                 }
             }
-            Node::Unread => Target::Parameters,
+            Node::Unread => RegionTarget::Parameters,
             _ => return None,
         })
     }
@@ -432,12 +432,12 @@ impl MayEffects<'_> {
         }
         match word.address {
             Address::Letter(b'G') => self.g(number),
-            Address::Letter(b'F') => self.effect(Effect::Feeds),
-            Address::Letter(b'S') => self.effect(Effect::Spindle),
-            Address::Letter(b'R') => self.effect(Effect::Radius),
+            Address::Letter(b'F') => self.effect(RegionEffect::Feeds),
+            Address::Letter(b'S') => self.effect(RegionEffect::Spindle),
+            Address::Letter(b'R') => self.effect(RegionEffect::Radius),
             Address::Letter(b'O') if is_program_number(at.block) => {}
             Address::Letter(letter @ b'A'..=b'Z') if !is_letter(letter) => {
-                self.effect(Effect::All);
+                self.effect(RegionEffect::All);
             }
             Address::Lower(letter) => {
                 let upper = letter.to_ascii_uppercase();
@@ -447,9 +447,9 @@ impl MayEffects<'_> {
             }
             Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
                 if letter == b'M' && matches!(number, Some(3..=5 | 19)) {
-                    self.effect(Effect::Spindle);
+                    self.effect(RegionEffect::Spindle);
                 }
-                self.effect(Effect::Function(FunctionWord { letter, number }));
+                self.effect(RegionEffect::Function(FunctionWord { letter, number }));
             }
             Address::Letter(letter @ b'A'..=b'Z') => {
                 if let Some(axis) = self.run.letters[usize::from(letter - b'A')] {
@@ -457,13 +457,13 @@ impl MayEffects<'_> {
                 }
             }
             // Which axis it is depends on the plane, which the region may change.
-            Address::Main(_) => self.effect(Effect::Positions),
+            Address::Main(_) => self.effect(RegionEffect::Positions),
             Address::Name(name) => {
                 let name = name.of(at.text);
                 if let Some(&axis) = self.run.names.get(name) {
                     self.axis(axis, at);
                 } else if self.run.is_main_spindle(name) {
-                    self.effect(Effect::Spindle);
+                    self.effect(RegionEffect::Spindle);
                 }
             }
             Address::Letter(_) => {}
@@ -479,10 +479,10 @@ impl MayEffects<'_> {
             matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
         });
         if matters || weighs || number == Some(151) {
-            self.effect(Effect::G(number));
+            self.effect(RegionEffect::G(number));
         }
         if plain.is_none_or(|number| Group::of(number).is_none()) {
-            self.effect(Effect::Function(FunctionWord {
+            self.effect(RegionEffect::Function(FunctionWord {
                 letter: b'G',
                 number,
             }));
@@ -498,9 +498,9 @@ impl MayEffects<'_> {
             _ => None,
         });
         let effect = if at.block.words.iter().chain(after).any(is_reference) {
-            Effect::Reference(axis)
+            RegionEffect::Reference(axis)
         } else {
-            Effect::Position(axis)
+            RegionEffect::Position(axis)
         };
         self.effect(effect);
     }

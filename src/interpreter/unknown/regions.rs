@@ -9,17 +9,17 @@ use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Caller;
-use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::{PassedBy, PassedOver};
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::journal::Scan;
-use crate::interpreter::run::region::{Effect, Region};
-use crate::interpreter::run::step::Step;
-use crate::interpreter::values::target::Target;
+use crate::interpreter::run::journal::RegionCall;
+use crate::interpreter::run::region::{Region, RegionEffect};
+use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
@@ -32,7 +32,7 @@ impl Interpreter {
         cause: &Arc<str>,
         span: Span,
         at: &BlockContext<'_>,
-    ) -> Option<Step> {
+    ) -> Option<ControlStep> {
         self.open_undecided(cause, span, at);
         let unit = self.state.control.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
@@ -40,7 +40,7 @@ impl Interpreter {
         self.note_passed(unit, from + 1..passed.end, cause, PassedBy::Branch);
         let region = self.havoc_region(unit, passed, cause);
         self.note_exits(&region, from..=after, cause, Some(span));
-        Some(Step::Jump(after))
+        Some(ControlStep::Jump(after))
     }
 
     /// Notes blocks that are passed over.
@@ -97,7 +97,7 @@ impl Interpreter {
         }
         let since = self.journal.since(key).filter(|_| !is_new);
         if let Some(written) = since {
-            let known: Vec<Target> = written
+            let known: Vec<RegionTarget> = written
                 .iter()
                 .filter(|written| region.writes(written))
                 .cloned()
@@ -113,7 +113,7 @@ impl Interpreter {
             }
         }
         self.journal.mark(key);
-        let calls = region.calls.iter().map(|call| Scan {
+        let calls = region.calls.iter().map(|call| RegionCall {
             call: call.clone(),
             cause: cause.clone(),
             unit,
@@ -155,7 +155,7 @@ impl Interpreter {
         for target in &region.targets {
             self.lose(target, cause);
         }
-        let calls = region.calls.iter().map(|call| Scan {
+        let calls = region.calls.iter().map(|call| RegionCall {
             call: call.clone(),
             cause: cause.clone(),
             unit,
@@ -166,10 +166,10 @@ impl Interpreter {
     }
 
     /// Something of the state may have changed.
-    fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
+    fn suffer(&mut self, effect: &RegionEffect, unit: usize, cause: &Arc<str>) {
         let modal = &mut self.state.control.modal;
         match effect {
-            Effect::Compensation(axis, kinds) => match self.state.control.addressed(axis) {
+            RegionEffect::Compensation(axis, kinds) => match self.state.control.addressed(axis) {
                 Ok(Addressed::Axis(axis)) => {
                     self.see(axis);
                     self.havoc(axis, *kinds);
@@ -178,51 +178,51 @@ impl Interpreter {
                 Ok(Addressed::Any | Addressed::Absent(None)) => self.havoc_any_axis(*kinds),
                 Err(_) => {}
             },
-            Effect::G(number) => modal.havoc_g(*number),
-            Effect::Feeds => modal.functions.feeds = [None; 4],
-            Effect::Spindle => modal.pace.havoc_spindle(),
-            Effect::Overrides => modal.pace.havoc_overrides(),
-            Effect::Simplified(what) => modal.perhaps_simplify(*what),
-            Effect::Radius => modal.radius = None,
-            Effect::Position(axis) => {
+            RegionEffect::G(number) => modal.havoc_g(*number),
+            RegionEffect::Feeds => modal.functions.feeds = [None; 4],
+            RegionEffect::Spindle => modal.pace.havoc_spindle(),
+            RegionEffect::Overrides => modal.pace.havoc_overrides(),
+            RegionEffect::Simplified(what) => modal.perhaps_simplify(*what),
+            RegionEffect::Radius => modal.radius = None,
+            RegionEffect::Position(axis) => {
                 modal.havoc_position(*axis);
                 self.scratch.perhaps_move(*axis);
                 self.see(*axis);
             }
-            Effect::Positions => {
+            RegionEffect::Positions => {
                 modal.havoc_positions();
                 self.perhaps_move_all();
             }
-            Effect::Reference(axis) => {
+            RegionEffect::Reference(axis) => {
                 modal.havoc_reference(*axis);
                 self.see(*axis);
             }
-            Effect::Macro(name) => {
+            RegionEffect::Macro(name) => {
                 self.state.control.memory.havoc_macro(name, cause);
                 self.scratch.wrote = true;
             }
-            Effect::Hash(name) => {
+            RegionEffect::Hash(name) => {
                 self.havoc_hash(name, cause);
                 if is_exchange(name) {
                     self.state.control.havoc_exchange();
                 }
             }
-            Effect::Coupling(axes) => self.state.control.havoc_definitions(axes),
-            Effect::Followers(axes) => self.state.control.couplings.havoc_followers(axes),
-            Effect::Function(word) => self.havoc_function(*word, unit, cause),
-            Effect::FileName(word) => {
+            RegionEffect::Coupling(axes) => self.state.control.havoc_definitions(axes),
+            RegionEffect::Followers(axes) => self.state.control.couplings.havoc_followers(axes),
+            RegionEffect::Function(word) => self.havoc_function(*word, unit, cause),
+            RegionEffect::FileName(word) => {
                 let unknown = Value::Unknown(cause.clone());
                 self.state.control.named.insert(word.clone(), unknown);
                 self.scratch.wrote = true;
             }
-            Effect::Declaration(name) => {
+            RegionEffect::Declaration(name) => {
                 let unknown = Value::Unknown(cause.clone());
                 self.state.control.memory.declare(name, unknown);
                 self.state.control.memory.havoc_elements(name, cause);
                 self.scratch.wrote = true;
             }
-            Effect::All => self.havoc_all(cause),
-            Effect::AnyLocal(span) => self.look_through_locals(*span, unit, cause),
+            RegionEffect::All => self.havoc_all(cause),
+            RegionEffect::AnyLocal(span) => self.look_through_locals(*span, unit, cause),
         }
     }
 
@@ -232,7 +232,7 @@ impl Interpreter {
         let mut seen = HashSet::new();
         let version = self.state.control.memory.macro_version();
         let mut callers = BTreeMap::new();
-        while let Some(Scan {
+        while let Some(RegionCall {
             call,
             cause,
             unit,
@@ -306,7 +306,7 @@ impl Interpreter {
 
 impl ControlState {
     /// A modal cycle of a region may be in force after it.
-    fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
+    fn perhaps_repeat(&mut self, wanted: &WantedCall, call: RepeatedCall) {
         if let Some(after_motion_only) = wanted.repeat {
             self.cycles.add(Repeated {
                 call,

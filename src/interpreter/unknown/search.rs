@@ -9,7 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Last;
-use crate::interpreter::run::possible::{Side, join};
+use crate::interpreter::run::possible::{PossibleSide, join};
 use crate::interpreter::run::search::BeforeSearch;
 use crate::interpreter::run::way_set::WaySet;
 use crate::readings::{Alternative, Question};
@@ -111,12 +111,12 @@ impl Interpreter {
             return;
         };
         let control = &mut self.state.control;
-        let mine = Side {
+        let mine = PossibleSide {
             compensation: &control.compensation,
             possible: &control.possible,
             reach: executed,
         };
-        let theirs = Side {
+        let theirs = PossibleSide {
             compensation: &before.compensation,
             possible: &before.possible,
             reach: decoded,

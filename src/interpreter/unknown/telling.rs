@@ -14,11 +14,11 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::region::{Effect, Region};
+use crate::interpreter::run::region::{Region, RegionEffect};
 use crate::interpreter::run::undecided::{Differing, Undecided};
 use crate::interpreter::run::ways::JumpTarget;
 use crate::interpreter::values::cause::{decided_level, how_to_set, unknown_value};
-use crate::interpreter::values::target::Target;
+use crate::interpreter::values::target::RegionTarget;
 use crate::machine::Parameters;
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -135,7 +135,7 @@ impl Interpreter {
         let region = self.region_of_level(unit, level);
         let mut switched = Vec::new();
         for effect in &region.effects {
-            let Effect::Compensation(name, kinds) = effect else {
+            let RegionEffect::Compensation(name, kinds) = effect else {
                 continue;
             };
             if let Ok(Addressed::Axis(axis)) = self.state.control.addressed(name) {
@@ -159,13 +159,15 @@ impl Interpreter {
             self.weigh(effect, is_skip, &mut undecided.differing);
         }
         for target in &region.targets {
-            if let Target::Variable(name) | Target::Elements(name) = target
+            if let RegionTarget::Variable(name) | RegionTarget::Elements(name) = target
                 && outlives(name)
             {
                 undecided.differing.name(format!("`{name}`"));
             }
-            if matches!(target, Target::Parameter(..) | Target::Parameters)
-                && self.machine.parameters == Parameters::Kept
+            if matches!(
+                target,
+                RegionTarget::Parameter(..) | RegionTarget::Parameters
+            ) && self.machine.parameters == Parameters::Kept
             {
                 undecided.differing.decides = true;
             }
@@ -173,33 +175,39 @@ impl Interpreter {
         self.scratch.undecided = Some(undecided);
     }
 
-    fn weigh(&self, effect: &Effect, is_skip: bool, differing: &mut Differing) {
+    fn weigh(&self, effect: &RegionEffect, is_skip: bool, differing: &mut Differing) {
         match effect {
             // What a skipped block would be refused for is said itself.
-            Effect::Compensation(..) => differing.decides |= !is_skip,
-            Effect::All => differing.name("everything that a program can change"),
-            Effect::Coupling(_) => differing.name("axis couplings"),
-            Effect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
-            Effect::Hash(name) if is_exchange(name) => differing.name("the axes of the channel"),
-            Effect::Hash(name) if name == "#DISABLE MODAL CYCLE" => differing.name("modal cycles"),
-            Effect::Hash(name) if name == "#ERROR" => differing.decides = true,
-            Effect::Declaration(name) if outlives(name) => differing.name(format!("`{name}`")),
-            Effect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
+            RegionEffect::Compensation(..) => differing.decides |= !is_skip,
+            RegionEffect::All => differing.name("everything that a program can change"),
+            RegionEffect::Coupling(_) => differing.name("axis couplings"),
+            RegionEffect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
+            RegionEffect::Hash(name) if is_exchange(name) => {
+                differing.name("the axes of the channel")
+            }
+            RegionEffect::Hash(name) if name == "#DISABLE MODAL CYCLE" => {
+                differing.name("modal cycles")
+            }
+            RegionEffect::Hash(name) if name == "#ERROR" => differing.decides = true,
+            RegionEffect::Declaration(name) if outlives(name) => {
+                differing.name(format!("`{name}`"))
+            }
+            RegionEffect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
                 differing.decides = true;
             }
             // A block that may be skipped and only moves matters to those who ask for motion.
-            Effect::G(number) if !is_skip && is_modal_word(*number) => {
+            RegionEffect::G(number) if !is_skip && is_modal_word(*number) => {
                 differing.name("modal words");
             }
-            Effect::G(_)
-            | Effect::Feeds
-            | Effect::Spindle
-            | Effect::Overrides
-            | Effect::Simplified(_)
-            | Effect::Radius
-            | Effect::Position(_)
-            | Effect::Positions
-            | Effect::Reference(_)
+            RegionEffect::G(_)
+            | RegionEffect::Feeds
+            | RegionEffect::Spindle
+            | RegionEffect::Overrides
+            | RegionEffect::Simplified(_)
+            | RegionEffect::Radius
+            | RegionEffect::Position(_)
+            | RegionEffect::Positions
+            | RegionEffect::Reference(_)
                 if self.options.motions == Motions::Taken =>
             {
                 differing.name("positions and what paces motion");
@@ -241,9 +249,9 @@ impl Interpreter {
         for effect in &region.effects {
             self.weigh(effect, false, &mut differing);
         }
-        let outlives = |target: &Target| match target {
-            Target::Variable(name) | Target::Elements(name) => outlives(name),
-            Target::Parameter(..) | Target::Parameters => {
+        let outlives = |target: &RegionTarget| match target {
+            RegionTarget::Variable(name) | RegionTarget::Elements(name) => outlives(name),
+            RegionTarget::Parameter(..) | RegionTarget::Parameters => {
                 self.machine.parameters == Parameters::Kept
             }
         };

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
 use super::reads::Reads;
-use super::target::{Place, Target};
+use super::target::{AssignedPlace, RegionTarget};
 use super::value::{Slot, Value, rounded};
 use super::variable::{as_written, canonical, set_name, with_subscripts};
 use super::work_budget::{ITEM, WorkBudget};
@@ -24,14 +24,14 @@ pub(in crate::interpreter) const MAX_EXPANSIONS: u32 = 4096;
 
 /// Sources of an expression: the memory of the run and the variables of the machine.
 #[derive(Clone, Copy)]
-pub(in crate::interpreter) struct Scope<'a> {
+pub(in crate::interpreter) struct ExpressionScope<'a> {
     pub(in crate::interpreter) memory: &'a Memory,
     /// Notes on the values read, while they matter (R2.84).
     pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
     /// Own parameters of the call.
     pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
     /// Source of the values that it does not hold.
-    pub(in crate::interpreter) given: Given,
+    pub(in crate::interpreter) given: ParameterSource,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(in crate::interpreter) system: &'a dyn Fn(&str) -> Option<Value>,
     /// Hears of every value that only the machine knows.
@@ -44,7 +44,7 @@ pub(in crate::interpreter) struct Scope<'a> {
 
 /// Source of the own parameters of a program, `@P1` ….
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::interpreter) enum Given {
+pub(in crate::interpreter) enum ParameterSource {
     /// A call gave some, and no others.
     ByCall,
     /// The program is a cycle that runs without a call: whoever calls it gives them.
@@ -102,7 +102,7 @@ pub(in crate::interpreter) struct Evaluator<'a> {
     /// Span of the macro whose code is evaluated.
     pub(in crate::interpreter) shown: Option<Span>,
     pub(in crate::interpreter) macros: Macros<'a>,
-    pub(in crate::interpreter) scope: Scope<'a>,
+    pub(in crate::interpreter) scope: ExpressionScope<'a>,
     /// Meter of the work.
     pub(in crate::interpreter) effort: &'a WorkBudget,
 }
@@ -208,12 +208,16 @@ impl Evaluator<'_> {
 
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
         if let Some(reads) = self.scope.reads {
-            reads.borrow_mut().note(Target::Parameter(owner, index));
+            reads
+                .borrow_mut()
+                .note(RegionTarget::Parameter(owner, index));
         }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
             Owner::Call => match (self.scope.own.get(&index), self.scope.given) {
-                (None, Given::FromOutside) => return Ok(self.outside(&format!("@P{index}"), span)),
+                (None, ParameterSource::FromOutside) => {
+                    return Ok(self.outside(&format!("@P{index}"), span));
+                }
                 (found, _) => found.cloned(),
             },
         };
@@ -358,7 +362,9 @@ impl Evaluator<'_> {
 
     fn note_read(&self, name: &str) {
         if let Some(reads) = self.scope.reads {
-            reads.borrow_mut().note(Target::Variable(name.to_owned()));
+            reads
+                .borrow_mut()
+                .note(RegionTarget::Variable(name.to_owned()));
         }
     }
 
@@ -420,10 +426,10 @@ impl Evaluator<'_> {
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
-    ) -> Result<Place, Box<Fault>> {
+    ) -> Result<AssignedPlace, Box<Fault>> {
         let bottom = stack.len();
         let Some(root) = place.end.checked_sub(1) else {
-            return Ok(Place::Nowhere);
+            return Ok(AssignedPlace::Nowhere);
         };
         self.run(
             Expression {
@@ -435,33 +441,33 @@ impl Evaluator<'_> {
         let root = root as usize;
         let span = self.block.spans[root];
         let found = match self.block.nodes[root] {
-            Node::Parameter { owner, index } => Ok(Place::Parameter(owner, index)),
+            Node::Parameter { owner, index } => Ok(AssignedPlace::Parameter(owner, index)),
             Node::Unread => {
                 self.scope.unread.set(true);
                 let text: Arc<str> = span.of(self.text).trim().into();
-                Ok(Place::Parameters(text))
+                Ok(AssignedPlace::Parameters(text))
             }
             Node::IndexedParameter { owner, subscripts } => {
                 Self::parameter_key(owner, usize::from(subscripts), stack).map(|key| match key {
-                    ParameterKey::Plain(owner, index) => Place::Parameter(owner, index),
-                    ParameterKey::Element(name) => Place::Variable(name),
+                    ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
+                    ParameterKey::Element(name) => AssignedPlace::Variable(name),
                     ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
-                        Some(array) => Place::Elements(array, cause),
-                        None => Place::Parameters(cause),
+                        Some(array) => AssignedPlace::Elements(array, cause),
+                        None => AssignedPlace::Parameters(cause),
                     },
-                    ParameterKey::Unknown(..) => Place::Nowhere,
+                    ParameterKey::Unknown(..) => AssignedPlace::Nowhere,
                 })
             }
-            Node::Variable { subscripts: 0 } => {
-                Ok(Place::Variable(canonical(span.of(self.text)).into_owned()))
-            }
+            Node::Variable { subscripts: 0 } => Ok(AssignedPlace::Variable(
+                canonical(span.of(self.text)).into_owned(),
+            )),
             Node::Variable { subscripts } => self
                 .variable_key(root, usize::from(subscripts), stack)
                 .map(|key| match key {
-                    VariableKey::Name(name) => Place::Variable(name),
-                    VariableKey::Unknown(array, cause) => Place::Elements(array, cause),
+                    VariableKey::Name(name) => AssignedPlace::Variable(name),
+                    VariableKey::Unknown(array, cause) => AssignedPlace::Elements(array, cause),
                 }),
-            _ => Ok(Place::Nowhere),
+            _ => Ok(AssignedPlace::Nowhere),
         };
         stack.truncate(bottom);
         found

@@ -6,10 +6,12 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
-use super::names::{Array, Names, Variable, Weight, compare, join_value, parts, weight};
+use super::names::{
+    Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
+};
 use super::parameter_values::ParameterValues;
 use super::persistent::PersistentMap;
-use super::target::Target;
+use super::target::RegionTarget;
 use super::value::Value;
 use super::variable::set_name;
 use crate::machine::Parameters;
@@ -22,13 +24,13 @@ pub(in crate::interpreter) struct Memory {
     /// Set when some parameter was written, but it is not known which: the value that made it so.
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
-    variables: Names,
+    variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
     given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
-    locals: Vec<Names>,
+    locals: Vec<VariableNames>,
     /// The code of each macro, or why it is not known.
     macros: PersistentMap<String, Value>,
     /// Rises with every change of the macros.
@@ -107,7 +109,7 @@ impl Memory {
             self.variables.set(name, value);
             return;
         }
-        let holds = |level: &&mut Names| level.value(name).is_some();
+        let holds = |level: &&mut VariableNames| level.value(name).is_some();
         match self.locals.iter_mut().rev().find(holds) {
             Some(level) => level.set(name, value),
             None => self.level().set(name, value),
@@ -115,16 +117,16 @@ impl Memory {
     }
 
     /// The `V.L.` variables of the current level.
-    fn level(&mut self) -> &mut Names {
+    fn level(&mut self) -> &mut VariableNames {
         if self.locals.is_empty() {
-            self.locals.push(Names::default());
+            self.locals.push(VariableNames::default());
         }
         let last = self.locals.len() - 1;
         &mut self.locals[last]
     }
 
     /// Returns the names of the kind that a declaration of the name belongs to.
-    fn declared(&mut self, name: &str) -> &mut Names {
+    fn declared(&mut self, name: &str) -> &mut VariableNames {
         if name.starts_with("V.L.") {
             self.level()
         } else {
@@ -164,7 +166,7 @@ impl Memory {
             return;
         }
         let (base, subscripts) = parts(name);
-        let holds = |level: &&mut Names| {
+        let holds = |level: &&mut VariableNames| {
             let variable = level.names.get(base);
             variable.is_some_and(|variable| {
                 subscripts.is_empty() || variable.element(subscripts).is_some()
@@ -200,7 +202,7 @@ impl Memory {
         for names in levels {
             let written = names.names.keys().filter(|name| is_written(name));
             for name in written.cloned().collect::<Vec<String>>() {
-                names.names.slot(name, Variable::default).havoc(cause);
+                names.names.slot(name, NamedVariable::default).havoc(cause);
             }
             names.weight = Weight(names.weigh());
         }
@@ -218,7 +220,10 @@ impl Memory {
 
     /// The names whose numbers differ in another memory; `None` where anything else does, or more
     /// than a few.
-    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
+    pub(in crate::interpreter) fn differing_numbers(
+        &self,
+        other: &Self,
+    ) -> Option<Vec<RegionTarget>> {
         let same = self.lost == other.lost
             && self.unknown_names == other.unknown_names
             && self.locals.len() == other.locals.len()
@@ -227,7 +232,7 @@ impl Memory {
             return None;
         }
         let mut differing = Vec::new();
-        let parameter = |index| Target::Parameter(Owner::Program, index);
+        let parameter = |index| RegionTarget::Parameter(Owner::Program, index);
         for index in self.parameters.differing(&other.parameters) {
             let mine = self.parameters.get(index)?;
             compare(
@@ -276,9 +281,9 @@ impl Memory {
         }
         differing += self.variables.join(variables, cause);
         while self.locals.len() < locals.len() {
-            self.locals.push(Names::default());
+            self.locals.push(VariableNames::default());
         }
-        let none = Names::default();
+        let none = VariableNames::default();
         for (place, mine) in self.locals.iter_mut().enumerate() {
             differing += mine.join(locals.get(place).unwrap_or(&none), cause);
         }
@@ -302,14 +307,14 @@ impl Memory {
     }
 
     /// Values of the program that it is not known any more.
-    pub(in crate::interpreter) fn lose(&mut self, targets: &[Target], cause: &Arc<str>) {
+    pub(in crate::interpreter) fn lose(&mut self, targets: &[RegionTarget], cause: &Arc<str>) {
         let unknown = || Value::Unknown(cause.clone());
         for target in targets {
             match target {
-                Target::Parameter(_, index) => self.set_parameter(*index, unknown()),
-                Target::Variable(name) => self.set_variable(name, unknown()),
-                Target::Elements(name) => self.havoc_elements(name, cause),
-                Target::Parameters => self.havoc_parameters(cause),
+                RegionTarget::Parameter(_, index) => self.set_parameter(*index, unknown()),
+                RegionTarget::Variable(name) => self.set_variable(name, unknown()),
+                RegionTarget::Elements(name) => self.havoc_elements(name, cause),
+                RegionTarget::Parameters => self.havoc_parameters(cause),
             }
         }
     }
@@ -321,9 +326,9 @@ impl Memory {
 
     pub(in crate::interpreter) fn enter_call(&mut self, depth: usize) {
         while self.locals.len() < depth {
-            self.locals.push(Names::default());
+            self.locals.push(VariableNames::default());
         }
-        self.locals.push(Names::default());
+        self.locals.push(VariableNames::default());
     }
 
     pub(in crate::interpreter) fn leave_call(&mut self, depth: usize) {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::carried::{ArrayShape, Carried};
 use super::persistent::PersistentMap;
-use super::target::Target;
+use super::target::RegionTarget;
 use super::value::Value;
 
 /// Number of bytes of a text or a name that count as one more value in the budget of values
@@ -30,14 +30,14 @@ impl Weight {
 
 /// Variables by name, those of an array under the array's name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Names {
-    pub(in crate::interpreter) names: PersistentMap<String, Variable>,
+pub(in crate::interpreter) struct VariableNames {
+    pub(in crate::interpreter) names: PersistentMap<String, NamedVariable>,
     pub(in crate::interpreter) weight: Weight,
 }
 
 /// The thing that a name stands for.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Variable {
+pub(in crate::interpreter) struct NamedVariable {
     pub(in crate::interpreter) scalar: Option<Value>,
     pub(in crate::interpreter) array: Option<Array>,
     /// The elements that were written, by their subscripts: `[1][2]`.
@@ -71,7 +71,7 @@ impl Array {
     }
 }
 
-impl Variable {
+impl NamedVariable {
     pub(in crate::interpreter) fn element(&self, subscripts: &str) -> Option<Value> {
         if let Some(value) = self.elements.get(subscripts) {
             return Some(value.clone());
@@ -166,7 +166,7 @@ impl Variable {
     }
 }
 
-impl Names {
+impl VariableNames {
     /// All values by name, those of an array element by element.
     pub(in crate::interpreter) fn held(&self) -> BTreeMap<String, Value> {
         let mut held = BTreeMap::new();
@@ -192,7 +192,7 @@ impl Names {
 
     pub(in crate::interpreter) fn set(&mut self, name: &str, value: Value) {
         let (base, subscripts) = parts(name);
-        let variable = self.names.slot(base.to_owned(), Variable::default);
+        let variable = self.names.slot(base.to_owned(), NamedVariable::default);
         let key = if subscripts.is_empty() {
             base
         } else {
@@ -210,7 +210,7 @@ impl Names {
 
     pub(in crate::interpreter) fn declare_array(&mut self, name: &str, array: Array) {
         self.weight.add(weight(name, &array.default));
-        let variable = self.names.slot(name.to_owned(), Variable::default);
+        let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         let before = variable.array.replace(array);
         self.weight
             .take(before.map_or(0, |before| weight(name, &before.default)));
@@ -231,7 +231,7 @@ impl Names {
 
     pub(in crate::interpreter) fn havoc_elements(&mut self, name: &str, cause: &Arc<str>) {
         self.drop_elements(name);
-        let variable = self.names.slot(name.to_owned(), Variable::default);
+        let variable = self.names.slot(name.to_owned(), NamedVariable::default);
         variable.lost = Some(cause.clone());
     }
 
@@ -268,7 +268,7 @@ impl Names {
     pub(in crate::interpreter) fn differing(
         &self,
         other: &Self,
-        differing: &mut Vec<Target>,
+        differing: &mut Vec<RegionTarget>,
     ) -> Option<()> {
         if self.names.len() != other.names.len() {
             return None;
@@ -283,14 +283,14 @@ impl Names {
             }
             match (&mine.scalar, &theirs.scalar) {
                 (Some(mine), Some(theirs)) => {
-                    let target = || Target::Variable(name.clone());
+                    let target = || RegionTarget::Variable(name.clone());
                     compare(mine, theirs, target, differing)?;
                 }
                 (None, None) => {}
                 _ => return None,
             }
             for key in mine.elements.differing(&theirs.elements) {
-                let target = || Target::Variable(format!("{name}{key}"));
+                let target = || RegionTarget::Variable(format!("{name}{key}"));
                 let pair = mine.elements.get(&key).zip(theirs.elements.get(&key))?;
                 compare(pair.0, pair.1, target, differing)?;
             }
@@ -301,10 +301,10 @@ impl Names {
     /// Makes unknown what differs in another memory; returns the number of names that do.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) -> usize {
         let differing = self.names.differing(&other.names);
-        let nothing = Variable::default();
+        let nothing = NamedVariable::default();
         for name in &differing {
             let theirs = other.names.get(name).unwrap_or(&nothing);
-            let mine = self.names.slot(name.clone(), Variable::default);
+            let mine = self.names.slot(name.clone(), NamedVariable::default);
             self.weight.take(mine.own_weight(name));
             mine.join(theirs, cause, &mut self.weight);
             self.weight.add(mine.own_weight(name));
@@ -313,7 +313,7 @@ impl Names {
     }
 
     pub(in crate::interpreter) fn weigh(&self) -> usize {
-        let weight_of = |(name, variable): (&String, &Variable)| {
+        let weight_of = |(name, variable): (&String, &NamedVariable)| {
             variable.own_weight(name) + variable.elements_weight()
         };
         self.names.iter().map(weight_of).sum()
@@ -342,8 +342,8 @@ const MAX_DIFFERING: usize = 16;
 pub(in crate::interpreter) fn compare(
     mine: &Value,
     theirs: &Value,
-    target: impl Fn() -> Target,
-    differing: &mut Vec<Target>,
+    target: impl Fn() -> RegionTarget,
+    differing: &mut Vec<RegionTarget>,
 ) -> Option<()> {
     match (mine, theirs) {
         (mine, theirs) if mine == theirs => Some(()),

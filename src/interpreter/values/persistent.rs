@@ -20,22 +20,22 @@ static RANKS: LazyLock<RandomState> = LazyLock::new(RandomState::new);
 /// An ordered map; a copy shares everything with its original until one of them changes.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct PersistentMap<K, V> {
-    root: Link<K, V>,
+    root: TreeLink<K, V>,
     len: usize,
 }
 
-type Link<K, V> = Option<Arc<Node<K, V>>>;
+type TreeLink<K, V> = Option<Arc<TreeNode<K, V>>>;
 
 #[derive(Debug, Clone)]
-struct Node<K, V> {
+struct TreeNode<K, V> {
     key: K,
     value: V,
     rank: u64,
-    left: Link<K, V>,
-    right: Link<K, V>,
+    left: TreeLink<K, V>,
+    right: TreeLink<K, V>,
 }
 
-impl<K, V> Node<K, V> {
+impl<K, V> TreeNode<K, V> {
     /// Returns the key that decides which of two nodes is above the other.
     fn place(&self) -> (u64, &K) {
         (self.rank, &self.key)
@@ -62,8 +62,8 @@ impl<K, V> PersistentMap<K, V> {
     }
 
     /// All entries in the order of their keys.
-    pub(in crate::interpreter) fn iter(&self) -> Entries<'_, K, V> {
-        let mut entries = Entries { open: Vec::new() };
+    pub(in crate::interpreter) fn iter(&self) -> MapEntries<'_, K, V> {
+        let mut entries = MapEntries { open: Vec::new() };
         entries.descend(self.root.as_deref());
         entries
     }
@@ -89,12 +89,12 @@ impl<K, V> PersistentMap<K, V> {
     }
 
     /// The entries from a key on.
-    pub(in crate::interpreter) fn from<Q>(&self, key: &Q) -> Entries<'_, K, V>
+    pub(in crate::interpreter) fn from<Q>(&self, key: &Q) -> MapEntries<'_, K, V>
     where
         K: Borrow<Q>,
         Q: Ord + ?Sized,
     {
-        let mut entries = Entries { open: Vec::new() };
+        let mut entries = MapEntries { open: Vec::new() };
         let mut link = self.root.as_deref();
         while let Some(node) = link {
             link = if node.key.borrow() < key {
@@ -159,7 +159,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
                 self.len += 1;
                 let (left, right) = split(below, &key);
                 let value = first();
-                Arc::new(Node {
+                Arc::new(TreeNode {
                     key,
                     value,
                     rank,
@@ -243,13 +243,13 @@ where
 
 /// The entries of a map in the order of their keys.
 #[derive(Debug)]
-pub(in crate::interpreter) struct Entries<'a, K, V> {
+pub(in crate::interpreter) struct MapEntries<'a, K, V> {
     /// The nodes whose left side is done.
-    open: Vec<&'a Node<K, V>>,
+    open: Vec<&'a TreeNode<K, V>>,
 }
 
-impl<'a, K, V> Entries<'a, K, V> {
-    fn descend(&mut self, mut link: Option<&'a Node<K, V>>) {
+impl<'a, K, V> MapEntries<'a, K, V> {
+    fn descend(&mut self, mut link: Option<&'a TreeNode<K, V>>) {
         while let Some(node) = link {
             self.open.push(node);
             link = node.left.as_deref();
@@ -257,7 +257,7 @@ impl<'a, K, V> Entries<'a, K, V> {
     }
 }
 
-impl<'a, K, V> Iterator for Entries<'a, K, V> {
+impl<'a, K, V> Iterator for MapEntries<'a, K, V> {
     type Item = (&'a K, &'a V);
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -268,7 +268,10 @@ impl<'a, K, V> Iterator for Entries<'a, K, V> {
 }
 
 /// Splits a tree into the nodes below and above a key that it does not hold.
-fn split<K: Ord + Clone, V: Clone>(link: Link<K, V>, key: &K) -> (Link<K, V>, Link<K, V>) {
+fn split<K: Ord + Clone, V: Clone>(
+    link: TreeLink<K, V>,
+    key: &K,
+) -> (TreeLink<K, V>, TreeLink<K, V>) {
     let Some(mut shared) = link else {
         return (None, None);
     };
@@ -285,7 +288,7 @@ fn split<K: Ord + Clone, V: Clone>(link: Link<K, V>, key: &K) -> (Link<K, V>, Li
 }
 
 /// One tree of two, where all keys of the first are below those of the second.
-fn merge<K: Ord + Clone, V: Clone>(low: Link<K, V>, high: Link<K, V>) -> Link<K, V> {
+fn merge<K: Ord + Clone, V: Clone>(low: TreeLink<K, V>, high: TreeLink<K, V>) -> TreeLink<K, V> {
     let (mut low, mut high) = match (low, high) {
         (Some(low), Some(high)) => (low, high),
         (only, None) | (None, only) => return only,
@@ -303,8 +306,8 @@ fn merge<K: Ord + Clone, V: Clone>(low: Link<K, V>, high: Link<K, V>) -> Link<K,
 
 /// Appends the keys under which two trees differ. What they share is passed over.
 fn compare<K: Ord + Clone, V: Clone + PartialEq>(
-    mine: &Link<K, V>,
-    theirs: &Link<K, V>,
+    mine: &TreeLink<K, V>,
+    theirs: &TreeLink<K, V>,
     keys: &mut Vec<K>,
 ) {
     let (one, other) = match (mine, theirs) {

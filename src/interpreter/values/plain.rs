@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::target::Target;
+use super::target::RegionTarget;
 use super::value::Value;
 use super::variable::canonical;
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
@@ -42,7 +42,7 @@ pub(in crate::interpreter) fn conclusions(
     text: &str,
     condition: Expression,
     truth: Truth,
-) -> Vec<(Target, Value)> {
+) -> Vec<(RegionTarget, Value)> {
     let mut found = Vec::new();
     let mut left = vec![(condition, truth)];
     while let Some((part, truth)) = left.pop() {
@@ -109,12 +109,12 @@ pub(in crate::interpreter) fn is_one_comparison(
 }
 
 /// Whether a variable is 0 or 1 and nothing else.
-fn is_switch(target: &Target) -> bool {
-    matches!(target, Target::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
+fn is_switch(target: &RegionTarget) -> bool {
+    matches!(target, RegionTarget::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
 }
 
 /// A variable and the number that it equals.
-fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(Target, Value)> {
+fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(RegionTarget, Value)> {
     let [one, other] = pair;
     let known = |part| {
         let (node, _) = root(block, part)?;
@@ -136,7 +136,7 @@ pub(in crate::interpreter) fn variable(
     block: &Block,
     text: &str,
     part: Expression,
-) -> Option<Target> {
+) -> Option<RegionTarget> {
     let (start, end) = (part.start as usize, part.end as usize);
     let [node] = block.nodes.get(start..end)? else {
         return None;
@@ -144,12 +144,13 @@ pub(in crate::interpreter) fn variable(
     target(*node, block.spans.get(start)?.of(text))
 }
 
-fn target(node: Node, written: &str) -> Option<Target> {
+fn target(node: Node, written: &str) -> Option<RegionTarget> {
     match node {
-        Node::Parameter { owner, index } => Some(Target::Parameter(owner, index)),
+        Node::Parameter { owner, index } => Some(RegionTarget::Parameter(owner, index)),
         Node::Variable { subscripts: 0 } => {
             let name = canonical(written).into_owned();
-            name.starts_with("V.").then_some(Target::Variable(name))
+            name.starts_with("V.")
+                .then_some(RegionTarget::Variable(name))
         }
         _ => None,
     }
@@ -226,7 +227,7 @@ impl Writer {
 /// Values that an expression reads and its operations on them, in a form independent of its text.
 pub(in crate::interpreter) struct Asking {
     pub(in crate::interpreter) writer: Writer,
-    pub(in crate::interpreter) reads: Vec<Target>,
+    pub(in crate::interpreter) reads: Vec<RegionTarget>,
     pub(in crate::interpreter) meaning: String,
 }
 
@@ -254,10 +255,10 @@ pub(in crate::interpreter) fn reads(
         };
         meaning = format!("{meaning} {read:?}");
         writer = writer.max(match &read {
-            Target::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
-            Target::Variable(name) if stable.contains(name) => Writer::Nothing,
-            Target::Variable(name) => Writer::of(name),
-            Target::Elements(_) | Target::Parameters => return None,
+            RegionTarget::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
+            RegionTarget::Variable(name) if stable.contains(name) => Writer::Nothing,
+            RegionTarget::Variable(name) => Writer::of(name),
+            RegionTarget::Elements(_) | RegionTarget::Parameters => return None,
         });
         found.push(read);
     }

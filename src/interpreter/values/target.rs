@@ -9,7 +9,7 @@ use crate::syntax::ast::Owner;
 
 /// Something that a region could write.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub(in crate::interpreter) enum Target {
+pub(in crate::interpreter) enum RegionTarget {
     Parameter(Owner, u32),
     Variable(String),
     /// Any element of an array.
@@ -18,7 +18,7 @@ pub(in crate::interpreter) enum Target {
     Parameters,
 }
 
-impl fmt::Display for Target {
+impl fmt::Display for RegionTarget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
@@ -31,7 +31,7 @@ impl fmt::Display for Target {
 
 /// Place that an assignment writes.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::interpreter) enum Place {
+pub(in crate::interpreter) enum AssignedPlace {
     Parameter(Owner, u32),
     Variable(String),
     /// Some element of an array; the value that decides which is not known.

@@ -2,9 +2,9 @@
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::interpreter::{AxisWord, BlockEnd, Executed, Form, Group, PositionFrame, Travel};
+use crate::interpreter::{AxisWord, BlockEnd, Executed, Group, PathForm, PositionFrame, Travel};
 use crate::lint::linter::Linter;
-use crate::lint::memory::{Jump, place};
+use crate::lint::memory::{SwitchAfterMove, place};
 use crate::readings::Question;
 
 impl Linter<'_> {
@@ -58,12 +58,14 @@ impl Linter<'_> {
             let to = executed.moved.iter().find(|word| word.axis == axis);
             let to = to.map_or_else(|| position(axis, executed), |word| word.from);
             let rises = word.and_then(|word| match &executed.aside.last_arc {
-                Some(arc) if to.is_some() && is_around(arc, axis) => tangent(arc, axis, End::Last),
+                Some(arc) if to.is_some() && is_around(arc, axis) => {
+                    tangent(arc, axis, ArcEnd::Last)
+                }
                 _ => direction(word.from, to),
             });
             let known = self.jumps.iter().any(|jump| jump.axis == axis);
             if let Some(rises) = rises.filter(|_| !known) {
-                self.jumps.push(Jump {
+                self.jumps.push(SwitchAfterMove {
                     axis,
                     rises,
                     before: change.from,
@@ -73,7 +75,7 @@ impl Linter<'_> {
         }
     }
 
-    fn say_jump(&self, jump: Jump, now: State) -> Diagnostic {
+    fn say_jump(&self, jump: SwitchAfterMove, now: State) -> Diagnostic {
         let name = self.name(jump.axis);
         let way = if now == State::Active { "on" } else { "off" };
         let message = format!(
@@ -103,20 +105,20 @@ fn is_feed(executed: &Executed<'_>) -> bool {
 
 /// An end of an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
+enum ArcEnd {
     First,
     Last,
 }
 
 /// Whether an axis is one of the plane of an arc.
 fn is_around(travel: &Travel, axis: AxisIndex) -> bool {
-    matches!(travel.form, Form::Arc(arc) if arc.axes.contains(&axis))
+    matches!(travel.form, PathForm::Arc(arc) if arc.axes.contains(&axis))
 }
 
 /// Whether an axis of the plane moves to larger coordinates at an end of an arc; `None` where it
 /// reverses there, or that is not known.
-fn tangent(travel: &Travel, axis: AxisIndex, end: End) -> Option<bool> {
-    let Form::Arc(arc) = travel.form else {
+fn tangent(travel: &Travel, axis: AxisIndex, end: ArcEnd) -> Option<bool> {
+    let PathForm::Arc(arc) = travel.form else {
         return None;
     };
     let ends = |places: &[Option<f64>]| -> Option<[f64; 2]> {
@@ -127,8 +129,8 @@ fn tangent(travel: &Travel, axis: AxisIndex, end: End) -> Option<bool> {
     };
     let shape = arc.between([ends(&travel.from)?, ends(&travel.to)?]).ok()?;
     let angle = match end {
-        End::First => shape.start,
-        End::Last => shape.start + shape.sweep,
+        ArcEnd::First => shape.start,
+        ArcEnd::Last => shape.start + shape.sweep,
     };
     let way = if axis == arc.axes[0] {
         -angle.sin()
@@ -149,7 +151,7 @@ fn rises(word: &AxisWord, executed: &Executed<'_>) -> Option<bool> {
         && is_around(arc, word.axis)
     {
         position(word.axis, executed)?;
-        return tangent(arc, word.axis, End::First);
+        return tangent(arc, word.axis, ArcEnd::First);
     }
     direction(word.from, position(word.axis, executed))
 }

@@ -5,7 +5,7 @@ use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
 use crate::lint::linter::{EndNote, LeftAway, Linter};
-use crate::lint::memory::{Deed, MovedBefore, Site};
+use crate::lint::memory::{BlockSite, KindEffect, MovedBefore};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
@@ -19,17 +19,17 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                 continue;
             }
             let did = linter.memory.axis(axis).kind(kind);
-            let is_told = |deed: Deed| match deed {
-                Deed::On | Deed::Off => end != State::Unknown,
-                Deed::Unknown => end == State::Unknown,
+            let is_told = |deed: KindEffect| match deed {
+                KindEffect::On | KindEffect::Off => end != State::Unknown,
+                KindEffect::Unknown => end == State::Unknown,
                 // FC902 has said it of every axis.
-                Deed::Lost => false,
+                KindEffect::Lost => false,
             };
             let last = did.last.as_ref().filter(|(deed, _)| is_told(*deed));
             // It was brought back, but the program may end before that.
             let is_on = linter.history.start_up(axis, kind) != State::Inactive;
             let passed = did.switched[usize::from(!is_on)].as_ref();
-            let is_lost = matches!(did.last, Some((Deed::Lost, _)));
+            let is_lost = matches!(did.last, Some((KindEffect::Lost, _)));
             let passed = passed.filter(|_| end == State::Unknown && !is_lost);
             let passed = passed.filter(|_| has_other_ends(ended));
             let possible = ended.possible.iter();
@@ -44,7 +44,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
             });
             let passed = passed.or(parted);
             if let Some(site) = passed.or(last.map(|(_, site)| site)) {
-                let subject = Subject {
+                let subject = LeftAwayKind {
                     linter,
                     axis,
                     kind,
@@ -76,7 +76,7 @@ fn has_other_ends(ended: &Ended<'_>) -> bool {
 }
 
 /// A kind of an axis that is left away, with its cause.
-struct Subject<'a> {
+struct LeftAwayKind<'a> {
     linter: &'a Linter<'a>,
     axis: AxisIndex,
     kind: Kind,
@@ -88,8 +88,8 @@ struct Subject<'a> {
     ended: &'a Ended<'a>,
 }
 
-impl Subject<'_> {
-    fn left_changed(&self, site: &Site) -> Diagnostic {
+impl LeftAwayKind<'_> {
+    fn left_changed(&self, site: &BlockSite) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let message = format!(
             "`{keyword}` of axis `{name}` is left {} after {}; the control starts with it {}",
@@ -107,7 +107,7 @@ impl Subject<'_> {
     }
 
     /// Says that a value that only the machine knows may leave a selection away as well.
-    fn may_be_left(&self, site: &Site) -> Diagnostic {
+    fn may_be_left(&self, site: &BlockSite) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let away = match start_up {
@@ -139,7 +139,7 @@ impl Subject<'_> {
         diagnostic
     }
 
-    fn second_run_differs(&self, site: &Site, moved: &MovedBefore) -> Diagnostic {
+    fn second_run_differs(&self, site: &BlockSite, moved: &MovedBefore) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let place = &site.place;
         let message = format!(

@@ -2,7 +2,7 @@
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::{Certainty, Executed, Found, MotionKind};
+use crate::interpreter::{Certainty, Executed, MotionKind, UntouchedOn};
 use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
 use crate::syntax::code_of;
@@ -26,9 +26,9 @@ pub(super) fn lint(
     let touched = memory.touched.as_ref()?;
     let file = &touched.site.place.file;
     let ways = match executed.found.of(axis, Kind::Frict, file) {
-        Found::Never => return None,
-        Found::Always => String::new(),
-        Found::If(ways) => format!(" {ways}"),
+        UntouchedOn::Never => return None,
+        UntouchedOn::Always => String::new(),
+        UntouchedOn::If(ways) => format!(" {ways}"),
     };
     let may = match touched.certainty {
         Certainty::Possible => "may move",

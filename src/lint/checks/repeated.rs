@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lint::linter::{Linter, Taken};
-use crate::lint::memory::{Deed, Site, place};
+use crate::lint::memory::{BlockSite, KindEffect, place};
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
@@ -19,18 +19,18 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
         return None;
     }
     let command = &taken.outcome.command;
-    let deed = Deed::from(command.selection);
+    let deed = KindEffect::from(command.selection);
     let kinds = command.selection.kinds();
     let place = place(taken.executed, command.span);
     let (what, name) = (what(command.selection), &command.axis);
     let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
-    let useless = |kind| deed == Deed::Off && is_unconfigured(linter, taken, kind);
+    let useless = |kind| deed == KindEffect::Off && is_unconfigured(linter, taken, kind);
     if kinds.iter().all(useless) {
         let message =
             format!("this command changes nothing: {what} of axis `{name}` is not configured");
         return Some(say(message));
     }
-    let mut repeated: Option<&Arc<Site>> = None;
+    let mut repeated: Option<&Arc<BlockSite>> = None;
     for kind in kinds.iter() {
         match &memory.kind(kind).last {
             Some((earlier, site)) if *earlier == deed && site.leads_to(taken.executed) => {
@@ -42,7 +42,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
             _ => return None,
         }
     }
-    let state = if deed == Deed::On { "on" } else { "off" };
+    let state = if deed == KindEffect::On { "on" } else { "off" };
     let said = say(format!(
         "this command repeats an earlier one: {what} of axis `{name}` is already {state}"
     ));

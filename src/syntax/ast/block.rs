@@ -1,6 +1,6 @@
 //! A block and what stands in it.
 
-use super::call::{Call, GCall, Return, Sequence};
+use super::call::{Call, GCall, Return, SequenceCall};
 use super::expression::{Node, Operand, Target};
 use super::flow::Flow;
 use crate::comp::CompCommand;
@@ -13,7 +13,7 @@ pub struct Block {
     /// The skip level of a leading slash, 1 to 10 (R2.3).
     pub skip: Option<u8>,
     /// The block number.
-    pub number: Option<Number>,
+    pub number: Option<BlockNumber>,
     /// The words in front of everything else; most blocks have nothing else.
     pub words: Vec<Word>,
     /// Items after them, from left to right.
@@ -59,7 +59,7 @@ impl Block {
 
 /// `N10`, or the jump label `N10:`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Number {
+pub struct BlockNumber {
     /// The number, often an expression.
     pub value: Operand,
     /// Whether a colon makes it a jump label.
@@ -126,7 +126,7 @@ pub enum Item {
     /// A subprogram call.
     Call(Call),
     /// A call of a part of a program, `L SEQUENCE […]`.
-    Sequence(Sequence),
+    Sequence(SequenceCall),
     /// `M17 […]`, `M29 […]`.
     Return(Return),
     /// `"NAME" = "code"`, both with their quotes.

@@ -80,7 +80,7 @@ pub struct GCall {
 
 /// `L SEQUENCE [NAME=a.nc N10 N20 REPEAT=3 ENDTAG]`: the blocks from one to another.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sequence {
+pub struct SequenceCall {
     /// The program; the one that is executed where it is left out.
     pub name: Option<CallName>,
     /// The first block.
@@ -99,7 +99,7 @@ pub struct Sequence {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Return {
     /// Over how many programs.
-    pub levels: Levels,
+    pub levels: ReturnLevels,
     /// To which block, where that is not the next one.
     pub target: Option<BlockReference>,
     /// The whole.
@@ -108,7 +108,7 @@ pub struct Return {
 
 /// Number of levels that a subprogram returns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Levels {
+pub enum ReturnLevels {
     /// To its caller.
     One,
     /// To the main program.

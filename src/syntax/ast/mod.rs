@@ -8,7 +8,9 @@ mod call;
 mod expression;
 mod flow;
 
-pub use block::{Address, Assignment, Block, Declaration, Effect, Hash, Item, Number, Word};
-pub use call::{Call, CallForm, CallName, CallScope, GCall, Levels, Repetition, Return, Sequence};
+pub use block::{Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, Item, Word};
+pub use call::{
+    Call, CallForm, CallName, CallScope, GCall, Repetition, Return, ReturnLevels, SequenceCall,
+};
 pub use expression::{BinaryOperator, Expression, Function, Node, Operand, Owner, Target};
 pub use flow::{BlockReference, Flow};

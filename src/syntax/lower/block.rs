@@ -3,7 +3,7 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_understood, span_of, trimmed};
+use super::lowering::{BlockLowering, not_understood, span_of, trimmed};
 use crate::diagnostic::Code;
 use crate::syntax::ast::{Block, CallScope, Effect, Item};
 use crate::syntax::brackets::{Brackets, brackets};
@@ -48,7 +48,7 @@ pub(in crate::syntax) fn read_as(
             );
         }
     };
-    let mut lowering = Lowering {
+    let mut lowering = BlockLowering {
         code,
         read,
         block,
@@ -79,7 +79,7 @@ fn too_much_to_read(span: Span) -> Fault {
     Fault::new(Code::Fc913, span, message).with_help("split the block into several")
 }
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     fn part(&mut self, pair: Pair<'_, Rule>) {
         if !matches!(pair.as_rule(), Rule::unknown | Rule::bare_word) {
             self.flush_unknown();

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_closed, span_of, trimmed};
+use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, Fix, did_you_mean, nearest};
 use crate::syntax::ast::{Address, Effect, Item, Word};
 use crate::syntax::keywords::{
@@ -17,7 +17,7 @@ use crate::syntax::{
 };
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let mut axis = span;
         let mut body = None;

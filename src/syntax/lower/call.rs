@@ -2,12 +2,12 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
+use super::lowering::{BlockLowering, not_closed, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Effect, Item, Repetition};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn plain_call(&mut self, pair: Pair<'_, Rule>, scope: CallScope, span: Span) {
         let mut name = None;
         for part in pair.into_inner() {

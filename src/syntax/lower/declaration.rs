@@ -3,13 +3,13 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_understood, span_of, trimmed};
+use super::lowering::{BlockLowering, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Declaration, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::{expression, hash_words::hash_word, pieces::is_blank};
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn declarations(&mut self, rest: Span) -> Vec<Declaration> {
         let mut declarations = Vec::new();
         let mut start = rest.start as usize;

@@ -2,14 +2,14 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
+use super::lowering::{BlockLowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{BlockReference, Effect, Expression, Flow, Item, Operand, Target};
 use crate::syntax::keywords::FLOW_WORDS;
 use crate::syntax::{expression, fault::Fault, grammar::Rule};
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn flow(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let Some(statement) = pair.into_inner().next() else {
             return;

@@ -3,7 +3,7 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, span_of, trimmed};
+use super::lowering::{BlockLowering, span_of, trimmed};
 use crate::diagnostic::nearest;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
@@ -11,7 +11,7 @@ use crate::syntax::keywords::{Touches, hash_command, hash_commands};
 use crate::syntax::{expression, hash_words::hash_name, unread::not_known};
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn hash(&mut self, span: Span) {
         let code = self.code;
         let (name, length) = hash_name(&code[span.start as usize..]);

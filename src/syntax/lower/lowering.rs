@@ -12,7 +12,7 @@ use crate::syntax::{expression, unread::not_known};
 use crate::text::Span;
 
 /// A block on its way.
-pub(super) struct Lowering<'a> {
+pub(super) struct BlockLowering<'a> {
     pub(super) code: &'a str,
     /// The code as the parser reads it.
     pub(super) read: &'a str,
@@ -25,7 +25,7 @@ pub(super) struct Lowering<'a> {
     pub(super) lower_case: Vec<Span>,
 }
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     /// A label stands in front of everything else; a bracket after words is none (R2.70).
     pub(super) fn label(&mut self, name: Span, span: Span) {
         if self.block.words.is_empty() && self.block.items.is_empty() {

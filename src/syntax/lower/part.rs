@@ -2,15 +2,17 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, not_closed, not_understood, span_of};
-use crate::syntax::ast::{BlockReference, Effect, Item, Levels, Operand, Return, Sequence};
+use super::lowering::{BlockLowering, not_closed, not_understood, span_of};
+use crate::syntax::ast::{
+    BlockReference, Effect, Item, Operand, Return, ReturnLevels, SequenceCall,
+};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
 /// Form of the call of a part of a program.
 const HOW: &str = "name the first and the last block: `L SEQUENCE [N10 N20]`";
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn sequence_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let mut name = None;
         let mut targets = Vec::new();
@@ -42,7 +44,7 @@ impl Lowering<'_> {
         }
         let mut targets = targets.into_iter();
         match (targets.next(), targets.next(), targets.next()) {
-            (Some(first), last, None) => self.block.items.push(Item::Sequence(Sequence {
+            (Some(first), last, None) => self.block.items.push(Item::Sequence(SequenceCall {
                 name,
                 first,
                 last,
@@ -55,15 +57,15 @@ impl Lowering<'_> {
     }
 
     pub(super) fn return_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
-        let mut levels = Levels::One;
+        let mut levels = ReturnLevels::One;
         let mut target = None;
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::return_word => {}
-                Rule::to_main => levels = Levels::Main,
+                Rule::to_main => levels = ReturnLevels::Main,
                 Rule::jumps => {
                     if let Some(value) = part.into_inner().next() {
-                        levels = Levels::Number(expression::lower(value, 0, self.block));
+                        levels = ReturnLevels::Number(expression::lower(value, 0, self.block));
                     }
                 }
                 _ => target = Some(self.jump_target(part)),

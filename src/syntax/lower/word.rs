@@ -2,12 +2,12 @@
 
 use pest::iterators::Pair;
 
-use super::lowering::{Lowering, span_of};
-use crate::syntax::ast::{Address, Effect, GCall, Item, Number, Operand, Word};
+use super::lowering::{BlockLowering, span_of};
+use crate::syntax::ast::{Address, BlockNumber, Effect, GCall, Item, Operand, Word};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;
 
-impl Lowering<'_> {
+impl BlockLowering<'_> {
     pub(super) fn number(&mut self, pair: Pair<'_, Rule>, span: Span) {
         self.note_case(Span::new(span.start as usize, span.start as usize + 1));
         let mut value = Operand::Number(0.0);
@@ -22,7 +22,7 @@ impl Lowering<'_> {
                 _ => label = true,
             }
         }
-        self.block.number = Some(Number { value, label, span });
+        self.block.number = Some(BlockNumber { value, label, span });
     }
 
     pub(super) fn bare_word(&mut self, span: Span) {
@@ -61,7 +61,7 @@ impl Lowering<'_> {
     /// `N10` in front of plain words.
     fn plain_number(&mut self, span: Span) {
         let value = self.plain_value(span);
-        self.block.number = Some(Number {
+        self.block.number = Some(BlockNumber {
             value,
             label: false,
             span,

@@ -7,7 +7,7 @@ use frictcomp_report::pictures::AxisPlot;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::picture::{Columns, Marks, drawn};
+use super::picture::{DrawnColumns, Marks, drawn};
 use crate::failure::Failure;
 use crate::pickled::{self, Reduced};
 use crate::states;
@@ -67,7 +67,7 @@ type Arrays<'py> = (
 );
 
 /// The axis with its type, its arrays, the cycles that were cut and those at rest, the remarks.
-type Pickled<'py> = (String, String, Arrays<'py>, (u64, u64), Vec<String>);
+type PickledAxis<'py> = (String, String, Arrays<'py>, (u64, u64), Vec<String>);
 
 /// The cycles of one axis.
 #[derive(Default)]
@@ -160,7 +160,7 @@ impl PyAxisCurrent {
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<PickledAxis<'py>>> {
         let (this, py) = (slf.get(), slf.py());
         let floats = |array: &Py<PyArray1<f64>>| array.bind(py).clone();
         let arrays = (
@@ -296,9 +296,9 @@ impl PyAxisCurrent {
 
 impl PyAxisCurrent {
     /// Its plot, and the columns that are drawn there.
-    pub(super) fn plot<'py>(&self, py: Python<'py>) -> PyResult<(AxisPlot, Columns<'py>)> {
+    pub(super) fn plot<'py>(&self, py: Python<'py>) -> PyResult<(AxisPlot, DrawnColumns<'py>)> {
         let read = |array: &Py<PyArray1<f64>>| array.bind(py).try_readonly();
-        let columns = Columns {
+        let columns = DrawnColumns {
             t: read(&self.t)?,
             floats: [
                 read(&self.v)?,

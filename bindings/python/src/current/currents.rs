@@ -4,7 +4,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 
-use super::Computed;
+use super::ProgramsCurrents;
 use super::axis::{Counted, PyAxisCurrent, array};
 use super::picture::{Marks, drawn};
 use crate::messages::PyMessages;
@@ -22,7 +22,7 @@ pub(crate) struct PyCurrents {
 }
 
 /// Times, lines, axes, messages, motions that were left out, marks.
-type Pickled = (
+type PickledCurrents = (
     Py<PyArray1<f64>>,
     Py<PyArray1<u32>>,
     Vec<Py<PyAxisCurrent>>,
@@ -31,8 +31,8 @@ type Pickled = (
 );
 
 impl PyCurrents {
-    pub(super) fn new(py: Python<'_>, computed: Computed) -> PyResult<Self> {
-        let Computed { cycles, .. } = computed;
+    pub(super) fn new(py: Python<'_>, computed: ProgramsCurrents) -> PyResult<Self> {
+        let ProgramsCurrents { cycles, .. } = computed;
         let t = array(py, cycles.t);
         let figures = computed.saturated.into_iter().zip(computed.at_rest);
         let figures = figures.map(|(saturated, at_rest)| Counted { saturated, at_rest });
@@ -72,7 +72,7 @@ impl PyCurrents {
         })
     }
 
-    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<Pickled>> {
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<Reduced<PickledCurrents>> {
         let (this, py) = (slf.get(), slf.py());
         let axes = this.axes.iter().map(|axis| axis.clone_ref(py));
         let arguments = (

@@ -24,9 +24,9 @@ use pyo3::prelude::*;
 use crate::failure::Failure;
 use crate::limits::{self, PyLimits};
 use crate::machine::{machine_of, machine_options};
-use crate::messages::Said;
+use crate::messages::GivenMessages;
 use crate::planner::planner;
-use crate::program::Programs;
+use crate::program::GivenPrograms;
 use crate::several::Several;
 use crate::start::{Places, positions};
 use crate::words::meant;
@@ -40,8 +40,8 @@ pub(crate) use currents::PyCurrents;
 pub(crate) use recording::current_of_recording;
 
 /// What is computed, away from Python.
-struct Job {
-    programs: Programs,
+struct ProgramsJob {
+    programs: GivenPrograms,
     machine: MachineOptions,
     axes: Vec<String>,
     value_list: Option<PathBuf>,
@@ -62,13 +62,13 @@ struct Cycles {
 }
 
 /// What came of it.
-struct Computed {
+struct ProgramsCurrents {
     axes: Vec<NamedAxis>,
     cycles: Cycles,
     saturated: Vec<u64>,
     at_rest: Vec<u64>,
     left_out: u64,
-    said: Said,
+    said: GivenMessages,
 }
 
 /// The additive current of axes over the path of a program, as NumPy arrays.
@@ -93,8 +93,8 @@ pub(crate) fn current(
 ) -> PyResult<PyCurrents> {
     let py = program.py();
     expect_numpy(py)?;
-    let job = Job {
-        programs: Programs::one(program)?,
+    let job = ProgramsJob {
+        programs: GivenPrograms::one(program)?,
         machine: machine_options(machine)?,
         axes: axes.0,
         value_list,
@@ -122,8 +122,8 @@ fn expect_numpy(py: Python<'_>) -> PyResult<()> {
     Ok(())
 }
 
-impl Job {
-    fn done(self, stop: &Stop) -> Result<Computed, Failure> {
+impl ProgramsJob {
+    fn done(self, stop: &Stop) -> Result<ProgramsCurrents, Failure> {
         self.programs.probe()?;
         let input = &self.programs.inputs[0];
         let loaded = machine_of(self.machine.clone(), &self.programs, Vec::new())?;
@@ -155,8 +155,8 @@ impl Job {
         };
         run_alone(input, &loaded, self.alone(&loaded)?, &mut sink)?;
         currents.finish();
-        let said = Said::of_trace(currents.diagnostics(), &loaded);
-        Ok(Computed {
+        let said = GivenMessages::of_trace(currents.diagnostics(), &loaded);
+        Ok(ProgramsCurrents {
             axes,
             saturated: currents.saturated().collect(),
             at_rest: currents.at_rest().collect(),

@@ -38,7 +38,7 @@ impl Marks {
 }
 
 /// The columns of an axis that are drawn.
-pub(super) struct Columns<'py> {
+pub(super) struct DrawnColumns<'py> {
     /// Times.
     pub(super) t: PyReadonlyArray1<'py, f64>,
     /// Velocity, both weights and the current.
@@ -47,7 +47,7 @@ pub(super) struct Columns<'py> {
     pub(super) states: PyReadonlyArray1<'py, i8>,
 }
 
-impl Columns<'_> {
+impl DrawnColumns<'_> {
     /// Velocity, state and current of a cycle.
     fn sample(&self, cycle: usize) -> Option<(f64, u8, Added)> {
         let mut values = [0.0; 4];
@@ -68,8 +68,8 @@ impl Columns<'_> {
 }
 
 /// The picture of axes over time.
-pub(super) fn drawn(axes: Vec<(AxisPlot, Columns<'_>)>, marks: &Marks) -> PyResult<String> {
-    let (plots, columns): (Vec<AxisPlot>, Vec<Columns<'_>>) = axes.into_iter().unzip();
+pub(super) fn drawn(axes: Vec<(AxisPlot, DrawnColumns<'_>)>, marks: &Marks) -> PyResult<String> {
+    let (plots, columns): (Vec<AxisPlot>, Vec<DrawnColumns<'_>>) = axes.into_iter().unzip();
     let mut plot = CurrentPlot::new(plots);
     let times = match columns.first() {
         Some(first) => first.t.as_slice()?.to_vec(),

@@ -21,7 +21,7 @@ use crate::words::meant;
 use crate::work::interruptible;
 
 /// What is computed, away from Python.
-struct Job {
+struct RecordingJob {
     trace: PathBuf,
     value_list: PathBuf,
     selection: ChannelSelection,
@@ -30,7 +30,7 @@ struct Job {
 }
 
 /// What came of it.
-struct Computed {
+struct RecordingCurrents {
     t: Vec<f64>,
     cycles: AxisCycles,
     counted: Counted,
@@ -69,7 +69,7 @@ pub(crate) fn current_of_recording(
     } else {
         Resampling::Refused
     };
-    let job = Job {
+    let job = RecordingJob {
         trace,
         value_list,
         selection: ChannelSelection {
@@ -106,8 +106,8 @@ fn standstill_up_to(velocity: Option<f64>) -> PyResult<DeadBand> {
     }
 }
 
-impl Job {
-    fn done(self) -> Result<Computed, Failure> {
+impl RecordingJob {
+    fn done(self) -> Result<RecordingCurrents, Failure> {
         let list = read_value_list(&self.value_list, &FileRegistry::default())?.list;
         let trace = read_commanded(&self.trace, &self.selection, self.options)?;
         let mut current = AdditiveCurrent::new(&list, self.reading);
@@ -124,7 +124,7 @@ impl Job {
             };
             cycles.push(&commanded, &added);
         }
-        Ok(Computed {
+        Ok(RecordingCurrents {
             t,
             cycles,
             counted: Counted {

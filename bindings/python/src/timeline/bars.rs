@@ -6,12 +6,12 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Int8Type, Int32Type, Int64Type, UInt32Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
 use frictcomp::comp::{Kind, State};
-use frictcomp_report::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Standing};
+use frictcomp_report::svg::{Band, BandChart, BandRow, BandState, ChartAxis, StartUpRelation};
 
 use super::PyProgramRun;
 use super::rows::state_name;
-use crate::arrow::Table;
-use crate::messages::Word;
+use crate::arrow::ArrowTable;
+use crate::messages::PickledWord;
 use crate::states::STATES;
 
 /// More bars of an axis are not kept apart.
@@ -22,12 +22,12 @@ pub(super) struct Bars<'a> {
     pub(super) run: &'a PyProgramRun,
     pub(super) axes: &'a [String],
     /// The states after a start of the control.
-    pub(super) start_up: &'a BTreeMap<String, Word>,
+    pub(super) start_up: &'a BTreeMap<String, PickledWord>,
 }
 
 impl Bars<'_> {
     /// The bars of all axes, with the table of the session.
-    pub(super) fn chart(&self, table: &Table) -> BandChart {
+    pub(super) fn chart(&self, table: &ArrowTable) -> BandChart {
         let rows = self.axes.iter().map(|axis| self.row(axis, table));
         let rows: Vec<BandRow> = rows.collect();
         let PyProgramRun {
@@ -50,10 +50,10 @@ impl Bars<'_> {
         }
     }
 
-    fn row(&self, axis: &str, table: &Table) -> BandRow {
+    fn row(&self, axis: &str, table: &ArrowTable) -> BandRow {
         let start_up = state(self.start_up.get(axis));
         let start = self.run.start.get(axis);
-        let mut row = Row {
+        let mut row = AxisBars {
             axis,
             start_up,
             bands: Vec::new(),
@@ -72,13 +72,13 @@ impl Bars<'_> {
 }
 
 /// The bars of an axis so far.
-struct Row<'a> {
+struct AxisBars<'a> {
     axis: &'a str,
     start_up: State,
     bands: Vec<Band>,
 }
 
-impl Row<'_> {
+impl AxisBars<'_> {
     /// Adds the blocks of a program in a batch.
     fn extend_over(&mut self, batch: &RecordBatch, program: u32) {
         let column = state_name(self.axis, Kind::Frict);
@@ -106,14 +106,14 @@ impl Row<'_> {
             Some(last) if last.state == BandState::One(state) => last.to = to,
             Some(last) if is_full => {
                 last.state = BandState::Changing;
-                last.standing = Standing::StartUp;
+                last.standing = StartUpRelation::StartUp;
                 last.to = to;
             }
             _ => self.bands.push(Band {
                 from,
                 to,
                 state: BandState::One(state),
-                standing: Standing::of(state, self.start_up),
+                standing: StartUpRelation::of(state, self.start_up),
                 title: format!("{} {} {}", self.axis, state.as_str(), place_in_words()),
                 href: None,
             }),
@@ -147,7 +147,7 @@ fn described(row: &BandRow) -> String {
     format!("{}: {words}{more}.", row.label)
 }
 
-fn state(word: Option<&Word>) -> State {
+fn state(word: Option<&PickledWord>) -> State {
     word.map_or(State::Unknown, |word| known(word))
 }
 

@@ -11,17 +11,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule};
 use serde::{Deserialize, Serialize};
 
-use crate::arrow::Table;
+use crate::arrow::ArrowTable;
 use crate::exceptions::refused;
-use crate::json::Json;
-use crate::messages::{PyMessages, Said, Word};
+use crate::json::JsonText;
+use crate::messages::{GivenMessages, PickledWord, PyMessages};
 use crate::pickled::{self, Reduced};
 use crate::state::PyState;
 
 use bars::Bars;
 
-pub(crate) use recorder::{Recorded, Recorder};
-pub(crate) use rows::Shown;
+pub(crate) use recorder::{RecordedSession, Recorder};
+pub(crate) use rows::ShownColumns;
 
 /// Programs that a notebook shows at once.
 const SHOWN: usize = 20;
@@ -38,19 +38,19 @@ pub(crate) struct PyProgramRun {
     /// Why it ended: ``M30`` or ``M2``, ``text`` without either, ``error``, ``budget``.
     ///
     /// None where an interrupt or the end of the session came first.
-    by: Option<Word>,
+    by: Option<PickledWord>,
     /// How many blocks were executed.
     blocks: u64,
     /// Friction compensation before its first block, by axis.
-    start: BTreeMap<String, Word>,
+    start: BTreeMap<String, PickledWord>,
     /// Friction compensation after its end, by axis.
-    end: BTreeMap<String, Word>,
+    end: BTreeMap<String, PickledWord>,
     /// The states that are possible after its end, by axis, where they differ between ways.
     ///
     /// Such an axis is ``unknown`` in ``end``. Each state has its ``ways``, lists of conditions that
     /// hold together, at most four, and ``more``, how many ways are not named. The state on all other
     /// ways has None for ``ways``.
-    possible: Json,
+    possible: JsonText,
 }
 
 #[pymethods]
@@ -71,7 +71,7 @@ impl PyProgramRun {
 }
 
 /// What a timeline is made of anew: what was recorded, the blocks, the messages.
-type Pickled<'py> = (String, Bound<'py, PyBytes>, Py<PyMessages>);
+type PickledTimeline<'py> = (String, Bound<'py, PyBytes>, Py<PyMessages>);
 
 /// The timeline of a run: one row for each executed block.
 ///
@@ -82,8 +82,8 @@ type Pickled<'py> = (String, Bound<'py, PyBytes>, Py<PyMessages>);
 /// meet, are left out.
 #[pyclass(frozen, name = "Timeline", module = "frictcomp")]
 pub(crate) struct PyTimeline {
-    recorded: Recorded,
-    table: Table,
+    recorded: RecordedSession,
+    table: ArrowTable,
     messages: Py<PyMessages>,
 }
 
@@ -91,7 +91,7 @@ impl PyTimeline {
     /// What was recorded.
     pub(crate) fn new(
         py: Python<'_>,
-        (recorded, table, said): (Recorded, Table, Said),
+        (recorded, table, said): (RecordedSession, ArrowTable, GivenMessages),
     ) -> PyResult<Self> {
         Ok(Self {
             messages: Py::new(py, PyMessages::new(said))?,
@@ -124,12 +124,12 @@ impl PyTimeline {
     fn _unpickled(text: &str, blocks: &[u8], messages: Py<PyMessages>) -> PyResult<Self> {
         Ok(Self {
             recorded: pickled::read(text)?,
-            table: Table::unpickled(blocks)?,
+            table: ArrowTable::unpickled(blocks)?,
             messages,
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<Pickled<'py>>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<PickledTimeline<'py>>> {
         let this = slf.get();
         let arguments = (
             pickled::written(&this.recorded)?,
@@ -162,13 +162,13 @@ impl PyTimeline {
 
     /// Friction compensation of each axis at the end.
     #[getter]
-    fn friction(&self) -> BTreeMap<String, Word> {
+    fn friction(&self) -> BTreeMap<String, PickledWord> {
         self.recorded.friction.clone()
     }
 
     /// The states that are possible at the end, as in ``ProgramRun``.
     #[getter]
-    fn possible(&self) -> Json {
+    fn possible(&self) -> JsonText {
         self.recorded.possible.clone()
     }
 

@@ -10,23 +10,23 @@ use frictcomp::timeline::{Footing, Record, Sink, StateView};
 use serde::{Deserialize, Serialize};
 
 use super::PyProgramRun;
-use super::rows::{Rows, Shown};
-use crate::arrow::Table;
-use crate::json::Json;
-use crate::messages::{PyMessage, Said, Word};
+use super::rows::{BlockRows, ShownColumns};
+use crate::arrow::ArrowTable;
+use crate::json::JsonText;
+use crate::messages::{GivenMessages, PickledWord, PyMessage};
 use crate::state::PyState;
 use crate::work::Stop;
 
 /// What a session left behind, beside its blocks and its messages.
 #[derive(Serialize, Deserialize)]
-pub(crate) struct Recorded {
+pub(crate) struct RecordedSession {
     pub(crate) axes: Vec<String>,
     pub(crate) programs: Vec<PyProgramRun>,
-    pub(crate) friction: BTreeMap<String, Word>,
+    pub(crate) friction: BTreeMap<String, PickledWord>,
     /// Friction compensation at the start of the control, by axis.
-    pub(crate) start_up: BTreeMap<String, Word>,
+    pub(crate) start_up: BTreeMap<String, PickledWord>,
     /// The states that are possible where ways differ, by axis.
-    pub(crate) possible: Json,
+    pub(crate) possible: JsonText,
     pub(crate) opaque: BTreeMap<String, u64>,
     pub(crate) is_assumed: bool,
     pub(crate) state: PyState,
@@ -35,22 +35,22 @@ pub(crate) struct Recorded {
 
 /// Records a session until it ends or is stopped.
 pub(crate) struct Recorder {
-    rows: Rows,
+    rows: BlockRows,
     programs: Vec<PyProgramRun>,
-    said: Said,
+    said: GivenMessages,
     opaque: BTreeMap<String, u64>,
-    start_up: BTreeMap<String, Word>,
+    start_up: BTreeMap<String, PickledWord>,
     is_assumed: bool,
     stop: Stop,
 }
 
 impl Recorder {
     /// Nothing yet.
-    pub(crate) fn new(shown: Shown, stop: &Stop) -> Self {
+    pub(crate) fn new(shown: ShownColumns, stop: &Stop) -> Self {
         Self {
-            rows: Rows::new(shown),
+            rows: BlockRows::new(shown),
             programs: Vec::new(),
-            said: Said::default(),
+            said: GivenMessages::default(),
             opaque: BTreeMap::new(),
             start_up: BTreeMap::new(),
             is_assumed: false,
@@ -64,8 +64,8 @@ impl Recorder {
         end: StateView<'_>,
         state: SavedState,
         unrun: usize,
-    ) -> (Recorded, Table, Said) {
-        let recorded = Recorded {
+    ) -> (RecordedSession, ArrowTable, GivenMessages) {
+        let recorded = RecordedSession {
             axes: end.axes().map(|(_, name)| name.to_owned()).collect(),
             friction: friction(end),
             start_up: self.start_up,
@@ -155,7 +155,7 @@ impl Sink for Recorder {
 }
 
 /// Friction compensation of each listed axis.
-fn friction(state: StateView<'_>) -> BTreeMap<String, Word> {
+fn friction(state: StateView<'_>) -> BTreeMap<String, PickledWord> {
     let axes = state.axes();
     axes.map(|(axis, name)| {
         let word = state.state(axis, Kind::Frict).as_str();
@@ -165,12 +165,12 @@ fn friction(state: StateView<'_>) -> BTreeMap<String, Word> {
 }
 
 /// The states of friction compensation that are possible where ways differ, by axis (R14.2).
-fn possible(state: StateView<'_>) -> Json {
+fn possible(state: StateView<'_>) -> JsonText {
     let axes = state.axes().filter_map(|(axis, name)| {
         let mut split = state.possible.iter();
         let found = split.find(|it| it.axis == axis && it.kind == Kind::Frict)?;
         Some((name, found.states.as_slice()))
     });
     let axes: BTreeMap<&str, &[PossibleState]> = axes.collect();
-    Json(serde_json::to_string(&axes).expect("names and texts are JSON"))
+    JsonText(serde_json::to_string(&axes).expect("names and texts are JSON"))
 }

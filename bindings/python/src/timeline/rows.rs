@@ -14,7 +14,7 @@ use arrow_schema::{DataType, Field, Fields, Schema, SchemaRef};
 use frictcomp::comp::{AxisIndex, Kind, KindSet};
 use frictcomp::timeline::{PositionFrame, Row, StateView};
 
-use crate::arrow::Table;
+use crate::arrow::ArrowTable;
 use crate::states;
 
 /// Blocks of a batch at most.
@@ -25,7 +25,7 @@ const TEXT: usize = 1 << 29;
 
 /// What the columns show.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shown {
+pub(crate) struct ShownColumns {
     /// The kinds of compensation. Friction compensation is always shown.
     pub(crate) kinds: KindSet,
     /// Whether positions are shown.
@@ -33,8 +33,8 @@ pub(crate) struct Shown {
 }
 
 /// All blocks so far.
-pub(crate) struct Rows {
-    shown: Shown,
+pub(crate) struct BlockRows {
+    shown: ShownColumns,
     files: Files,
     /// The states after the last block that was seen, by axis and kind.
     states: Vec<i8>,
@@ -105,9 +105,9 @@ impl Files {
     }
 }
 
-impl Rows {
+impl BlockRows {
     /// No block yet.
-    pub(crate) fn new(shown: Shown) -> Self {
+    pub(crate) fn new(shown: ShownColumns) -> Self {
         Self {
             shown,
             files: Files::default(),
@@ -192,14 +192,14 @@ impl Rows {
     }
 
     /// The table of all blocks, with the axes that are listed at the end.
-    pub(crate) fn into_table(mut self, end: StateView<'_>) -> Table {
+    pub(crate) fn into_table(mut self, end: StateView<'_>) -> ArrowTable {
         let kinds: Vec<Kind> = self.kinds().collect();
         let axes: Vec<(usize, &str)> = end.axes().map(|(at, name)| (at.get(), name)).collect();
         let last = std::mem::take(&mut self.batch);
         if !last.program.is_empty() || self.full.is_empty() {
             self.full.push(last.closed());
         }
-        let columns = Columns {
+        let columns = BatchColumns {
             schema: schema(&axes, &kinds, self.shown.positions),
             axes: axes.iter().map(|(at, _)| *at).collect(),
             kinds: kinds.len(),
@@ -209,7 +209,7 @@ impl Rows {
             frames: Arc::new(StringArray::from(vec!["machine", "programmed"])),
         };
         let batches = self.full.into_iter().map(|batch| columns.of(batch));
-        Table {
+        ArrowTable {
             batches: batches.collect(),
             schema: columns.schema.clone(),
         }
@@ -256,7 +256,7 @@ fn end_of(words: &StringBuilder) -> i32 {
 }
 
 /// The columns of a table, and what its batches share.
-struct Columns {
+struct BatchColumns {
     schema: SchemaRef,
     /// The axes that have a column.
     axes: Vec<usize>,
@@ -268,7 +268,7 @@ struct Columns {
     frames: Arc<StringArray>,
 }
 
-impl Columns {
+impl BatchColumns {
     fn of(&self, mut batch: Batch) -> RecordBatch {
         let mut arrays: Vec<ArrayRef> = vec![
             Arc::new(UInt32Array::from(batch.program)),

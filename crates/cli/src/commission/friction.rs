@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::channels::ReadingArgs;
-use super::recorded::Recorded;
+use super::recorded::RecordedProgram;
 use crate::failure::Failure;
 use crate::identify::refusal;
 use frictcomp_host::read_axis;
 use frictcomp_recordings::commission::{FrictionFound, MeasuredAxis, actual_elsewhere};
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyOptions, Measured, Track, Wanted, identify,
+    AxisRecording, IdentifyOptions, Measured, RequestedPoints, Track, identify,
 };
 
 impl ReadingArgs {
@@ -17,7 +17,7 @@ impl ReadingArgs {
     pub(super) fn friction(
         &self,
         path: &Path,
-        recorded: Recorded<'_>,
+        recorded: RecordedProgram<'_>,
         axis: &MeasuredAxis,
         speeds: &[f64],
     ) -> Result<FrictionFound, Failure> {
@@ -95,7 +95,7 @@ impl ReadingArgs {
     /// The friction in the torque of one motor.
     fn judge(
         &self,
-        recorded: Recorded<'_>,
+        recorded: RecordedProgram<'_>,
         recording: &AxisRecording,
         motor: &str,
         speeds: &[f64],
@@ -106,7 +106,7 @@ impl ReadingArgs {
                 compensation: Some(recorded.wanted()),
                 ..recording.measured.stated(self.kind.torque_kind, None)
             },
-            wanted: Wanted::Points(12),
+            wanted: RequestedPoints::Points(12),
             ..IdentifyOptions::default()
         };
         let elsewhere = actual_elsewhere(&recording.track, &recording.following_errors);

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::plan::plan_name;
-use super::run_args::RunArgs;
+use super::run_args::CommissionRunArgs;
 use crate::failure::{Failure, shown};
 use frictcomp_host::sha256_of;
 use frictcomp_physics::simulation::Preset;
 use frictcomp_report::commission::{InputFile, PlanFile};
 
-impl RunArgs {
+impl CommissionRunArgs {
     /// The plans, the lists of stage 2, those of before, and the file of the plant.
     pub(super) fn inputs(&self, plans: &[PlanFile]) -> Result<Vec<InputFile>, Failure> {
         let rounds = (1..).take(plans.len() + 1);

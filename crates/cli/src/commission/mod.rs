@@ -20,7 +20,7 @@ use super::failure::Failure;
 #[derive(Debug, Subcommand)]
 pub(super) enum CommissionCommand {
     Plan(plan::PlanArgs),
-    Run(run_args::RunArgs),
+    Run(run_args::CommissionRunArgs),
 }
 
 /// Runs the command.

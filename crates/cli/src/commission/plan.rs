@@ -9,7 +9,7 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::machine::{MachineArgs, value_list};
 use crate::outputs::{Outputs, write_text};
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp::comp::Kind;
 use frictcomp::machine::{Axis, Machine};
 use frictcomp_host::{FileRegistry, Replaces, read_text, sha256_of};
@@ -73,7 +73,7 @@ pub(crate) struct PlanArgs {
     value_list: Vec<String>,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: ResultFormat,
     /// Write the programs, `README.txt` and `plan-1.json` to this folder; stage 2 has `plan-2.json`, and one more for
     /// each further set of lists
     #[arg(long, short, value_name = "FOLDER")]
@@ -135,8 +135,8 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
         write((folder, round), &report, &registry, console)?;
     }
     console.print(&match args.format {
-        Format::Text => console.fitted(&render_text(&report)),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => console.fitted(&render_text(&report)),
+        ResultFormat::Json => render_json(&report),
     })?;
     Ok(exit::CLEAN)
 }

@@ -3,24 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use super::channels::ReadingArgs;
-use super::recorded::Recorded;
+use super::recorded::RecordedProgram;
 use crate::failure::Failure;
 use frictcomp_host::{SignedAt, read_circles, read_motion, read_turns, signatures_of, switches_of};
 use frictcomp_physics::circle::{CommandedCircle, PathCentre, RecordedCircle};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{
-    CirclesFound, Found, MeasuredAxis, Measurement, NotFollowed, Plan, RecordedStrokes, Stage,
-    StrokesFound,
+    CirclesFound, MeasuredAxis, Measurement, NotFollowed, Plan, RecordedStrokes, RecordingOutcome,
+    Stage, StrokesFound,
 };
 use frictcomp_recordings::identify::AxisRecording;
 
 impl ReadingArgs {
     /// The number of the program and what its recording tells. What cannot be read is a result, too: the
     /// other recordings are read all the same.
-    pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, Found) {
+    pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, RecordingOutcome) {
         let recorded = match self.recognise(path, plans) {
             Ok(recorded) => recorded,
-            Err(failure) => return (None, Found::Refused(failure.sentence())),
+            Err(failure) => return (None, RecordingOutcome::Refused(failure.sentence())),
         };
         let axis = |at: usize| {
             let axis = recorded.plan.axes.get(at);
@@ -29,7 +29,7 @@ impl ReadingArgs {
         let found = match &recorded.program.role {
             Measurement::Friction { axis: at, speeds } => axis(*at)
                 .and_then(|axis| self.friction(path, recorded, axis, speeds))
-                .map(Found::Friction),
+                .map(RecordingOutcome::Friction),
             Measurement::Circles { feed, radius } => {
                 self.circles(path, recorded.plan, *feed, *radius)
             }
@@ -37,7 +37,8 @@ impl ReadingArgs {
                 axis(*at).and_then(|axis| self.strokes(path, recorded, axis, feeds))
             }
         };
-        let mut found = found.unwrap_or_else(|failure| Found::Refused(failure.sentence()));
+        let mut found =
+            found.unwrap_or_else(|failure| RecordingOutcome::Refused(failure.sentence()));
         if let Err(failure) = self.compare_states(path, recorded, &mut found) {
             found.refuse(failure.sentence());
         }
@@ -49,8 +50,8 @@ impl ReadingArgs {
     fn compare_states(
         &self,
         path: &Path,
-        recorded: Recorded<'_>,
-        found: &mut Found,
+        recorded: RecordedProgram<'_>,
+        found: &mut RecordingOutcome,
     ) -> Result<(), Failure> {
         const MEASURED: f64 = 0.9;
         let wanted = recorded.wanted();
@@ -89,7 +90,11 @@ impl ReadingArgs {
     }
 
     /// The program of a recording, by its signature or by what the user says.
-    fn recognise<'a>(&self, path: &Path, plans: &[&'a Plan]) -> Result<Recorded<'a>, Failure> {
+    fn recognise<'a>(
+        &self,
+        path: &Path,
+        plans: &[&'a Plan],
+    ) -> Result<RecordedProgram<'a>, Failure> {
         let name = path
             .file_name()
             .map(|it| it.to_string_lossy().into_owned())
@@ -118,7 +123,7 @@ impl ReadingArgs {
         let Some((_, first)) = signed.first().copied() else {
             if let Some(number) = said {
                 let (program, plan) = program(number)?;
-                return Ok(Recorded {
+                return Ok(RecordedProgram {
                     program,
                     plan,
                     from_s: 0.0,
@@ -162,7 +167,7 @@ impl ReadingArgs {
                 format!("its strokes are those of another axis than `{moved}`: two axes are mixed");
             return Err(Failure::new(message));
         }
-        Ok(Recorded {
+        Ok(RecordedProgram {
             program,
             plan,
             from_s: first.end_s,
@@ -173,10 +178,10 @@ impl ReadingArgs {
     fn strokes(
         &self,
         path: &Path,
-        recorded: Recorded<'_>,
+        recorded: RecordedProgram<'_>,
         axis: &MeasuredAxis,
         feeds: &[f64],
-    ) -> Result<Found, Failure> {
+    ) -> Result<RecordingOutcome, Failure> {
         let cycle = self.cycle.seconds()?;
         let AxisRecording {
             track,
@@ -208,7 +213,7 @@ impl ReadingArgs {
                     .to_owned(),
             );
         }
-        Ok(Found::Strokes(found))
+        Ok(RecordingOutcome::Strokes(found))
     }
 
     /// The turns of a recorded program of circles, in the units of their plan.
@@ -222,7 +227,13 @@ impl ReadingArgs {
     }
 
     /// The circles of a recorded program.
-    fn circles(&self, path: &Path, plan: &Plan, feed: f64, radius: f64) -> Result<Found, Failure> {
+    fn circles(
+        &self,
+        path: &Path,
+        plan: &Plan,
+        feed: f64,
+        radius: f64,
+    ) -> Result<RecordingOutcome, Failure> {
         let channels = self.circle_channels(plan);
         let commanded = CommandedCircle {
             radius_mm: Some(radius),
@@ -230,6 +241,8 @@ impl ReadingArgs {
         };
         let path = PathBuf::from(path);
         let recording = read_circles(&[path], &channels, commanded, PathCentre::Common)?;
-        Ok(Found::Circles(CirclesFound::of(&recording, feed, radius)))
+        Ok(RecordingOutcome::Circles(CirclesFound::of(
+            &recording, feed, radius,
+        )))
     }
 }

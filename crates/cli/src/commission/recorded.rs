@@ -1,18 +1,18 @@
 //! A program that was recorded.
 
 use frictcomp_physics::current::Switched;
-use frictcomp_recordings::commission::{Plan, Program, Stage};
+use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
 
 /// A program that was recorded, with its plan.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Recorded<'a> {
-    pub(super) program: &'a Program,
+pub(super) struct RecordedProgram<'a> {
+    pub(super) program: &'a MeasuringProgram,
     pub(super) plan: &'a Plan,
     /// The end of its signature in s.
     pub(super) from_s: f64,
 }
 
-impl Recorded<'_> {
+impl RecordedProgram<'_> {
     /// The state to which the program switches compensation.
     pub(super) fn wanted(self) -> Switched {
         match self.plan.stage {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::plan::{named, plan_name};
 use super::plants::Fitting;
-use super::run_args::RunArgs;
+use super::run_args::CommissionRunArgs;
 use super::sources::{source_of, stage_of, write_list};
 use crate::console::Console;
 use crate::exit;
@@ -13,13 +13,13 @@ use crate::failure::{Failure, shown};
 use crate::machine::value_list;
 use crate::outputs::{Outputs, write_text};
 use crate::recorded_files::recordings_in;
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp_host::{
     FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, MOST_CURRENT, MeasuredAxis, Plan, Program, RecordingResult, Stage,
-    before_after, refuse_strangers, without_effect,
+    BeforeAfter, FrictionFound, MOST_CURRENT, MeasuredAxis, MeasuringProgram, Plan,
+    RecordingResult, Stage, before_after, refuse_strangers, without_effect,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -30,7 +30,7 @@ use frictcomp_report::value_lists::{IdentifiedFrom, render_identified, tuned_on}
 use frictcomp_report::{TextChange, render_unified, visible_line};
 
 /// Runs the command.
-pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
     let plans = plans(&args.folder, &registry)?;
     let paths = recordings_in(&args.folder.join("recordings"))?;
@@ -113,8 +113,8 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     write_text(&mut file, &text)?;
     outputs.check()?;
     console.print(&match args.format {
-        Format::Text => console.fitted(&render_results(&report)),
-        Format::Json => render_results_json(&report),
+        ResultFormat::Text => console.fitted(&render_results(&report)),
+        ResultFormat::Json => render_results_json(&report),
     })?;
     outputs.finish()?;
     Ok(if report.is_complete() {
@@ -126,7 +126,7 @@ pub(crate) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
 
 /// Returns the contents of the report beyond the results.
 fn acceptance(
-    args: &RunArgs,
+    args: &CommissionRunArgs,
     report: &ResultsReport,
     registry: &FileRegistry,
 ) -> Result<Acceptance, Failure> {
@@ -215,7 +215,7 @@ fn known(path: &Path) -> Results {
 
 /// The SHA-256 of all that decides how a recording is read, but the recording itself: version, options and
 /// the plan of its program, all plans where its program is not known.
-fn read_with(args: &RunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
+fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
     let has = |plan: &&PlanFile| {
         let mut programs = plan.plan.programs.iter();
         program.is_none_or(|number| programs.any(|it| it.number == number))
@@ -227,7 +227,7 @@ fn read_with(args: &RunArgs, plans: &[PlanFile], program: Option<u16>) -> String
 
 /// A provisional list for each axis of stage 1 whose friction was recorded and nothing speaks against.
 fn lists(
-    args: &RunArgs,
+    args: &CommissionRunArgs,
     plans: &[PlanFile],
     results: &[RecordingResult],
     outputs: &mut Outputs,
@@ -256,7 +256,7 @@ fn lists(
 
 /// The text of the list of an axis.
 fn list_text(
-    args: &RunArgs,
+    args: &CommissionRunArgs,
     axis: &MeasuredAxis,
     result: &RecordingResult,
     found: &FrictionFound,
@@ -318,7 +318,7 @@ fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -
     };
     let mut against = Vec::new();
     let programs = plan.plan.programs.iter();
-    for &feed in programs.flat_map(Program::reversal_feeds) {
+    for &feed in programs.flat_map(MeasuringProgram::reversal_feeds) {
         let Some(now) = at(recorded, feed) else {
             against.push(format!("F{feed} is not recorded both off and on"));
             continue;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::channels::ReadingArgs;
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp::comp::CncBuild;
 
 /// Take the recordings of measuring programs: friction, lists, circles before and after
@@ -15,7 +15,7 @@ use frictcomp::comp::CncBuild;
 /// `lists`, and judges the lists of stage 2 by the circles with and without them. Run it again with more
 /// recordings: what is known already is kept in `results.json`.
 #[derive(Debug, Args)]
-pub(crate) struct RunArgs {
+pub(crate) struct CommissionRunArgs {
     /// The folder of the plan
     #[arg(value_name = "FOLDER")]
     pub(super) folder: PathBuf,
@@ -48,5 +48,5 @@ pub(crate) struct RunArgs {
     pub(super) before: Vec<String>,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    pub(super) format: Format,
+    pub(super) format: ResultFormat,
 }

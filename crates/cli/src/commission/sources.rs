@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use frictcomp_host::{read_text, sha256_of_text};
 use frictcomp_recordings::commission::{
-    Found, FrictionFound, MeasuredAxis, RecordingResult, Stage,
+    FrictionFound, MeasuredAxis, RecordingOutcome, RecordingResult, Stage,
 };
 use frictcomp_report::commission::PlanFile;
 
@@ -46,7 +46,9 @@ pub(super) fn source_of<'a>(
     Vec<String>,
 ) {
     let frictions = results.iter().filter_map(|it| match &it.found {
-        Found::Friction(found) if found.axis == axis.name && found.against.is_empty() => {
+        RecordingOutcome::Friction(found)
+            if found.axis == axis.name && found.against.is_empty() =>
+        {
             Some((it, found))
         }
         _ => None,

@@ -68,7 +68,7 @@ pub(crate) struct CurrentArgs {
     pub(super) reading: ChosenOptions,
     /// The format of the result
     #[arg(long, default_value = "csv")]
-    pub(super) format: Format,
+    pub(super) format: CurrentFormat,
     /// Additional columns for a program
     #[arg(
         long,
@@ -76,7 +76,7 @@ pub(crate) struct CurrentArgs {
         value_delimiter = ',',
         conflicts_with = "trace"
     )]
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<CurrentColumn>,
     /// End the trace of a program after N CNC cycles
     #[arg(long, value_name = "N", default_value_t = PlannerOptions::default().max_cycles)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
@@ -140,7 +140,7 @@ fn parse_dead_band(text: &str) -> Result<DeadBand, String> {
 
 /// A format of the currents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum CurrentFormat {
     /// One row per cycle.
     #[default]
     Csv,
@@ -148,7 +148,7 @@ pub(super) enum Format {
 
 /// Columns that the currents of a program have only where they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Column {
+pub(super) enum CurrentColumn {
     /// The compensation state.
     Comp,
     /// The line of the block being executed.

@@ -11,11 +11,11 @@ pub(super) use args::CurrentArgs;
 
 use super::console::Console;
 use super::failure::Failure;
-use args::Format;
+use args::CurrentFormat;
 
 /// Runs the command.
 pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
-    let Format::Csv = args.format;
+    let CurrentFormat::Csv = args.format;
     match (&args.program, &args.trace, &args.value_list) {
         (Some(program), ..) => program::run(program, args, console),
         (None, Some(trace), Some(list)) => recorded::run(trace, list, args, console),

@@ -10,7 +10,7 @@ use super::super::machine::{remark, value_list};
 use super::super::outputs::Outputs;
 use super::args::CurrentArgs;
 use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
-use super::table::{Table, TableOptions};
+use super::table::{CurrentRows, TableOptions};
 use frictcomp::comp::{AxisIndex, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::drive_interface::TorqueScale;
@@ -60,7 +60,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         program: input.name(Naming::AsGiven),
         watch: Arc::clone(&loaded.watch),
     };
-    let table = Table::new(result.writer, table, plot);
+    let table = CurrentRows::new(result.writer, table, plot);
     let reading = reading(args, &loaded);
     let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, table);
     let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
@@ -183,7 +183,7 @@ fn nothing(names: &[String]) -> String {
 }
 
 /// Says where the trace begins, and where an axis has no current.
-fn say_table(names: &[String], table: &Table) {
+fn say_table(names: &[String], table: &CurrentRows) {
     for (at, (time, line)) in table.begins().iter().enumerate() {
         let anew = if at == 0 { "begins" } else { "restarts" };
         Console::talk(&format!("the trace {anew} with line {line}, at {time} s"));

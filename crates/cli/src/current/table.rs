@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::args::Column;
+use super::args::CurrentColumn;
 use super::plot::Plot;
 use frictcomp::comp::State;
 use frictcomp_host::{Done, LineTracker, Reached, Watch};
@@ -18,15 +18,15 @@ const STEP: u64 = 1 << 16;
 /// Subject and columns of a table.
 pub(super) struct TableOptions<'a> {
     pub(super) names: &'a [String],
-    pub(super) columns: &'a [Column],
+    pub(super) columns: &'a [CurrentColumn],
     /// The program as it is named in records.
     pub(super) program: String,
     pub(super) watch: Arc<Watch>,
 }
 
 /// The rows of the result on their way out.
-pub(super) struct Table {
-    columns: Vec<Column>,
+pub(super) struct CurrentRows {
+    columns: Vec<CurrentColumn>,
     writer: BufWriter<Box<dyn Write + Send>>,
     written: io::Result<()>,
     cycles: u64,
@@ -42,7 +42,7 @@ pub(super) struct Table {
     block: Option<(u32, u64)>,
 }
 
-impl Table {
+impl CurrentRows {
     /// A table with its header.
     pub(super) fn new(
         writer: Box<dyn Write + Send>,
@@ -95,13 +95,19 @@ impl Table {
                 1 => String::new(),
                 _ => format!(".{name}"),
             };
-            let comp = self.columns.contains(&Column::Comp).then_some("comp");
+            let comp = self
+                .columns
+                .contains(&CurrentColumn::Comp)
+                .then_some("comp");
             let columns = ["x", "v", "w_before", "w_after", "current", "output"];
             for column in columns.into_iter().chain(comp) {
                 header.push(format!("{column}{suffix}"));
             }
         }
-        for (column, name) in [(Column::Line, "line"), (Column::Simplified, "simplified")] {
+        for (column, name) in [
+            (CurrentColumn::Line, "line"),
+            (CurrentColumn::Simplified, "simplified"),
+        ] {
             if self.columns.contains(&column) {
                 header.push(name.to_owned());
             }
@@ -110,7 +116,7 @@ impl Table {
     }
 }
 
-impl CurrentSink for Table {
+impl CurrentSink for CurrentRows {
     fn begin(&mut self, time_s: f64, line: u32) {
         if let Some(plot) = &mut self.plot {
             plot.traces.interrupt();
@@ -162,7 +168,7 @@ impl CurrentSink for Table {
 
 fn write_row(
     writer: &mut impl Write,
-    columns: &[Column],
+    columns: &[CurrentColumn],
     cycle: &CurrentCycle<'_>,
 ) -> io::Result<()> {
     write!(writer, "{}", cycle.time_s)?;
@@ -174,14 +180,14 @@ fn write_row(
             State::Unknown => write!(writer, ",,")?,
             _ => write!(writer, ",{},{}", added.current_units, added.output)?,
         }
-        if columns.contains(&Column::Comp) {
+        if columns.contains(&CurrentColumn::Comp) {
             write!(writer, ",{}", commanded.friction.as_str())?;
         }
     }
-    if columns.contains(&Column::Line) {
+    if columns.contains(&CurrentColumn::Line) {
         write!(writer, ",{}", cycle.cause.line)?;
     }
-    if columns.contains(&Column::Simplified) {
+    if columns.contains(&CurrentColumn::Simplified) {
         let names = cycle.cause.simplified.iter().map(Simplification::name);
         write!(writer, ",{}", names.collect::<Vec<_>>().join(" "))?;
     }

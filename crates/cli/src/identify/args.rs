@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::channels::{AxisChannels, TorqueArgs};
+use crate::channels::{AxisChannelArgs, TorqueArgs};
 use crate::cycle::CycleArgs;
 use crate::failure::Failure;
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp::comp::CncBuild;
 use frictcomp::text::shown_path;
 use frictcomp_recordings::identify::{
@@ -43,7 +43,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
     pub(super) circles: bool,
     #[command(flatten)]
-    pub(super) channels: AxisChannels,
+    pub(super) channels: AxisChannelArgs,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
     /// The largest number of points in the value list; by default 8
@@ -64,7 +64,7 @@ pub(crate) struct IdentifyArgs {
     pub(super) torque: TorqueArgs,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    pub(super) format: Format,
+    pub(super) format: ResultFormat,
     /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
     /// unless the build accepts fractions
     #[arg(long, value_name = "BUILD")]

@@ -11,11 +11,11 @@ use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, OutputFile, read_axis};
 use frictcomp_recordings::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, Measured, Track, Wanted,
+    AxisRecording, IdentifyError, IdentifyOptions, Measured, RequestedPoints, Track,
     identify_measured_circles,
 };
 use frictcomp_report::fitted;
@@ -58,8 +58,8 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         let report = circles(args, recordings, list)?;
         let mut target = console.stdout();
         target.text(&match args.format {
-            Format::Text => fitted(&on_circles::render_text(&report), target.look.width),
-            Format::Json => on_circles::render_json(&report),
+            ResultFormat::Text => fitted(&on_circles::render_text(&report), target.look.width),
+            ResultFormat::Json => on_circles::render_json(&report),
         })?;
         outputs.finish()?;
         return Ok(exit::CLEAN);
@@ -81,8 +81,8 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     }
     let mut target = console.stdout();
     target.text(&match args.format {
-        Format::Text => fitted(&render_text(&report), target.look.width),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
@@ -135,7 +135,7 @@ fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
         .points
         .map(|points| usize::try_from(points).unwrap_or(MOST));
     if let Some(points) = points {
-        options.wanted = Wanted::Points(points);
+        options.wanted = RequestedPoints::Points(points);
     }
     if let Some(percent) = args.max_error {
         if !(percent > 0.0 && percent <= LARGEST) {
@@ -145,7 +145,7 @@ fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
             );
         }
         options.accuracy = percent / 100.0;
-        options.wanted = Wanted::Error {
+        options.wanted = RequestedPoints::Error {
             part: options.accuracy,
             most: points.unwrap_or(MOST),
         };

@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
-use crate::result::Format;
+use crate::result::ResultFormat;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
 use frictcomp_report::fitted;
@@ -56,8 +56,8 @@ pub(super) fn run(
     }
     let mut target = console.stdout();
     target.text(&match args.format {
-        Format::Text => fitted(&render_text(&report), target.look.width),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => fitted(&render_text(&report), target.look.width),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::axis_list::AxisList;
 use crate::channels::parse_unit;
 use crate::cycle::CycleArgs;
-use crate::result::Format;
+use crate::result::ResultFormat;
 use crate::values;
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::Points;
@@ -70,7 +70,7 @@ pub(crate) struct LearnArgs {
     pub(super) cnc_build: Option<CncBuild>,
     /// The format of the result
     #[arg(long, default_value = "text")]
-    pub(super) format: Format,
+    pub(super) format: ResultFormat,
 }
 
 impl LearnArgs {

@@ -10,7 +10,7 @@ use crate::exit;
 use crate::failure::{Failure, shown};
 use crate::outputs::{Outputs, write_text};
 use crate::progress;
-use crate::result::Format;
+use crate::result::ResultFormat;
 use folder::LearningFolder;
 use frictcomp_host::{FileRegistry, find_plant, learn, memory_for_simulation, read_text};
 use frictcomp_physics::circle::{LearningProgress, PlaneAxis};
@@ -55,8 +55,8 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     let report = report(&plant, &folder, &learned, is_over);
     console.print(&match args.format {
-        Format::Text => console.fitted(&render_text(&report)),
-        Format::Json => render_json(&report),
+        ResultFormat::Text => console.fitted(&render_text(&report)),
+        ResultFormat::Json => render_json(&report),
     })?;
     outputs.finish()?;
     Ok(if is_over { exit::CLEAN } else { exit::FOUND })

@@ -14,7 +14,7 @@ use super::exit;
 use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::Outputs;
-use super::result::{Format, ResultArgs};
+use super::result::{ResultArgs, ResultFormat};
 use super::start::StartArgs;
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
@@ -109,8 +109,8 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
     }
     let width = result.look.width;
     result.text(&match args.result.format {
-        Format::Text => fitted(&shown::text(&replayed), width),
-        Format::Json => format!("{:#}\n", shown::document(&replayed)),
+        ResultFormat::Text => fitted(&shown::text(&replayed), width),
+        ResultFormat::Json => format!("{:#}\n", shown::document(&replayed)),
     })?;
     outputs.finish()?;
     args.machine.say_unread(&registry, console);

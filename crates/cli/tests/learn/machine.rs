@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use frictcomp::lists::{FrictionList, Points};
 use frictcomp_physics::circle::{
-    Aim, Circle, CircularTest, Comparison, Direction, Job, Method, RadialProfile, Ranges, Shaping,
-    Task,
+    Circle, CircularTest, Comparison, Direction, LapRun, Method, RadialProfile, Ranges, Shaping,
+    Task, TuningAim,
 };
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{DriveParameters, FrictionModel, Plant, Preset};
@@ -100,7 +100,7 @@ impl Machine {
     pub(crate) fn left_um(&self, feeds: &[f64], lists: [Option<&FrictionList>; 2]) -> [f64; 2] {
         let mut most = [0.0_f64; 2];
         for &feed in feeds {
-            let job = Job {
+            let job = LapRun {
                 compensation: switched(lists),
                 direction: Direction::Ccw,
             };
@@ -134,7 +134,7 @@ impl Machine {
             reading: Reading::default(),
             points: Points::Whole,
             shaping: Shaping::Allowed,
-            aim: Aim::Plant,
+            aim: TuningAim::Plant,
         }
     }
 
@@ -152,7 +152,7 @@ impl Machine {
         let compensation = switched(lists);
         let mut rows = Vec::new();
         for direction in Direction::ALL {
-            let job = Job {
+            let job = LapRun {
                 compensation,
                 direction,
             };

@@ -10,7 +10,7 @@ use frictcomp_physics::current::{AdditiveCurrent, Reading};
 use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot, tuning, value_curve};
 use frictcomp_report::svg::{
     Band, BandChart, BandRow, BandState, ChartAxis, LineChart, PolarChart, PolarPanel, PolarSeries,
-    Standing,
+    StartUpRelation,
 };
 use frictcomp_report::tune::TuneReport;
 
@@ -37,8 +37,8 @@ pub(super) fn list() -> FrictionList {
 
 fn band(from: f64, to: f64, state: BandState) -> Band {
     let standing = match state {
-        BandState::One(state) => Standing::of(state, State::Active),
-        BandState::Changing => Standing::StartUp,
+        BandState::One(state) => StartUpRelation::of(state, State::Active),
+        BandState::Changing => StartUpRelation::StartUp,
         other => panic!("{other:?}"),
     };
     Band {

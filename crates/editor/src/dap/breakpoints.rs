@@ -34,7 +34,7 @@ struct Breakpoint {
 
 /// Effect of the breakpoints on a line when a run reaches it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Met {
+pub(super) struct BreakpointsMet {
     /// The run stops; what is to be said about that.
     pub(super) stop: Option<String>,
     /// Texts of log points.
@@ -64,7 +64,7 @@ impl Breakpoint {
     }
 
     /// Meets a run that stands before its block.
-    fn meet(&mut self, here: &Interpreter, met: &mut Met) {
+    fn meet(&mut self, here: &Interpreter, met: &mut BreakpointsMet) {
         let undecided = match self.condition.as_ref().map(|it| it.holds(here)) {
             None | Some(Ok(true)) => None,
             Some(Ok(false)) => return,
@@ -125,8 +125,8 @@ impl Breakpoints {
     }
 
     /// Returns the effect of the breakpoints on the line at which a run stands.
-    pub(super) fn meet(&mut self, (file, line): (&str, u32), here: &Interpreter) -> Met {
-        let mut met = Met::default();
+    pub(super) fn meet(&mut self, (file, line): (&str, u32), here: &Interpreter) -> BreakpointsMet {
+        let mut met = BreakpointsMet::default();
         let lines = self.lines.get_mut(self.paths.of(file));
         let breakpoints = lines.and_then(|lines| lines.get_mut(&line));
         for breakpoint in breakpoints.into_iter().flatten() {

@@ -13,9 +13,9 @@ use super::arguments::{
 };
 use super::breakpoints::{Breakpoints, STATE_CHANGES, UNKNOWN_VALUES};
 use super::paths::real;
-use super::stepper::{Halt, Moved, Position, Reach, Said, Stepper, in_words};
+use super::stepper::{Halt, Moved, OutputText, RunPosition, RunTarget, Stepper, in_words};
 use super::transport::{self, Incoming, Outgoing, Request};
-use super::variables::{self, Scope};
+use super::variables::{self, VariableScope};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::EndedBy;
 use frictcomp::machine::Setting;
@@ -40,8 +40,8 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
                 }
             }
         })?;
-    let mut server = Server {
-        client: Client {
+    let mut server = DapServer {
+        client: DapClient {
             receiver,
             waiting: Vec::new(),
         },
@@ -73,13 +73,13 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
 }
 
 /// The client's end: what it sent, in order.
-struct Client {
+struct DapClient {
     receiver: Receiver<Incoming>,
     /// Messages taken from the receiver ahead of their turn.
     waiting: Vec<Incoming>,
 }
 
-impl Client {
+impl DapClient {
     fn next(&mut self) -> Option<Incoming> {
         if self.waiting.is_empty() {
             return self.receiver.recv().ok();
@@ -126,8 +126,8 @@ fn is_one_of(incoming: &Incoming, commands: &[&str]) -> bool {
     }
 }
 
-struct Server<W> {
-    client: Client,
+struct DapServer<W> {
+    client: DapClient,
     outgoing: Outgoing<W>,
     breakpoints: Breakpoints,
     stepper: Option<Stepper>,
@@ -138,7 +138,7 @@ struct Server<W> {
     is_over: bool,
 }
 
-impl<W: Write> Server<W> {
+impl<W: Write> DapServer<W> {
     /// Answers a request, and does what comes after the answer.
     fn serve(&mut self, request: &Request) -> io::Result<()> {
         self.moved = Moved::No;
@@ -153,12 +153,12 @@ impl<W: Write> Server<W> {
             "stepIn" | "setVariable" if self.moved == Moved::Yes => self.stopped("step", ""),
             "launch" => self.outgoing.event("initialized", &json!({})),
             "configurationDone" => self.begin(),
-            "continue" => self.go(Reach::Breakpoint),
-            "stepIn" => self.go(Reach::Block),
-            "next" => self.go(Reach::Depth(self.depth())),
+            "continue" => self.go(RunTarget::Breakpoint),
+            "stepIn" => self.go(RunTarget::Block),
+            "next" => self.go(RunTarget::Depth(self.depth())),
             "stepOut" => {
                 let above = self.depth().checked_sub(1);
-                self.go(above.map_or(Reach::Breakpoint, Reach::Depth))
+                self.go(above.map_or(RunTarget::Breakpoint, RunTarget::Depth))
             }
             "terminate" => {
                 self.stepper = None;
@@ -178,7 +178,7 @@ impl<W: Write> Server<W> {
             "stackTrace" => self.stepper().map(stack),
             "scopes" => self
                 .stepper()
-                .map(|stepper| json!({ "scopes": Scope::all(stepper) })),
+                .map(|stepper| json!({ "scopes": VariableScope::all(stepper) })),
             "variables" => {
                 let Variables {
                     variables_reference,
@@ -300,11 +300,11 @@ impl<W: Write> Server<W> {
     }
 
     fn set_variable(&mut self, wanted: &SetVariable) -> Result<Value, String> {
-        if wanted.variables_reference == Scope::Sides as i64 {
+        if wanted.variables_reference == VariableScope::Sides as i64 {
             return self.set_side(wanted);
         }
         let stepper = self.stepper.as_mut().ok_or("no program was launched")?;
-        if wanted.variables_reference != Scope::Unknown as i64 {
+        if wanted.variables_reference != VariableScope::Unknown as i64 {
             return Err(
                 "only a value that the machine alone knows can be set; what the program \
                         computes stays as it is"
@@ -321,12 +321,12 @@ impl<W: Write> Server<W> {
     fn begin(&mut self) -> io::Result<()> {
         self.tell_said()?;
         if !self.stop_on_entry {
-            return self.go(Reach::Breakpoint);
+            return self.go(RunTarget::Breakpoint);
         }
         let Some(stepper) = &mut self.stepper else {
             return Ok(());
         };
-        let halt = stepper.go(Reach::Block, &mut self.breakpoints, &mut || false);
+        let halt = stepper.go(RunTarget::Block, &mut self.breakpoints, &mut || false);
         self.tell_said()?;
         match halt {
             Halt::Ended(by) => self.end(by),
@@ -343,7 +343,7 @@ impl<W: Write> Server<W> {
     }
 
     /// Lets the run go on. What the client asks for meanwhile and does not stop it is answered.
-    fn go(&mut self, reach: Reach) -> io::Result<()> {
+    fn go(&mut self, reach: RunTarget) -> io::Result<()> {
         loop {
             let Some(stepper) = &mut self.stepper else {
                 return Ok(());
@@ -372,7 +372,7 @@ impl<W: Write> Server<W> {
     }
 
     fn stopped(&mut self, reason: &str, text: &str) -> io::Result<()> {
-        if let Some(Position::Ended(by)) = self.stepper.as_ref().map(Stepper::position) {
+        if let Some(RunPosition::Ended(by)) = self.stepper.as_ref().map(Stepper::position) {
             return self.end(*by);
         }
         if let Some(stepper) = &mut self.stepper {
@@ -415,8 +415,8 @@ impl<W: Write> Server<W> {
     fn tell_said(&mut self) -> io::Result<()> {
         let said = self.stepper.as_mut().map(Stepper::take_said);
         said.into_iter().flatten().try_for_each(|it| match it {
-            Said::Message(message) => self.tell(&message),
-            Said::Log { file, line, text } => {
+            OutputText::Message(message) => self.tell(&message),
+            OutputText::Log { file, line, text } => {
                 let body = json!({
                     "category": "console",
                     "output": format!("{text}\n"),
@@ -521,8 +521,8 @@ fn sides(stepper: &Stepper) -> Vec<Value> {
 /// The calls that led to the next block, the innermost first.
 fn stack(stepper: &Stepper) -> Value {
     let sites = match stepper.position() {
-        Position::Before(sites) => sites.as_slice(),
-        Position::Ended(_) => &[],
+        RunPosition::Before(sites) => sites.as_slice(),
+        RunPosition::Ended(_) => &[],
     };
     let frames: Vec<Value> = (1..)
         .zip(sites.iter().rev())

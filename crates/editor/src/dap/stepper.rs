@@ -30,7 +30,7 @@ const STRIDE: u64 = 10_000;
 
 /// A block of a call, or the one that comes next.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Site {
+pub(super) struct BlockOfCall {
     pub(super) file: Arc<str>,
     /// From 1.
     pub(super) line: u32,
@@ -39,16 +39,16 @@ pub(super) struct Site {
 
 /// Position of the run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Position {
+pub(super) enum RunPosition {
     /// Before a block; the last site is that block, those before it the calls that led there.
-    Before(Vec<Site>),
+    Before(Vec<BlockOfCall>),
     /// The program has ended.
     Ended(EndedBy),
 }
 
 /// Target of the next part of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Reach {
+pub(super) enum RunTarget {
     /// To the next block.
     Block,
     /// To the next block of this call depth, or of one above.
@@ -80,7 +80,7 @@ pub(super) enum Halt {
 #[derive(Debug, Clone, Default)]
 struct Trail {
     /// The last executed block of each call depth.
-    sites: Vec<Site>,
+    sites: Vec<BlockOfCall>,
     /// Why the program ended.
     ended: Option<EndedBy>,
 }
@@ -94,7 +94,7 @@ impl Trail {
 
 /// Text that a run has for its user.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Said {
+pub(super) enum OutputText {
     /// A message about the program.
     Message(Diagnostic),
     /// The text of a log point.
@@ -121,12 +121,12 @@ enum Stop {
 
 /// Listens to some blocks of the run.
 struct Stride<'a> {
-    reach: Reach,
+    reach: RunTarget,
     breakpoints: &'a mut Breakpoints,
     asked: &'a BTreeSet<String>,
     machine: &'a Machine,
     trail: &'a mut Trail,
-    said: Vec<Said>,
+    said: Vec<OutputText>,
     blocks: u64,
     /// Whether the next block is one that the run need not stop before.
     first: bool,
@@ -165,9 +165,9 @@ impl Stride<'_> {
             }
         }
         let has_arrived = match self.reach {
-            Reach::Block => true,
-            Reach::Depth(limit) => depth(block) <= limit,
-            Reach::Breakpoint => false,
+            RunTarget::Block => true,
+            RunTarget::Depth(limit) => depth(block) <= limit,
+            RunTarget::Breakpoint => false,
         };
         has_arrived.then_some(Halt::Arrived)
     }
@@ -250,7 +250,7 @@ pub(super) struct Stepper {
     /// Whether the client was told that the run stands before that block.
     is_shown: bool,
     trail: Trail,
-    position: Position,
+    position: RunPosition,
     /// Values that the shown block reads and only the machine knows.
     wanted: BTreeSet<String>,
     /// The answers to its condition, where only the machine knows which holds.
@@ -258,7 +258,7 @@ pub(super) struct Stepper {
     /// The values that the run has stopped at already.
     asked: BTreeSet<String>,
     /// Messages of blocks executed since the last report to the client.
-    said: Vec<Said>,
+    said: Vec<OutputText>,
 }
 
 impl Stepper {
@@ -305,7 +305,7 @@ impl Stepper {
             here,
             is_shown: false,
             trail,
-            position: Position::Before(Vec::new()),
+            position: RunPosition::Before(Vec::new()),
             wanted: BTreeSet::new(),
             answers: Vec::new(),
             asked: BTreeSet::new(),
@@ -316,15 +316,15 @@ impl Stepper {
     }
 
     /// Returns the position of the run.
-    pub(super) fn position(&self) -> &Position {
+    pub(super) fn position(&self) -> &RunPosition {
         &self.position
     }
 
     /// Returns the call depth of the shown block.
     pub(super) fn depth(&self) -> usize {
         match &self.position {
-            Position::Before(sites) => sites.len().saturating_sub(1),
-            Position::Ended(_) => 0,
+            RunPosition::Before(sites) => sites.len().saturating_sub(1),
+            RunPosition::Ended(_) => 0,
         }
     }
 
@@ -351,8 +351,8 @@ impl Stepper {
     /// The answers to the condition of the block that is shown, in words; none where nothing is to be chosen.
     pub(super) fn answers(&self) -> impl Iterator<Item = String> {
         let file = match &self.position {
-            Position::Before(sites) => sites.last().map(|site| &*site.file),
-            Position::Ended(_) => None,
+            RunPosition::Before(sites) => sites.last().map(|site| &*site.file),
+            RunPosition::Ended(_) => None,
         };
         let file = file.unwrap_or_default();
         self.answers.iter().map(move |it| it.in_words(file))
@@ -388,14 +388,14 @@ impl Stepper {
     }
 
     /// Takes what was said since the last call.
-    pub(super) fn take_said(&mut self) -> Vec<Said> {
+    pub(super) fn take_said(&mut self) -> Vec<OutputText> {
         std::mem::take(&mut self.said)
     }
 
     /// Goes on. `interrupted` is asked every now and then.
     pub(super) fn go(
         &mut self,
-        reach: Reach,
+        reach: RunTarget,
         breakpoints: &mut Breakpoints,
         interrupted: &mut dyn FnMut() -> bool,
     ) -> Halt {
@@ -440,7 +440,7 @@ impl Stepper {
                     self.return_to(anchor, blocks - 1);
                     let met = breakpoints.meet((&file, line), &self.here);
                     self.said
-                        .extend(met.logged.into_iter().map(|text| Said::Log {
+                        .extend(met.logged.into_iter().map(|text| OutputText::Log {
                             file: Arc::clone(&file),
                             line,
                             text,
@@ -490,7 +490,7 @@ impl Stepper {
         self.wanted.clear();
         self.answers.clear();
         if let Some(by) = self.trail.ended {
-            self.position = Position::Ended(by);
+            self.position = RunPosition::Ended(by);
             return;
         }
         let mut copy = self.here.clone();
@@ -513,9 +513,9 @@ impl Stepper {
             // What is left of the program is no block: it ends without a further stop.
             Some(by) => {
                 self.finish();
-                Position::Ended(by)
+                RunPosition::Ended(by)
             }
-            None => Position::Before(sites),
+            None => RunPosition::Before(sites),
         };
     }
 
@@ -539,8 +539,8 @@ fn depth(block: &Executed<'_>) -> usize {
         .unwrap_or(0)
 }
 
-fn site(block: &Executed<'_>) -> Site {
-    Site {
+fn site(block: &Executed<'_>) -> BlockOfCall {
+    BlockOfCall {
         file: Arc::clone(block.file),
         line: block.line,
         text: block.text.to_owned(),
@@ -554,8 +554,8 @@ pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
     unknown.map(|note| note.name.clone()).collect()
 }
 
-fn messages(said: &[Diagnostic]) -> impl Iterator<Item = Said> {
-    said.iter().cloned().map(Said::Message)
+fn messages(said: &[Diagnostic]) -> impl Iterator<Item = OutputText> {
+    said.iter().cloned().map(OutputText::Message)
 }
 
 /// A message in one line: `P-ERR-70495: ...`.

@@ -10,7 +10,7 @@ use frictcomp::machine::Setting;
 
 /// Group of values; the number is the client's handle of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scope {
+pub(super) enum VariableScope {
     /// The axes with their states and positions.
     Axes = 1,
     /// Values that the next block reads and only the machine knows.
@@ -26,7 +26,7 @@ pub(super) enum Scope {
 /// The handles from here on are those of single axes.
 const FIRST_AXIS: i64 = 100;
 
-impl Scope {
+impl VariableScope {
     /// The scopes where a run stands.
     pub(super) fn all(stepper: &Stepper) -> Vec<Json> {
         let mut scopes = vec![(Self::Axes, "Axes")];
@@ -47,26 +47,28 @@ impl Scope {
 pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
     let here = stepper.interpreter();
     match handle {
-        _ if handle == Scope::Axes as i64 => axes(here).map(|axis| axis_line(here, axis)).collect(),
-        _ if handle == Scope::Unknown as i64 => {
+        _ if handle == VariableScope::Axes as i64 => {
+            axes(here).map(|axis| axis_line(here, axis)).collect()
+        }
+        _ if handle == VariableScope::Unknown as i64 => {
             let names = stepper.wanted().iter();
             names
                 .map(|name| line(name, "unknown; set a value here"))
                 .collect()
         }
-        _ if handle == Scope::Sides as i64 => {
+        _ if handle == VariableScope::Sides as i64 => {
             let answers = stepper.answers();
             answers
                 .map(|words| line(&words, "open; set 1 to take this side"))
                 .collect()
         }
-        _ if handle == Scope::Values as i64 => {
+        _ if handle == VariableScope::Values as i64 => {
             let values = here.values().into_iter();
             values
                 .map(|(name, value)| line(&name, &in_words(&value)))
                 .collect()
         }
-        _ if handle == Scope::Modal as i64 => modal(here),
+        _ if handle == VariableScope::Modal as i64 => modal(here),
         _ => axes(here)
             .find(|&axis| handle_of(axis) == handle)
             .map_or_else(Vec::new, |axis| axis_parts(here, axis)),

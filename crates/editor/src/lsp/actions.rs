@@ -10,7 +10,7 @@ use gen_lsp_types::{
 };
 
 use super::documents::{Document, Documents};
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::diagnostic::{Code, Diagnostic, Fix, Safety, edits};
 use frictcomp::session::allow_here;
 use frictcomp::text::{LineIndex, SourceFile, shown_path};
@@ -18,7 +18,7 @@ use frictcomp_host::read_text;
 
 /// The actions at a place of a text.
 pub(super) fn code_actions(
-    view: &View,
+    view: &RequestView,
     params: &CodeActionParams,
 ) -> Option<Vec<CodeActionResponse>> {
     let document = view.document(&params.text_document.uri)?;
@@ -55,7 +55,7 @@ fn touches(one: Range, other: Range) -> bool {
 }
 
 /// Returns the messages of all checks on a document, each once.
-fn messages<'a>(view: &'a View, document: &Document) -> Vec<&'a Diagnostic> {
+fn messages<'a>(view: &'a RequestView, document: &Document) -> Vec<&'a Diagnostic> {
     let mut known = BTreeSet::new();
     let analyses = view.analyses_of(document).into_iter();
     let said = analyses.flat_map(|(_, analysis)| &analysis.said);
@@ -69,7 +69,7 @@ fn messages<'a>(view: &'a View, document: &Document) -> Vec<&'a Diagnostic> {
 
 /// The fixes of a message, and the comment that silences it.
 fn quick_fixes(
-    view: &View,
+    view: &RequestView,
     document: &Document,
     (said, message): (&Diagnostic, &Message),
 ) -> Vec<CodeAction> {
@@ -131,7 +131,7 @@ fn short(text: &str) -> String {
 }
 
 /// All changes of a text that may be made without a look at them.
-fn fix_all(view: &View, document: &Document) -> Option<CodeAction> {
+fn fix_all(view: &RequestView, document: &Document) -> Option<CodeAction> {
     let fixes = safe_fixes(view, document);
     if fixes.is_empty() {
         return None;
@@ -146,7 +146,7 @@ fn fix_all(view: &View, document: &Document) -> Option<CodeAction> {
 
 /// The first safe change of each message about a text. A comment that silences nothing in one run may
 /// be needed in another: it goes only if no run needs it (R9.82).
-fn safe_fixes(view: &View, document: &Document) -> Vec<Fix> {
+fn safe_fixes(view: &RequestView, document: &Document) -> Vec<Fix> {
     let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
     let mut runs = 0;
@@ -172,7 +172,7 @@ fn safe_fixes(view: &View, document: &Document) -> Vec<Fix> {
 
 /// Changes of files, as the client makes them; `None` where nothing is changed.
 fn workspace_edit<'a>(
-    view: &View,
+    view: &RequestView,
     fixes: impl IntoIterator<Item = &'a Fix>,
 ) -> Option<WorkspaceEdit> {
     let mut by_file: HashMap<Arc<str>, Vec<&Fix>> = HashMap::new();
@@ -191,7 +191,7 @@ fn workspace_edit<'a>(
 
 /// The changes of a file; `None` where its lines are no longer those of the fixes.
 fn text_edits(
-    view: &View,
+    view: &RequestView,
     file: &str,
     fixes: &[&Fix],
 ) -> Option<(TextDocumentIdentifier, Vec<TextEdit>)> {
@@ -216,7 +216,7 @@ fn text_edits(
 
 /// Changes in the form that the client knows.
 pub(super) fn as_edit(
-    view: &View,
+    view: &RequestView,
     changes: Vec<(TextDocumentIdentifier, Vec<TextEdit>)>,
 ) -> WorkspaceEdit {
     if !view.client.edits_versions() {

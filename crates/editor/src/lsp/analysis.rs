@@ -19,7 +19,7 @@ use frictcomp_host::{
 };
 
 /// A text to check, as it and all others were when it was asked for.
-pub(super) struct Job {
+pub(super) struct AnalysisJob {
     /// The text that was checked.
     pub(super) document: Arc<Document>,
     /// The disk with all open texts.
@@ -44,7 +44,7 @@ pub(super) struct Analysis {
     /// The names of programs that were called and not found.
     pub(super) missed: Vec<String>,
     /// Course of the program.
-    pub(super) run: Option<Run>,
+    pub(super) run: Option<ProgramRun>,
 }
 
 /// Why a text could not be checked.
@@ -58,7 +58,7 @@ pub(super) struct Failure {
 
 /// Course of a program.
 #[derive(Debug)]
-pub(super) struct Run {
+pub(super) struct ProgramRun {
     /// The states of its blocks.
     pub(super) states: StateBook,
     /// The axes when it has ended.
@@ -84,7 +84,7 @@ pub(super) struct AxisEnd {
     pub(super) start_up: State,
 }
 
-impl Job {
+impl AnalysisJob {
     /// Checks the text; `None` where it has changed meanwhile.
     pub(super) fn run(&self) -> Option<Analysis> {
         let registry = FileRegistry::default();
@@ -138,7 +138,7 @@ impl Job {
         );
         Analysis {
             said,
-            run: Some(Run {
+            run: Some(ProgramRun {
                 states: survey.states,
                 ends: survey.ends,
                 is_cut,

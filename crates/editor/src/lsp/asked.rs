@@ -12,7 +12,7 @@ use frictcomp_host::CONFIG_NAME;
 
 /// Request of the server that the client has not answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(super) enum ServerRequest {
     /// The settings of the user.
     Settings,
     /// To tell of files that change.
@@ -21,7 +21,7 @@ pub(super) enum Asked {
     Refresh,
 }
 
-impl Asked {
+impl ServerRequest {
     /// Returns the consequence of a refusal by the client.
     pub(super) fn refused(self) -> &'static str {
         match self {
@@ -33,17 +33,17 @@ impl Asked {
 }
 
 /// Asks for the settings of the user.
-pub(super) fn settings(outgoing: &mut Outgoing<Asked>) -> Request {
+pub(super) fn settings(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     let params = ConfigurationParams::new(vec![ConfigurationItem {
         scope_uri: None,
         section: Some("frictcomp".to_owned()),
     }]);
     let method = ConfigurationRequest::METHOD.to_string();
-    outgoing.register(method, params, Asked::Settings)
+    outgoing.register(method, params, ServerRequest::Settings)
 }
 
 /// Asks to be told of lists, configurations and programs that change.
-pub(super) fn news_of_files(outgoing: &mut Outgoing<Asked>) -> Request {
+pub(super) fn news_of_files(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
     let programs = format!("**/*.{{{endings}}}");
     let patterns = [programs, format!("**/{CONFIG_NAME}")];
@@ -58,5 +58,5 @@ pub(super) fn news_of_files(outgoing: &mut Outgoing<Asked>) -> Request {
         register_options: Some(json!(options)),
     }]);
     let method = RegistrationRequest::METHOD.to_string();
-    outgoing.register(method, params, Asked::NewsOfFiles)
+    outgoing.register(method, params, ServerRequest::NewsOfFiles)
 }

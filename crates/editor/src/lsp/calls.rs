@@ -16,7 +16,7 @@ use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::navigation::called_at;
 use super::uri::path_of;
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::text::shown_path;
 use frictcomp_host::{CallGraph, Disk, FoundCall, GraphProgram, Input};
 
@@ -41,7 +41,7 @@ fn path_of_program(program: &GraphProgram) -> Option<&Path> {
     }
 }
 
-fn item(view: &View, path: &Path) -> CallHierarchyItem {
+fn item(view: &RequestView, path: &Path) -> CallHierarchyItem {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     CallHierarchyItem {
         name: name.into_owned(),
@@ -55,13 +55,13 @@ fn item(view: &View, path: &Path) -> CallHierarchyItem {
     }
 }
 
-fn item_of(view: &View, program: &GraphProgram) -> Option<CallHierarchyItem> {
+fn item_of(view: &RequestView, program: &GraphProgram) -> Option<CallHierarchyItem> {
     path_of_program(program).map(|path| item(view, path))
 }
 
 /// The program at a place: the one that is called there, else that of the text.
 pub(super) fn prepare(
-    view: &View,
+    view: &RequestView,
     params: &CallHierarchyPrepareParams,
 ) -> Option<Vec<CallHierarchyItem>> {
     let place = &params.text_document_position_params;
@@ -75,7 +75,7 @@ pub(super) fn prepare(
 
 /// The programs that call a program, with the lines of their calls.
 pub(super) fn incoming(
-    view: &View,
+    view: &RequestView,
     params: &CallHierarchyIncomingCallsParams,
 ) -> Option<Vec<CallHierarchyIncomingCall>> {
     let graph = &view.calls.project(&view.documents.disk())?.graph;
@@ -93,7 +93,7 @@ pub(super) fn incoming(
 
 /// The programs that a program calls, with the lines of its calls.
 pub(super) fn outgoing(
-    view: &View,
+    view: &RequestView,
     params: &CallHierarchyOutgoingCallsParams,
 ) -> Option<Vec<CallHierarchyOutgoingCall>> {
     let graph = &view.calls.project(&view.documents.disk())?.graph;
@@ -122,7 +122,10 @@ fn lines(caller: &GraphProgram, program: usize) -> Vec<Range> {
 
 /// The programs of the project and their local subprograms whose names hold some letters: programs
 /// first.
-pub(super) fn symbols(view: &View, params: &WorkspaceSymbolParams) -> Option<Vec<WorkspaceSymbol>> {
+pub(super) fn symbols(
+    view: &RequestView,
+    params: &WorkspaceSymbolParams,
+) -> Option<Vec<WorkspaceSymbol>> {
     let project = view.calls.project(&view.documents.disk())?;
     let wanted = params.query.to_lowercase();
     let is_wanted = |name: &str| name.to_lowercase().contains(&wanted);
@@ -141,7 +144,7 @@ pub(super) fn symbols(view: &View, params: &WorkspaceSymbolParams) -> Option<Vec
 }
 
 fn symbol(
-    view: &View,
+    view: &RequestView,
     (path, range): (&Path, Range),
     kind: SymbolKind,
     (name, container): (&str, &Path),
@@ -161,7 +164,7 @@ fn symbol(
 
 /// The lens that says from how many programs a program is reached; its words come when the client asks
 /// for them, since the calls of the project may have to be found first.
-pub(super) fn lens(view: &View, document: &Document) -> Option<CodeLens> {
+pub(super) fn lens(view: &RequestView, document: &Document) -> Option<CodeLens> {
     view.calls.are_known().then(|| CodeLens {
         range: whole_line(0),
         command: None,
@@ -170,7 +173,7 @@ pub(super) fn lens(view: &View, document: &Document) -> Option<CodeLens> {
 }
 
 /// The same lens with its words.
-pub(super) fn resolved(view: &View, mut lens: CodeLens) -> CodeLens {
+pub(super) fn resolved(view: &RequestView, mut lens: CodeLens) -> CodeLens {
     let uri = lens.data.as_ref().and_then(|data| data.get("reached"));
     let uri = uri.and_then(Value::as_str).map(Uri::from);
     if let Some(uri) = uri {
@@ -183,7 +186,7 @@ pub(super) fn resolved(view: &View, mut lens: CodeLens) -> CodeLens {
 }
 
 /// From which programs a program is reached: those at the top, which nobody calls.
-fn reached(view: &View, uri: &Uri) -> String {
+fn reached(view: &RequestView, uri: &Uri) -> String {
     let none = || "called by no program of the project".to_owned();
     let Some(project) = view.calls.project(&view.documents.disk()) else {
         return none();

@@ -8,13 +8,13 @@ use gen_lsp_types::{
     WorkspaceOptions,
 };
 
-use super::client::Client;
+use super::client::LspClient;
 use super::commands::COMMANDS;
 use super::pages::SCHEME;
 use super::project_calls::ProjectCalls;
 
 /// The answer to `initialize`.
-pub(super) fn offer(client: &Client, calls: &ProjectCalls) -> InitializeResult {
+pub(super) fn offer(client: &LspClient, calls: &ProjectCalls) -> InitializeResult {
     let has_project = calls.are_known().then_some(true);
     let shows_calls = has_project.filter(|_| client.settings.outlines());
     let outlines = client.settings.outlines().then_some(true);
@@ -90,7 +90,7 @@ fn diagnostics() -> DiagnosticProvider {
 
 /// Returns the support for renaming; a client with the ability is told first whether there is a
 /// name.
-fn renames(client: &Client) -> RenameProvider {
+fn renames(client: &LspClient) -> RenameProvider {
     if client.prepares_renames() {
         let options = RenameOptions {
             prepare_provider: Some(true),

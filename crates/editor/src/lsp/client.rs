@@ -10,7 +10,7 @@ use super::uri::path_of;
 
 /// Abilities of the client, and the settings of its user.
 #[derive(Debug, Clone)]
-pub(super) struct Client {
+pub(super) struct LspClient {
     /// Unit of its columns.
     pub(super) encoding: Encoding,
     /// Settings of its user.
@@ -19,7 +19,7 @@ pub(super) struct Client {
     pub(super) capabilities: ClientCapabilities,
 }
 
-impl Client {
+impl LspClient {
     /// The client of an `initialize` request, and what cannot be used of its settings.
     pub(super) fn new(params: &InitializeParams) -> (Self, Vec<String>) {
         let mut settings = Settings::default();

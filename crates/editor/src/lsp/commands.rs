@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::refusal::Refusal;
 use super::uri::path_of;
-use super::view::View;
+use super::view::RequestView;
 use super::wording::editor;
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::session::{Options, SessionOptions};
@@ -35,22 +35,25 @@ pub(super) const COMMANDS: [&str; 2] = [SHOW_TIMELINE, AUDIT];
 
 /// Subject of a command: its one argument.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Subject {
+pub(super) struct CommandSubject {
     /// The program, or the folder.
     uri: Uri,
 }
 
 /// The result of a command.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Shown {
+pub(super) struct CommandResult {
     /// A page that needs nothing else: no network, no script, no second file.
     html: String,
 }
 
 /// Runs a command.
-pub(super) fn execute(view: &View, params: ExecuteCommandParams) -> Result<Shown, Refusal> {
+pub(super) fn execute(
+    view: &RequestView,
+    params: ExecuteCommandParams,
+) -> Result<CommandResult, Refusal> {
     let subject = params.arguments.into_iter().flatten().next();
-    let subject: Subject = serde_json::from_value(subject.unwrap_or(Value::Null))?;
+    let subject: CommandSubject = serde_json::from_value(subject.unwrap_or(Value::Null))?;
     match params.command.as_str() {
         SHOW_TIMELINE => timeline(view, &subject),
         AUDIT => audit(view, &subject),
@@ -70,7 +73,7 @@ impl Sources for Texts {
 /// The run of a program, as far as the client wants it.
 struct Digest<'a> {
     digest: RunDigest,
-    view: &'a View,
+    view: &'a RequestView,
 }
 
 impl Sink for Digest<'_> {
@@ -82,7 +85,7 @@ impl Sink for Digest<'_> {
     }
 }
 
-fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+fn timeline(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, Refusal> {
     let document = view
         .document(&subject.uri)
         .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
@@ -116,13 +119,13 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
     let mut page = Vec::new();
     render_run(&sink.digest, &given, &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
-    Ok(Shown {
+    Ok(CommandResult {
         html: String::from_utf8_lossy(&page).into_owned(),
     })
 }
 
 /// Audits the programs of a folder and below, or of the folder of a program, each as it is open.
-fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, Refusal> {
     let named = path_of(&subject.uri.0);
     let path = named.ok_or_else(|| Refusal::Params(format!("`{}` is no file", subject.uri.0)))?;
     let folder = match path.parent() {
@@ -166,7 +169,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
     let mut page = Vec::new();
     render_audit(&report, &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
-    Ok(Shown {
+    Ok(CommandResult {
         html: String::from_utf8_lossy(&page).into_owned(),
     })
 }

@@ -11,12 +11,15 @@ use gen_lsp_types::{
 
 use super::documents::{Document, Kind as TextKind};
 use super::parameters::{Page, keys_of, pages_for};
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::comp::Kind;
 use frictcomp::syntax::{PieceKind, code_of, kind_at};
 
 /// Returns the completions at a place.
-pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<CompletionItem>> {
+pub(super) fn completion(
+    view: &RequestView,
+    params: &CompletionParams,
+) -> Option<Vec<CompletionItem>> {
     let at = &params.text_document_position_params;
     let document = view.document(&at.text_document.uri)?;
     let line = document.line(at.position.line);
@@ -148,7 +151,7 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
 
 /// The axes of the machine whose names go on with a word of letters, where a word of a block may begin.
 /// A word with a digit is an address with its value: `X1` moves X, even beside an axis X10.
-fn axes<'t>(view: &View, document: &Document, before: &'t str) -> Option<Offer<'t>> {
+fn axes<'t>(view: &RequestView, document: &Document, before: &'t str) -> Option<Offer<'t>> {
     let run = view.analysis(&document.uri)?.run.as_ref()?;
     let (above, typed) = split_word(before);
     let begins_a_word = above.is_empty() || above.ends_with([' ', '\t']);

@@ -12,7 +12,7 @@ use super::analysis::options;
 use super::documents::{Document, Documents};
 use super::refusal::Refusal;
 use super::settings::ContourSettings;
-use super::view::View;
+use super::view::RequestView;
 use super::worker::Cancel;
 use frictcomp::diagnostic::UnknownName;
 use frictcomp_host::{
@@ -56,7 +56,7 @@ pub(super) struct Contour {
     /// The programs whose blocks are driven.
     files: Vec<Uri>,
     /// The path block by block, in the order of driving.
-    stretches: Vec<Stretch>,
+    stretches: Vec<BlockPath>,
     /// The worst reversals, the worst first.
     worst: Vec<Worst>,
     /// The figures, as on the command line.
@@ -67,7 +67,7 @@ pub(super) struct Contour {
 
 /// What a block drives of the path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Stretch {
+struct BlockPath {
     /// The number of its file, from 0.
     file: usize,
     /// Its line, from 0.
@@ -104,7 +104,7 @@ impl Watcher for Asker {
 }
 
 /// Drives an open program, as it stands in the editor.
-pub(super) fn contour(view: &View, params: &ContourParams) -> Result<Contour, Refusal> {
+pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Contour, Refusal> {
     let uri = &params.text_document.uri;
     let document = view
         .document(uri)
@@ -136,7 +136,7 @@ fn name(document: &Document) -> String {
     name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn setup(view: &View, loaded: &LoadedMachine) -> Result<ContourSetup, Refusal> {
+fn setup(view: &RequestView, loaded: &LoadedMachine) -> Result<ContourSetup, Refusal> {
     let settings = &view.client.settings;
     let ContourSettings {
         plant,
@@ -170,7 +170,7 @@ fn setup(view: &View, loaded: &LoadedMachine) -> Result<ContourSetup, Refusal> {
 }
 
 /// A preset as it is, a file as seen from the folder of the project.
-fn placed(view: &View, plant: &str) -> String {
+fn placed(view: &RequestView, plant: &str) -> String {
     if plant.parse::<Preset>().is_ok() {
         return plant.to_owned();
     }
@@ -217,7 +217,7 @@ fn remarks(
 
 impl Contour {
     fn of(
-        view: &View,
+        view: &RequestView,
         shown: Option<FollowedContour>,
         (figures, remarks): (String, Vec<String>),
     ) -> Self {
@@ -240,7 +240,7 @@ impl Contour {
                 files.len() - 1
             })
         };
-        let stretches = shown.stretches.into_iter().map(|it| Stretch {
+        let stretches = shown.stretches.into_iter().map(|it| BlockPath {
             file: number(it.file),
             line: it.line.saturating_sub(1),
             points: it.points.into_iter().map(|it| it.map(tenths)).collect(),

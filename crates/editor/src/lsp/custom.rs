@@ -6,7 +6,7 @@ use gen_lsp_types::{
 use serde::{Deserialize, Serialize};
 
 use super::states::{Pass, StateSet};
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::comp::State;
 
 /// `frictcomp/states`: the states of all axes at a place.
@@ -14,7 +14,7 @@ pub(super) enum StatesRequest {}
 
 impl Request for StatesRequest {
     type Params = StatesParams;
-    type Result = Option<States>;
+    type Result = Option<BlockStates>;
     const METHOD: LspRequestMethod<'static> = LspRequestMethod::Custom("frictcomp/states");
     const MESSAGE_DIRECTION: MessageDirection = MessageDirection::ClientToServer;
 }
@@ -31,7 +31,7 @@ pub(super) struct StatesParams {
 
 /// The states of all axes at a block.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct States {
+pub(super) struct BlockStates {
     /// The line of the block, from 0; that of the last executed block before the place where the
     /// place itself is in none.
     pub(super) line: u32,
@@ -92,13 +92,13 @@ pub(super) struct AxisTimeline {
     /// Its name.
     pub(super) axis: String,
     /// Its states, from the first line to the last.
-    pub(super) segments: Vec<Segment>,
+    pub(super) segments: Vec<StateSegment>,
 }
 
 /// Lines after which an axis has the same states.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Segment {
+pub(super) struct StateSegment {
     /// The first line, from 0.
     pub(super) from: u32,
     /// The first line after them.
@@ -108,9 +108,9 @@ pub(super) struct Segment {
 }
 
 /// The states at a place.
-pub(super) fn states(view: &View, params: &StatesParams) -> Option<States> {
+pub(super) fn states(view: &RequestView, params: &StatesParams) -> Option<BlockStates> {
     let document = view.document(&params.text_document.uri)?;
-    let wanted = View::block_at(document, params.position);
+    let wanted = RequestView::block_at(document, params.position);
     let (_, run, name) = view.runs(document).into_iter().next()?;
     let line = run.states.executed_up_to(&name, wanted)?;
     let passes = run.states.passes(&name, line);
@@ -132,7 +132,7 @@ pub(super) fn states(view: &View, params: &StatesParams) -> Option<States> {
             (!states.after.is_empty()).then_some(states)
         });
     let axes: Vec<AxisStates> = axes.collect();
-    Some(States {
+    Some(BlockStates {
         line: line - 1,
         executed: line == wanted,
         times: passes.iter().map(|pass| u64::from(pass.times)).sum(),
@@ -164,7 +164,7 @@ fn in_words(axis: &AxisStates) -> String {
 
 /// The states of a program over its lines. Before the first executed block they are those that it
 /// finds; what is not executed has those of the block above.
-pub(super) fn timeline(view: &View, params: &TimelineParams) -> Option<Timeline> {
+pub(super) fn timeline(view: &RequestView, params: &TimelineParams) -> Option<Timeline> {
     let document = view.document(&params.text_document.uri)?;
     let (_, run, name) = view.runs(document).into_iter().next()?;
     let lines = document.line_count();
@@ -207,7 +207,7 @@ impl AxisTimeline {
             }
             last.to = line;
         }
-        self.segments.push(Segment {
+        self.segments.push(StateSegment {
             from: line,
             to: line,
             states,

@@ -12,8 +12,8 @@ use gen_lsp_types::{
     UnchangedDocumentDiagnosticReport, Uri,
 };
 
-use super::messages::{ByText, PublishedDiagnostics, Shown, Translator};
-use super::view::View;
+use super::messages::{ByText, MessagesByUri, PublishedDiagnostics, Translator};
+use super::view::RequestView;
 
 /// Messages on their way to the client.
 #[derive(Debug, Default)]
@@ -78,7 +78,7 @@ impl Delivery {
     }
 
     /// The messages on each text.
-    pub(super) fn shown(&self) -> &Shown {
+    pub(super) fn shown(&self) -> &MessagesByUri {
         self.published.shown()
     }
 }
@@ -91,7 +91,10 @@ fn pushed(to: Translator<'_>, mut changed: ByText) -> ByText {
 }
 
 /// Answers a request for the messages on an open text.
-pub(super) fn report(view: &View, params: &DocumentDiagnosticParams) -> DocumentDiagnosticReport {
+pub(super) fn report(
+    view: &RequestView,
+    params: &DocumentDiagnosticParams,
+) -> DocumentDiagnosticReport {
     let uri: &Uri = &params.text_document.uri;
     let open = view.document(uri);
     let items = open.and_then(|_| view.shown.get(&uri.0));

@@ -2,14 +2,14 @@
 
 use gen_lsp_types::{InlayHint, InlayHintParams, Position};
 
-use super::analysis::Run;
+use super::analysis::ProgramRun;
 use super::documents::{Document, Kind};
 use super::states::Pass;
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::text::shown_path;
 
 /// The hints in a part of a text.
-pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<InlayHint>> {
+pub(super) fn inlay_hints(view: &RequestView, params: &InlayHintParams) -> Option<Vec<InlayHint>> {
     let document = view.document(&params.text_document.uri)?;
     if document.kind != Kind::Program || !view.client.settings.inlay_hints {
         return None;
@@ -35,7 +35,7 @@ pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<I
 }
 
 /// A hint at the end of the last line of a block.
-fn hint(view: &View, document: &Document, line: u32, label: &str) -> InlayHint {
+fn hint(view: &RequestView, document: &Document, line: u32, label: &str) -> InlayHint {
     let mut last = line.saturating_sub(1);
     while document.line(last).trim_end().ends_with('\\') {
         last += 1;
@@ -58,7 +58,7 @@ fn hint(view: &View, document: &Document, line: u32, label: &str) -> InlayHint {
 
 /// Returns the changes by a block: `X: active → inactive`. Where they happen in some passes only,
 /// `(2 of 5)`.
-fn changes_of(run: &Run, passes: &[Pass<'_>], file: &str) -> String {
+fn changes_of(run: &ProgramRun, passes: &[Pass<'_>], file: &str) -> String {
     let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
     let mut words: Vec<(String, u64)> = Vec::new();
     for (at, axis) in run.states.axes().iter().enumerate() {
@@ -88,7 +88,7 @@ fn changes_of(run: &Run, passes: &[Pass<'_>], file: &str) -> String {
 
 /// Returns the states in which the program leaves axes away from the start of the control, as seen
 /// from a file: `leaves X inactive`.
-pub(super) fn left(run: &Run, file: &str) -> Option<String> {
+pub(super) fn left(run: &ProgramRun, file: &str) -> Option<String> {
     let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
     let left = run.states.at_end();
     let away: Vec<String> = away

@@ -10,14 +10,14 @@ use super::markdown::{code, plain};
 use super::moving::{AxisMoves, moves};
 use super::parameters::page_of;
 use super::states::{Pass, StateBook};
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::comp::{CompCommand, Selection};
 use frictcomp::syntax::ast::Item;
 use frictcomp::syntax::parse_block;
 use frictcomp::text::shown_path;
 
 /// Returns the hover at a place.
-pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
+pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
     let at = &params.text_document_position_params;
     let document = view.document(&at.text_document.uri)?;
     let text = match document.kind {
@@ -36,8 +36,8 @@ pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
 }
 
 /// The states at a block, what it switches and what moves in it.
-fn program(view: &View, document: &Document, position: Position) -> Option<String> {
-    let line = View::block_at(document, position);
+fn program(view: &RequestView, document: &Document, position: Position) -> Option<String> {
+    let line = RequestView::block_at(document, position);
     let mut text = String::new();
     for (main, run, name) in view.runs(document) {
         let passes = run.states.passes(&name, line);

@@ -7,11 +7,11 @@ use lsp_server::{RequestId, Response};
 use serde_json::Value;
 
 use super::requests::{Handler, Needs};
-use super::view::View;
+use super::view::RequestView;
 use super::worker::Worker;
 
 /// A question on its way to who answers it.
-pub(super) struct Question {
+pub(super) struct RoutedRequest {
     /// The number that the client gives it.
     pub(super) id: RequestId,
     /// What answers it.
@@ -19,14 +19,14 @@ pub(super) struct Question {
     /// Its parameters.
     pub(super) params: Value,
     /// All that is known at the moment.
-    pub(super) view: View,
+    pub(super) view: RequestView,
 }
 
 /// A thread for each kind of answer.
 pub(super) struct Lanes {
-    answers: Worker<Question>,
-    reports: Worker<Question>,
-    simulations: Worker<Question>,
+    answers: Worker<RoutedRequest>,
+    reports: Worker<RoutedRequest>,
+    simulations: Worker<RoutedRequest>,
 }
 
 impl Lanes {
@@ -37,7 +37,7 @@ impl Lanes {
     pub(super) fn new<D: From<Response> + Send + 'static>(done: &Sender<D>) -> io::Result<Self> {
         let lane = |name| {
             let done = done.clone();
-            Worker::new(name, move |question: Question| {
+            Worker::new(name, move |question: RoutedRequest| {
                 if let Some(response) = question.answer() {
                     // The receiver is gone with the server.
                     let _ = done.send(response.into());
@@ -52,7 +52,7 @@ impl Lanes {
     }
 
     /// Sends a question to the thread of its kind.
-    pub(super) fn send(&self, needs: Needs, question: Question) {
+    pub(super) fn send(&self, needs: Needs, question: RoutedRequest) {
         let lane = match needs {
             Needs::Texts | Needs::Check => &self.answers,
             Needs::Time => &self.reports,
@@ -62,7 +62,7 @@ impl Lanes {
     }
 }
 
-impl Question {
+impl RoutedRequest {
     /// The answer; `None` where nobody waits for it any more.
     fn answer(self) -> Option<Response> {
         if self.view.cancel.is_set() {

@@ -9,13 +9,13 @@ use super::commands::SHOW_TIMELINE;
 use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::session::Options;
 use frictcomp::text::shown_path;
 use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, MachineOptions, Machines};
 
 /// The lenses over a text.
-pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
+pub(super) fn code_lenses(view: &RequestView, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
     let document = view.document(&params.text_document.uri)?;
     if document.kind != Kind::Program || !view.client.settings.code_lens {
         return None;
@@ -52,7 +52,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
 
 /// The axes that a program moves in the state that it finds (R10.1); `None` where that cannot be
 /// found out.
-fn inherited(view: &View, document: &Document) -> Option<String> {
+fn inherited(view: &RequestView, document: &Document) -> Option<String> {
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);

@@ -10,7 +10,7 @@ use gen_lsp_types::{
 };
 
 use super::analysis::Analysis;
-use super::client::Client;
+use super::client::LspClient;
 use super::documents::{Document, Documents};
 use super::encoding::whole_line;
 use super::pages::page_uri;
@@ -34,13 +34,13 @@ const MAX_PROGRAMS: usize = 20;
 pub(super) type ByText = BTreeMap<String, Vec<Message>>;
 
 /// Messages on each text, by their URIs; a copy is cheap.
-pub(super) type Shown = SharedMap<String, Arc<[Message]>>;
+pub(super) type MessagesByUri = SharedMap<String, Arc<[Message]>>;
 
 /// Makes messages for a client.
 #[derive(Clone, Copy)]
 pub(super) struct Translator<'a> {
     /// The client.
-    pub(super) client: &'a Client,
+    pub(super) client: &'a LspClient,
     /// Open documents.
     pub(super) documents: &'a Documents,
 }
@@ -207,12 +207,12 @@ fn reach(known: &mut Message, message: &Message) {
 pub(super) struct PublishedDiagnostics {
     by_check: BTreeMap<String, ByText>,
     /// Messages of checks of other texts on a text, with the number of those checks.
-    by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
-    shown: Shown,
+    by_others: BTreeMap<String, BTreeMap<MessageKey, (Message, usize)>>,
+    shown: MessagesByUri,
 }
 
 /// Key of a message: its place, its cause, and the rest that tells it from others.
-type Key = (u32, u32, String, String);
+type MessageKey = (u32, u32, String, String);
 
 impl PublishedDiagnostics {
     /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
@@ -247,7 +247,7 @@ impl PublishedDiagnostics {
     }
 
     /// Messages on each text.
-    pub(super) fn shown(&self) -> &Shown {
+    pub(super) fn shown(&self) -> &MessagesByUri {
         &self.shown
     }
 
@@ -299,7 +299,7 @@ impl PublishedDiagnostics {
     }
 }
 
-fn key(message: &Message) -> Key {
+fn key(message: &Message) -> MessageKey {
     let start = message.range.start;
     let rest = (&message.message, &message.related_information);
     let rest = format!("{rest:?}");

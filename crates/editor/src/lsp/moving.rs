@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use super::analysis::options;
 use super::documents::Document;
-use super::view::View;
+use super::view::RequestView;
 use frictcomp::comp::{Kind, State};
-use frictcomp::interpreter::{CircularArc, Form, Motion, Motions, SAME_PLACE, Travel};
+use frictcomp::interpreter::{CircularArc, Motion, Motions, PathForm, SAME_PLACE, Travel};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{Record, Row, Sink};
 use frictcomp_host::{
@@ -35,7 +35,7 @@ pub(super) struct AxisMoves {
 
 /// Returns the motion of the axes in the block that starts on a line, from 1; the program runs once
 /// more for it.
-pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMoves> {
+pub(super) fn moves(view: &RequestView, document: &Document, line: u32) -> Vec<AxisMoves> {
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
     let unheard = FileRegistry::default();
@@ -73,7 +73,7 @@ enum Direction {
 }
 
 struct Moves<'a> {
-    view: &'a View,
+    view: &'a RequestView,
     line: u32,
     file: String,
     directions: Vec<Direction>,
@@ -101,13 +101,13 @@ impl Moves<'_> {
             let at = axis.get();
             let ends = (travel.from.get(at), travel.to.get(at));
             let known = match (ends, travel.form) {
-                (_, Form::Unknown(_)) => None,
+                (_, PathForm::Unknown(_)) => None,
                 ((Some(Some(from)), Some(Some(to))), _) => Some((*from, *to)),
                 _ => None,
             };
             let directions = match (known, travel.form) {
                 (None, _) => vec![Direction::Unknown],
-                (Some(_), Form::Arc(arc)) if arc.axes.contains(axis) => {
+                (Some(_), PathForm::Arc(arc)) if arc.axes.contains(axis) => {
                     along_arc(travel, arc, usize::from(arc.axes[1] == *axis))
                 }
                 (Some((from, to)), _) => straight(from, to).into_iter().collect(),
@@ -221,7 +221,7 @@ mod tests {
             centre: Centre::Point([0.0, 0.0]),
         };
         let travel = Travel {
-            form: Form::Arc(arc),
+            form: PathForm::Arc(arc),
             axes: axes.to_vec(),
             from: from.map(Some).to_vec(),
             to: to.map(Some).to_vec(),
@@ -270,7 +270,7 @@ mod tests {
                 centre,
             };
             let travel = Travel {
-                form: Form::Arc(arc),
+                form: PathForm::Arc(arc),
                 axes: arc.axes.to_vec(),
                 from: vec![Some(5.0), Some(0.0)],
                 to: to.map(Some).to_vec(),

@@ -10,40 +10,40 @@ use gen_lsp_types::{
 
 use super::actions::as_edit;
 use super::documents::{Document, Kind};
-use super::outline::{Mention, Name, Outline, Role, definitions};
+use super::outline::{Mention, Name, NameRole, ProgramOutline, definitions};
 use super::refusal::Refusal;
 use super::settings::Settings;
 use super::uri::uri_of;
-use super::view::View;
+use super::view::RequestView;
 
 /// An open program with its outline, where this kind of navigation is wanted.
 fn outlined<'a>(
-    view: &'a View,
+    view: &'a RequestView,
     text: &TextDocumentIdentifier,
     is_wanted: fn(&Settings) -> bool,
-) -> Option<(&'a Document, Outline)> {
+) -> Option<(&'a Document, ProgramOutline)> {
     let document = view.document(&text.uri)?;
     let is_wanted = document.kind == Kind::Program && is_wanted(&view.client.settings);
-    is_wanted.then(|| (document, Outline::of(document.text())))
+    is_wanted.then(|| (document, ProgramOutline::of(document.text())))
 }
 
 /// The outline with the mention of a name at a place.
 fn at<'a>(
-    view: &'a View,
+    view: &'a RequestView,
     place: &TextDocumentPositionParams,
     is_wanted: fn(&Settings) -> bool,
-) -> Option<(&'a Document, Outline, Mention)> {
+) -> Option<(&'a Document, ProgramOutline, Mention)> {
     let (document, outline) = outlined(view, &place.text_document, is_wanted)?;
     let offset = document.offset(place.position, view.client.encoding);
     let mention = outline.at(offset)?.clone();
     Some((document, outline, mention))
 }
 
-fn range(view: &View, document: &Document, mention: &Mention) -> Range {
+fn range(view: &RequestView, document: &Document, mention: &Mention) -> Range {
     document.range(mention.span, view.client.encoding)
 }
 
-fn location(view: &View, document: &Document, mention: &Mention) -> Location {
+fn location(view: &RequestView, document: &Document, mention: &Mention) -> Location {
     Location {
         uri: document.uri.clone(),
         range: range(view, document, mention),
@@ -52,12 +52,15 @@ fn location(view: &View, document: &Document, mention: &Mention) -> Location {
 
 /// The subprograms and labels of a program.
 #[allow(deprecated, reason = "the type has a field that is left empty")]
-pub(super) fn symbols(view: &View, params: &DocumentSymbolParams) -> Option<Vec<DocumentSymbol>> {
+pub(super) fn symbols(
+    view: &RequestView,
+    params: &DocumentSymbolParams,
+) -> Option<Vec<DocumentSymbol>> {
     let (document, outline) = outlined(view, &params.text_document, Settings::outlines)?;
     let defined = outline
         .mentions
         .iter()
-        .filter(|it| it.role == Role::Definition);
+        .filter(|it| it.role == NameRole::Definition);
     let symbols = defined.filter_map(|mention| {
         let (name, kind) = match &mention.name {
             Name::Program(name) => (name, SymbolKind::Function),
@@ -80,7 +83,7 @@ pub(super) fn symbols(view: &View, params: &DocumentSymbolParams) -> Option<Vec<
 }
 
 /// The lines of what a name is given to: a subprogram up to the next one, a label with its block.
-fn whole(document: &Document, outline: &Outline, mention: &Mention) -> Option<Range> {
+fn whole(document: &Document, outline: &ProgramOutline, mention: &Mention) -> Option<Range> {
     let line_of = |mention: &Mention| {
         let before = document.text().get(..mention.span.start as usize)?;
         u32::try_from(before.matches('\n').count()).ok()
@@ -88,10 +91,9 @@ fn whole(document: &Document, outline: &Outline, mention: &Mention) -> Option<Ra
     let first = line_of(mention)?;
     let end = match &mention.name {
         Name::Program(_) => {
-            let programs = outline
-                .mentions
-                .iter()
-                .filter(|it| it.role == Role::Definition && matches!(it.name, Name::Program(_)));
+            let programs = outline.mentions.iter().filter(|it| {
+                it.role == NameRole::Definition && matches!(it.name, Name::Program(_))
+            });
             let next = programs.filter(|it| it.span.start > mention.span.start);
             next.min_by_key(|it| it.span.start)
                 .map_or(Some(document.line_count()), line_of)?
@@ -106,7 +108,7 @@ fn whole(document: &Document, outline: &Outline, mention: &Mention) -> Option<Ra
 }
 
 /// Returns the definition of a name: a subprogram, a label, or the file that a call finds.
-pub(super) fn definition(view: &View, params: &DefinitionParams) -> Option<Location> {
+pub(super) fn definition(view: &RequestView, params: &DefinitionParams) -> Option<Location> {
     let place = &params.text_document_position_params;
     let (document, outline, found) = at(view, place, Settings::finds_names)?;
     if let Name::File(name) = &found.name {
@@ -125,7 +127,7 @@ pub(super) fn definition(view: &View, params: &DefinitionParams) -> Option<Locat
 }
 
 /// The file of the program that is called at a place.
-pub(super) fn called_at(view: &View, place: &TextDocumentPositionParams) -> Option<PathBuf> {
+pub(super) fn called_at(view: &RequestView, place: &TextDocumentPositionParams) -> Option<PathBuf> {
     let (document, _, found) = at(view, place, Settings::outlines)?;
     match &found.name {
         Name::File(name) => called(view, document, name),
@@ -135,7 +137,7 @@ pub(super) fn called_at(view: &View, place: &TextDocumentPositionParams) -> Opti
 
 /// The file of a called program: beside the caller, otherwise the one that the check of the caller
 /// read, wherever the configuration says that programs are.
-fn called(view: &View, document: &Document, name: &str) -> Option<PathBuf> {
+fn called(view: &RequestView, document: &Document, name: &str) -> Option<PathBuf> {
     let name = name.replace('\\', "/");
     let beside = document.path.parent()?.join(&name);
     if beside.is_file() {
@@ -152,17 +154,20 @@ fn called(view: &View, document: &Document, name: &str) -> Option<PathBuf> {
 }
 
 /// Returns the uses of a name.
-pub(super) fn references(view: &View, params: &ReferenceParams) -> Option<Vec<Location>> {
+pub(super) fn references(view: &RequestView, params: &ReferenceParams) -> Option<Vec<Location>> {
     let place = &params.text_document_position_params;
     let (document, outline, found) = at(view, place, Settings::finds_names)?;
     let all = outline.all(&found.name);
-    let is_wanted = |it: &&Mention| it.role == Role::Use || params.context.include_declaration;
+    let is_wanted = |it: &&Mention| it.role == NameRole::Use || params.context.include_declaration;
     let found = all.filter(is_wanted);
     Some(found.map(|it| location(view, document, it)).collect())
 }
 
 /// The lines that can be folded.
-pub(super) fn folding(view: &View, params: &FoldingRangeParams) -> Option<Vec<FoldingRange>> {
+pub(super) fn folding(
+    view: &RequestView,
+    params: &FoldingRangeParams,
+) -> Option<Vec<FoldingRange>> {
     let (_, outline) = outlined(view, &params.text_document, Settings::outlines)?;
     let folds = outline.folds.iter().map(|fold| FoldingRange {
         start_line: fold.first,
@@ -173,7 +178,10 @@ pub(super) fn folding(view: &View, params: &FoldingRangeParams) -> Option<Vec<Fo
 }
 
 /// The name at a place, where it can be changed.
-pub(super) fn prepare_rename(view: &View, place: &TextDocumentPositionParams) -> Option<Range> {
+pub(super) fn prepare_rename(
+    view: &RequestView,
+    place: &TextDocumentPositionParams,
+) -> Option<Range> {
     let (document, _, mention) = at(view, place, Settings::outlines)?;
     let is_file = matches!(mention.name, Name::File(_));
     (!is_file).then(|| range(view, document, &mention))
@@ -183,7 +191,7 @@ pub(super) fn prepare_rename(view: &View, place: &TextDocumentPositionParams) ->
 ///
 /// # Errors
 /// Neither stands at the place, or the new name cannot be one.
-pub(super) fn rename(view: &View, params: &RenameParams) -> Result<WorkspaceEdit, Refusal> {
+pub(super) fn rename(view: &RequestView, params: &RenameParams) -> Result<WorkspaceEdit, Refusal> {
     let refused = |why: String| Err(Refusal::Params(why));
     let place = &params.text_document_position_params;
     let Some((document, outline, found)) = at(view, place, Settings::outlines) else {

@@ -9,7 +9,7 @@ use frictcomp::syntax::{
 };
 use frictcomp::text::{LineIndex, Span, TextLines};
 
-pub(super) use frictcomp::syntax::Role;
+pub(super) use frictcomp::syntax::NameRole;
 
 /// Kind of a named thing.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,7 +28,7 @@ pub(super) struct Mention {
     /// The name that is defined or used.
     pub(super) name: Name,
     /// Role at this place.
-    pub(super) role: Role,
+    pub(super) role: NameRole,
     /// Span of the name.
     pub(super) span: Span,
 }
@@ -44,14 +44,14 @@ pub(super) struct Fold {
 
 /// The names and the structure of a program.
 #[derive(Debug, Default)]
-pub(super) struct Outline {
+pub(super) struct ProgramOutline {
     /// Every name, in the order of the text.
     pub(super) mentions: Vec<Mention>,
     /// Programs and control blocks.
     pub(super) folds: Vec<Fold>,
 }
 
-impl Outline {
+impl ProgramOutline {
     /// The outline of a text.
     pub(super) fn of(text: &str) -> Self {
         let lines = LineIndex::new(text);
@@ -70,7 +70,7 @@ impl Outline {
                 Stretch::Program { name, .. } => {
                     outline.fold(begin.replace(number), number);
                     section += usize::from(number > 0);
-                    let (role, shown) = (Role::Definition, name.of(raw.text).to_owned());
+                    let (role, shown) = (NameRole::Definition, name.of(raw.text).to_owned());
                     let (name, span) = (Name::Program(shown), span_of(name));
                     if span.start < span.end {
                         outline.mentions.push(Mention { name, role, span });
@@ -132,9 +132,9 @@ impl Outline {
 }
 
 /// The places of the definitions of names.
-pub(super) fn definitions(outline: &Outline) -> BTreeMap<&Name, &Mention> {
+pub(super) fn definitions(outline: &ProgramOutline) -> BTreeMap<&Name, &Mention> {
     let mentions = outline.mentions.iter();
-    let defined = mentions.filter(|it| it.role == Role::Definition);
+    let defined = mentions.filter(|it| it.role == NameRole::Definition);
     defined.map(|it| (&it.name, it)).collect()
 }
 
@@ -153,7 +153,7 @@ fn place_in(raw: &RawBlock<'_>, at: u32, line_span: impl Fn(u32) -> Span) -> usi
 mod tests {
     use super::*;
 
-    use Role::{Definition, Use};
+    use NameRole::{Definition, Use};
 
     const TEXT: &str = "\
 %MAIN (L none)
@@ -173,7 +173,7 @@ N30: M17
     #[test]
     fn names_are_found_where_they_stand() {
         // R12.6
-        let outline = Outline::of(TEXT);
+        let outline = ProgramOutline::of(TEXT);
         let shown: Vec<_> = outline
             .mentions
             .iter()
@@ -210,7 +210,7 @@ N30: M17
 
     /// The names as they stand in a text, definitions with a colon, files with an exclamation mark.
     fn mentions(text: &str) -> String {
-        let shown = Outline::of(text).mentions.into_iter().map(|it| {
+        let shown = ProgramOutline::of(text).mentions.into_iter().map(|it| {
             let mark = if it.role == Definition { ":" } else { "" };
             let name = match it.name {
                 Name::Program(name) => format!("%{name}"),
@@ -259,7 +259,7 @@ N30: M17
     fn folds_are_those_of_the_parser() {
         // R12.6
         let folds = |text: &str| {
-            let folds = Outline::of(text).folds.into_iter();
+            let folds = ProgramOutline::of(text).folds.into_iter();
             folds.map(|it| (it.first, it.last)).collect::<Vec<_>>()
         };
         for (text, lines) in [
@@ -278,7 +278,7 @@ N30: M17
     #[test]
     fn programs_and_control_blocks_fold() {
         // R12.6
-        let folds: Vec<_> = Outline::of(TEXT)
+        let folds: Vec<_> = ProgramOutline::of(TEXT)
             .folds
             .iter()
             .map(|it| (it.first, it.last))
@@ -294,7 +294,7 @@ N30: M17
             "N:",
             "$GOTO",
         ] {
-            let _ = Outline::of(text);
+            let _ = ProgramOutline::of(text);
         }
     }
 }

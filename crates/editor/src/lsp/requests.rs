@@ -15,13 +15,13 @@ use serde_json::Value;
 use super::contour::{self, ContourRequest};
 use super::custom::{StatesRequest, TimelineRequest};
 use super::refusal::Refusal;
-use super::view::View;
+use super::view::RequestView;
 use super::{
     actions, calls, commands, completion, custom, delivery, hints, hover, lens, navigation, pages,
 };
 
 /// Answers a question with parameters that may be anything.
-pub(super) type Handler = fn(&View, Value) -> Result<Value, Refusal>;
+pub(super) type Handler = fn(&RequestView, Value) -> Result<Value, Refusal>;
 
 /// Input of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,9 +132,9 @@ const fn known<R: Request>(needs: Needs, handler: Handler) -> Known {
 }
 
 fn answer<P: DeserializeOwned, R: Serialize>(
-    view: &View,
+    view: &RequestView,
     params: Value,
-    how: fn(&View, &P) -> R,
+    how: fn(&RequestView, &P) -> R,
 ) -> Result<Value, Refusal> {
     let result = how(view, &serde_json::from_value(params)?);
     Ok(serde_json::to_value(result)?)

@@ -21,14 +21,14 @@ use lsp_server::{
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::analysis::{Analysis, Job};
-use super::asked::{self, Asked};
+use super::analysis::{Analysis, AnalysisJob};
+use super::asked::{self, ServerRequest};
 use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
-use super::client::{Client, project};
+use super::client::{LspClient, project};
 use super::delivery::{CheckedFor, Delivery};
 use super::documents::{Document, Documents, Kind, is_of_a_user};
-use super::lanes::{Lanes, Question};
+use super::lanes::{Lanes, RoutedRequest};
 use super::log::log;
 use super::messages::{ByText, Translator};
 use super::project_calls::ProjectCalls;
@@ -36,7 +36,7 @@ use super::refusal::Refusal;
 use super::requests::{Handler, Needs, handler};
 use super::uri::path_of;
 use super::users::Users;
-use super::view::View;
+use super::view::RequestView;
 use super::worker::{Cancel, Worker};
 use frictcomp_host::SharedMap;
 
@@ -57,14 +57,14 @@ pub enum Shutdown {
 }
 
 /// Work that is done.
-enum Done {
+enum FinishedWork {
     /// A text was checked; `None` where it has changed meanwhile.
     Checked(Option<Box<Analysis>>),
     /// A question was answered.
     Answered(Response),
 }
 
-impl From<Response> for Done {
+impl From<Response> for FinishedWork {
     fn from(response: Response) -> Self {
         Self::Answered(response)
     }
@@ -87,7 +87,7 @@ pub fn serve(connection: &Connection) -> io::Result<Shutdown> {
         Ok(first) => first,
         Err(shutdown) => return Ok(shutdown),
     };
-    let mut server = Server::new(connection, &params)?;
+    let mut server = LspServer::new(connection, &params)?;
     server.send(Response::new_ok(id, offer(&server.client, &server.calls)));
     Ok(server.listen())
 }
@@ -119,27 +119,27 @@ fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), 
 }
 
 /// The server of one client.
-struct Server<'c> {
+struct LspServer<'c> {
     connection: &'c Connection,
-    client: Arc<Client>,
+    client: Arc<LspClient>,
     documents: Documents,
     calls: ProjectCalls,
     analyses: SharedMap<String, Arc<Analysis>>,
     users: Users,
     delivery: Delivery,
     checks: Checks,
-    checking: Worker<Job>,
+    checking: Worker<AnalysisJob>,
     lanes: Lanes,
-    done: Receiver<Done>,
+    done: Receiver<FinishedWork>,
     waiting: Vec<Waiting>,
     /// Questions of the client on their way, and what the server asked the client.
-    queue: ReqQueue<Cancel, Asked>,
+    queue: ReqQueue<Cancel, ServerRequest>,
     is_shut_down: bool,
 }
 
-impl<'c> Server<'c> {
+impl<'c> LspServer<'c> {
     fn new(connection: &'c Connection, params: &InitializeParams) -> io::Result<Self> {
-        let (client, wrong) = Client::new(params);
+        let (client, wrong) = LspClient::new(params);
         let (sender, done) = unbounded();
         let here = || std::env::current_dir().ok();
         let project = project(params);
@@ -187,8 +187,8 @@ impl<'c> Server<'c> {
                     Err(_) => return Shutdown::Abrupt,
                 },
                 recv(self.done) -> done => match done {
-                    Ok(Done::Checked(analysis)) => self.checked(analysis),
-                    Ok(Done::Answered(response)) => self.answered(response),
+                    Ok(FinishedWork::Checked(analysis)) => self.checked(analysis),
+                    Ok(FinishedWork::Answered(response)) => self.answered(response),
                     Err(_) => return Shutdown::Abrupt,
                 },
                 default(wait) => {}
@@ -262,7 +262,7 @@ impl<'c> Server<'c> {
     fn ask(&mut self, id: RequestId, (needs, handler): (Needs, Handler), params: Value) {
         let cancel = Cancel::default();
         self.queue.incoming.register(id.clone(), cancel.clone());
-        let view = View {
+        let view = RequestView {
             client: Arc::clone(&self.client),
             documents: self.documents.clone(),
             analyses: self.analyses.clone(),
@@ -270,7 +270,7 @@ impl<'c> Server<'c> {
             calls: self.calls.clone(),
             cancel,
         };
-        let question = Question {
+        let question = RoutedRequest {
             id,
             handler,
             params,
@@ -444,7 +444,7 @@ impl<'c> Server<'c> {
             return self.send(log("an answer came to nothing that was asked".to_owned()));
         };
         match (asked, response.response_result) {
-            (Asked::Settings, Ok(Value::Array(given))) => {
+            (ServerRequest::Settings, Ok(Value::Array(given))) => {
                 given
                     .first()
                     .into_iter()
@@ -477,7 +477,7 @@ impl<'c> Server<'c> {
         let Some(document) = self.documents.get(&Uri::from(uri)) else {
             return;
         };
-        let job = Job {
+        let job = AnalysisJob {
             document: Arc::clone(document),
             disk: self.documents.disk(),
             max_blocks: self.client.settings.max_blocks,
@@ -519,7 +519,7 @@ impl<'c> Server<'c> {
     /// Tells the client to ask again for what it shows.
     fn refresh<R: gen_lsp_types::Request<Params = ()>>(&mut self) {
         let outgoing = &mut self.queue.outgoing;
-        let request = outgoing.register(R::METHOD.to_string(), (), Asked::Refresh);
+        let request = outgoing.register(R::METHOD.to_string(), (), ServerRequest::Refresh);
         self.send(request);
     }
 
@@ -556,7 +556,7 @@ impl<'c> Server<'c> {
     }
 }
 
-fn translator<'a>(client: &'a Client, documents: &'a Documents) -> Translator<'a> {
+fn translator<'a>(client: &'a LspClient, documents: &'a Documents) -> Translator<'a> {
     Translator { client, documents }
 }
 
@@ -565,9 +565,9 @@ fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
 }
 
 /// The thread of the checks.
-fn checking(done: Sender<Done>) -> io::Result<Worker<Job>> {
-    Worker::new("checks", move |job: Job| {
+fn checking(done: Sender<FinishedWork>) -> io::Result<Worker<AnalysisJob>> {
+    Worker::new("checks", move |job: AnalysisJob| {
         // The receiver is gone with the server.
-        let _ = done.send(Done::Checked(job.run().map(Box::new)));
+        let _ = done.send(FinishedWork::Checked(job.run().map(Box::new)));
     })
 }

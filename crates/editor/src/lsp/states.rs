@@ -77,7 +77,7 @@ const NONE: u32 = u32::MAX;
 
 /// Passes through a block with the same states.
 #[derive(Debug, Clone, Copy)]
-struct Visit {
+struct StateVisits {
     before: SetIndex,
     after: SetIndex,
     /// Number of executions; 0 for a block that was not executed.
@@ -86,7 +86,7 @@ struct Visit {
     next: u32,
 }
 
-const NEVER: Visit = Visit {
+const NEVER: StateVisits = StateVisits {
     before: 0,
     after: 0,
     times: 0,
@@ -97,8 +97,8 @@ const NEVER: Visit = Visit {
 #[derive(Debug)]
 struct FileVisits {
     name: Arc<str>,
-    lines: Vec<Visit>,
-    further: Vec<Visit>,
+    lines: Vec<StateVisits>,
+    further: Vec<StateVisits>,
     /// Blocks before which ways meet: the states on the last of them, and those that all may leave.
     met: BTreeMap<u32, Vec<(SetIndex, SetIndex)>>,
 }
@@ -279,7 +279,7 @@ impl StateBook {
         file.into_iter().flat_map(move |file| {
             let lines = file.lines.iter().zip(1..);
             lines.filter_map(move |(first, line)| {
-                let switches = |visit: &Visit| visit.before != visit.after;
+                let switches = |visit: &StateVisits| visit.before != visit.after;
                 let plain = first.next == NONE && !switches(first);
                 if first.times == 0 || plain || !file.of(line).any(|visit| switches(&visit)) {
                     return None;
@@ -319,7 +319,7 @@ impl StateBook {
         }
     }
 
-    fn pass(&self, visit: Visit) -> Pass<'_> {
+    fn pass(&self, visit: StateVisits) -> Pass<'_> {
         Pass {
             before: self.set(visit.before),
             after: self.set(visit.after),
@@ -347,7 +347,7 @@ impl FileVisits {
         }
         let visit = &mut self.lines[at];
         if visit.times == 0 {
-            *visit = Visit {
+            *visit = StateVisits {
                 before,
                 after,
                 times: 1,
@@ -378,7 +378,7 @@ impl FileVisits {
             Some(last) => last.next = new,
             None => self.lines[at].next = new,
         }
-        self.further.push(Visit {
+        self.further.push(StateVisits {
             before,
             after,
             times: 1,
@@ -386,7 +386,7 @@ impl FileVisits {
         });
     }
 
-    fn of(&self, line: u32) -> impl Iterator<Item = Visit> {
+    fn of(&self, line: u32) -> impl Iterator<Item = StateVisits> {
         let first = self.lines.get(line.saturating_sub(1) as usize).copied();
         let first = first.filter(|visit| visit.times > 0);
         std::iter::successors(first, |visit| {

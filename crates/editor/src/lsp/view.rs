@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use gen_lsp_types::{Position, Uri};
 
-use super::analysis::{Analysis, Run};
-use super::client::Client;
+use super::analysis::{Analysis, ProgramRun};
+use super::client::LspClient;
 use super::documents::{Document, Documents};
-use super::messages::{Shown, Translator};
+use super::messages::{MessagesByUri, Translator};
 use super::project_calls::ProjectCalls;
 use super::worker::Cancel;
 use frictcomp::text::shown_path;
@@ -16,22 +16,22 @@ use frictcomp_host::SharedMap;
 
 /// Snapshot from which a request is answered. A copy is cheap, and does not change.
 #[derive(Clone)]
-pub(super) struct View {
+pub(super) struct RequestView {
     /// The client.
-    pub(super) client: Arc<Client>,
+    pub(super) client: Arc<LspClient>,
     /// Open documents.
     pub(super) documents: Documents,
     /// Results of the checks of the open texts, by their URIs.
     pub(super) analyses: SharedMap<String, Arc<Analysis>>,
     /// Messages on the texts, by their URIs.
-    pub(super) shown: Shown,
+    pub(super) shown: MessagesByUri,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
     /// Whether the client still wants to know.
     pub(super) cancel: Cancel,
 }
 
-impl View {
+impl RequestView {
     /// The source of the messages to the client.
     pub(super) fn translator(&self) -> Translator<'_> {
         Translator {
@@ -64,7 +64,7 @@ impl View {
 
     /// The runs that came through a file, each with the name of the file there: that of the file
     /// itself first, then those of programs that call it.
-    pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &Run, String)> {
+    pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &ProgramRun, String)> {
         let name = shown_path(&document.path);
         let mut runs = Vec::new();
         for (uri, analysis) in self.analyses_of(document) {

@@ -50,7 +50,7 @@ type Values = BTreeMap<String, String>;
 
 /// What one run left, and what its operator wrote down.
 #[derive(Default)]
-struct Run {
+struct AskedRun {
     /// The fingerprint of the program.
     print: String,
     values: Values,
@@ -76,7 +76,7 @@ pub fn read_answers(
     axis: impl Fn(&str) -> AskedAxis,
 ) -> (Vec<Answer>, Vec<UnreadAnswer>) {
     let mut unread = Vec::new();
-    let mut runs: BTreeMap<(Question, String, String), Run> = BTreeMap::new();
+    let mut runs: BTreeMap<(Question, String, String), AskedRun> = BTreeMap::new();
     for (at, line) in text.lines().enumerate() {
         let mut leave = |reason: String| {
             let line = at + 1;
@@ -139,7 +139,7 @@ pub fn read_answers(
 type Judged = Result<(Alternative, String), String>;
 
 /// The reading that the run of a question shows, or a note on it.
-fn judge(question: Question, run: &Run) -> Judged {
+fn judge(question: Question, run: &AskedRun) -> Judged {
     if !run.noted.is_empty() {
         return judge_noted(question, &run.noted);
     }

@@ -22,7 +22,7 @@ pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
     let (half, feed) = (travel / 2.0, FEED.min(travel / STROKE_MIN));
     // Short enough to take a few seconds at the slowest feeds.
     let [slow, slowest] = [0.1, 0.02].map(|most: f64| most.min(half));
-    let mut blocks = Blocks::default();
+    let mut blocks = NumberedBlocks::default();
     blocks.add(&format!("G91 G01 F{}", shown(feed)));
     match question {
         Question::WithMotion => {
@@ -91,12 +91,12 @@ pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
 
 /// Numbered blocks.
 #[derive(Default)]
-struct Blocks {
+struct NumberedBlocks {
     text: String,
     count: u32,
 }
 
-impl Blocks {
+impl NumberedBlocks {
     fn add(&mut self, block: &str) {
         self.count += 10;
         let _ = writeln!(self.text, "N{} {block}", self.count);

@@ -35,7 +35,7 @@ pub struct RecordedQuestions<'a> {
 
 /// The channels of an axis.
 #[derive(Default)]
-struct Found {
+struct AskedChannels {
     motion: [Option<Pick>; 2],
     current: Option<Pick>,
     /// Whether it was recorded after its scaling for the drive.
@@ -66,7 +66,7 @@ pub fn read_recorded_answers(
     path: &Path,
     asked: RecordedQuestions<'_>,
 ) -> Result<Vec<Answer>, HostError> {
-    let mut found = Found::default();
+    let mut found = AskedChannels::default();
     let recording = read_trace(path, |described| {
         found = asked.find(described)?;
         let time = asked.selection.find(ChannelQuantity::Time, described)?;
@@ -108,11 +108,11 @@ fn recorded_questions() -> impl Iterator<Item = Question> {
 }
 
 impl RecordedQuestions<'_> {
-    fn find(&self, channels: &[Channel]) -> Result<Found, SelectError> {
+    fn find(&self, channels: &[Channel]) -> Result<AskedChannels, SelectError> {
         if let Some(doubt) = self.other_axis(channels) {
-            return Ok(Found {
+            return Ok(AskedChannels {
                 doubt: Some(doubt),
-                ..Found::default()
+                ..AskedChannels::default()
             });
         }
         let find = |quantity| self.selection.find(quantity, channels);
@@ -134,7 +134,7 @@ impl RecordedQuestions<'_> {
         });
         let state = state.map(|it| self.pick(it, ChannelQuantity::Time, channels));
         let (current, is_scaled) = self.current_of(channels)?;
-        Ok(Found {
+        Ok(AskedChannels {
             motion,
             current,
             is_scaled,
@@ -218,7 +218,7 @@ impl RecordedQuestions<'_> {
         &self,
         path: &Path,
         recording: &TraceRecording,
-        found: &Found,
+        found: &AskedChannels,
     ) -> Result<EvidenceRecording, HostError> {
         let picks: Vec<Pick> = found.motion.into_iter().flatten().collect();
         let aligned = recording.align(&picks, self.cycle_s);

@@ -126,7 +126,7 @@ const MACHINE: [&str; 3] = ["machine", "axis", "variables"];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct CaseText {
     rule: String,
     source: Option<String>,
     #[serde(default)]
@@ -230,7 +230,7 @@ impl Case {
         let of_machine = MACHINE.iter().filter_map(|key| table.remove_entry(*key));
         let machine: Table = of_machine.collect();
         let machine = toml::to_string(&machine).map_err(|error| error.to_string())?;
-        let written: Written = Value::Table(table)
+        let written: CaseText = Value::Table(table)
             .try_into()
             .map_err(|error| in_words(text, &error))?;
         if written.source.is_some() == (written.assumed || !written.reading.is_empty()) {

@@ -38,7 +38,7 @@ struct Seen {
 
 /// Result of the run of a case.
 #[derive(Default)]
-struct Run {
+struct CaseRun {
     seen: Vec<Seen>,
     refusals: Vec<Diagnostic>,
 }
@@ -102,8 +102,8 @@ pub(super) fn configuration(case: &Case) -> Result<Configuration, String> {
 }
 
 /// Runs the programs of a case.
-fn play(case: &Case, configuration: &Configuration, machine: Machine) -> Run {
-    let mut run = Run::default();
+fn play(case: &Case, configuration: &Configuration, machine: Machine) -> CaseRun {
+    let mut run = CaseRun::default();
     let of_lists = configuration.diagnostics.iter();
     let is_error = |said: &&Diagnostic| said.severity == Severity::Error;
     run.refusals.extend(of_lists.filter(is_error).cloned());
@@ -120,7 +120,7 @@ fn play(case: &Case, configuration: &Configuration, machine: Machine) -> Run {
     run
 }
 
-fn play_program(case: &Case, name: &str, session: &mut Session, run: &mut Run) {
+fn play_program(case: &Case, name: &str, session: &mut Session, run: &mut CaseRun) {
     debug_assert!(!is_between(name));
     let Some(text) = source(case, name) else {
         return;
@@ -157,7 +157,7 @@ fn states(view: StateView<'_>) -> Vec<(String, Kind, State)> {
 }
 
 /// Returns the state found where an expectation does not hold.
-fn found(expected: &Expectation, run: &Run, machine: &Machine) -> Option<String> {
+fn found(expected: &Expectation, run: &CaseRun, machine: &Machine) -> Option<String> {
     match expected {
         Expectation::State {
             program,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::course::{AxisCourse, Course, Step, Switch};
+use super::course::{AxisCourse, AxisSwitch, Course, CourseStep};
 use super::recorded::{RecordedAxis, RecordedChange};
 
 /// Blocks that may pass between two samples.
@@ -111,7 +111,7 @@ impl ReplayedAxis {
                 unknown: Vec::new(),
             }),
             Some(dry_run) => {
-                let pair = Pair {
+                let pair = AxisBeside {
                     recorded,
                     dry_run,
                     course,
@@ -124,14 +124,14 @@ impl ReplayedAxis {
     }
 }
 
-struct Pair<'a> {
+struct AxisBeside<'a> {
     recorded: &'a RecordedAxis,
     dry_run: &'a AxisCourse,
     course: &'a Course,
     measure: Measure,
 }
 
-impl Pair<'_> {
+impl AxisBeside<'_> {
     fn compare(&self, matched: &mut Vec<MatchedChange>) -> Option<Disagreement> {
         if self.dry_run.start != Some(self.recorded.start) {
             return Some(Disagreement {
@@ -170,7 +170,7 @@ impl Pair<'_> {
         None
     }
 
-    fn compared_by(&self, change: &RecordedChange, switch: &Switch) -> ReplayedBy {
+    fn compared_by(&self, change: &RecordedChange, switch: &AxisSwitch) -> ReplayedBy {
         match (change.blocks, change.positions.zip(switch.positions)) {
             (Some(_), _) if self.measure.by_number => ReplayedBy::Block,
             (Some(_), _) => ReplayedBy::Line,
@@ -180,7 +180,7 @@ impl Pair<'_> {
     }
 
     /// Why a change of the recording is not that of the dry run.
-    fn reason(&self, change: &RecordedChange, switch: &Switch) -> Option<String> {
+    fn reason(&self, change: &RecordedChange, switch: &AxisSwitch) -> Option<String> {
         let Some(to) = switch.to else {
             return Some("the state in the dry run is unknown".to_owned());
         };
@@ -233,7 +233,7 @@ impl Pair<'_> {
         !self.measure.by_number && recorded.iter().all(is_number) && !recorded.iter().all(is_line)
     }
 
-    fn key(&self, step: &Step) -> Option<i64> {
+    fn key(&self, step: &CourseStep) -> Option<i64> {
         if self.measure.by_number {
             step.number
         } else {
@@ -271,7 +271,7 @@ impl Pair<'_> {
     fn disagreement(
         &self,
         change: Option<&RecordedChange>,
-        switch: Option<&Switch>,
+        switch: Option<&AxisSwitch>,
         from: usize,
         why: String,
     ) -> Disagreement {

@@ -15,11 +15,11 @@ pub(super) const MAX_WAYS: usize = 64;
 pub(super) struct Condition {
     file: Arc<str>,
     line: u32,
-    asked: Asked,
+    asked: ConditionKey,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Asked {
+enum ConditionKey {
     /// Whether the blocks of a level are executed.
     Skip(u8),
     /// A comparison as it is written.
@@ -45,11 +45,11 @@ impl Condition {
     pub(super) fn of(condition: &WayCondition) -> Option<Self> {
         match condition {
             WayCondition::Condition(asked) => {
-                Comparison::parse(&asked.text)?;
+                WrittenComparison::parse(&asked.text)?;
                 Some(Self {
                     file: Arc::clone(&asked.file),
                     line: asked.line,
-                    asked: Asked::Text(Arc::clone(&asked.text)),
+                    asked: ConditionKey::Text(Arc::clone(&asked.text)),
                 })
             }
             WayCondition::Skip {
@@ -57,28 +57,28 @@ impl Condition {
             } => Some(Self {
                 file: Arc::clone(file),
                 line: *line,
-                asked: Asked::Skip(*level),
+                asked: ConditionKey::Skip(*level),
             }),
             _ => None,
         }
     }
 
-    fn comparison(&self) -> Option<Comparison<'_>> {
+    fn comparison(&self) -> Option<WrittenComparison<'_>> {
         match &self.asked {
-            Asked::Text(text) => Comparison::parse(text),
-            Asked::Skip(_) => None,
+            ConditionKey::Text(text) => WrittenComparison::parse(text),
+            ConditionKey::Skip(_) => None,
         }
     }
 }
 
 /// `V.E.A == 2`.
-struct Comparison<'a> {
+struct WrittenComparison<'a> {
     variable: &'a str,
     operator: &'static str,
     constant: f64,
 }
 
-impl<'a> Comparison<'a> {
+impl<'a> WrittenComparison<'a> {
     fn parse(text: &'a str) -> Option<Self> {
         const OPERATORS: [&str; 6] = ["==", "!=", ">=", "<=", ">", "<"];
         let mut found = OPERATORS.into_iter();
@@ -117,12 +117,12 @@ enum Knob {
 
 /// One answer to everything that is open.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Answers {
+pub(super) struct AssumedAnswers {
     values: Vec<(String, f64)>,
     skipped: Vec<(u8, bool)>,
 }
 
-impl Answers {
+impl AssumedAnswers {
     /// Every combination of answers to conditions that differs.
     ///
     /// # Errors
@@ -185,11 +185,11 @@ impl Answers {
     pub(super) fn to(&self, conditions: &[Condition]) -> Vec<TriedCondition> {
         let tried = conditions.iter().filter_map(|condition| {
             let (text, holds) = match &condition.asked {
-                Asked::Skip(level) => {
+                ConditionKey::Skip(level) => {
                     let (_, is_on) = self.skipped.iter().find(|(it, _)| it == level)?;
                     (format!("skip level {level} is off"), !is_on)
                 }
-                Asked::Text(text) => {
+                ConditionKey::Text(text) => {
                     let comparison = condition.comparison()?;
                     let mut values = self.values.iter();
                     let (_, value) = values.find(|(name, _)| name == comparison.variable)?;
@@ -211,8 +211,8 @@ fn knobs(conditions: &[Condition]) -> Vec<Knob> {
     let mut knobs: Vec<Knob> = Vec::new();
     for condition in conditions {
         let is_known = knobs.iter().any(|knob| match (knob, &condition.asked) {
-            (Knob::Level(known), Asked::Skip(level)) => known == level,
-            (Knob::Variable { name, .. }, Asked::Text(_)) => {
+            (Knob::Level(known), ConditionKey::Skip(level)) => known == level,
+            (Knob::Variable { name, .. }, ConditionKey::Text(_)) => {
                 condition.comparison().is_some_and(|it| it.variable == name)
             }
             _ => false,
@@ -221,7 +221,7 @@ fn knobs(conditions: &[Condition]) -> Vec<Knob> {
             continue;
         }
         match (&condition.asked, condition.comparison()) {
-            (Asked::Skip(level), _) => knobs.push(Knob::Level(*level)),
+            (ConditionKey::Skip(level), _) => knobs.push(Knob::Level(*level)),
             (_, Some(comparison)) => knobs.push(Knob::Variable {
                 name: comparison.variable.to_owned(),
                 values: values_of(comparison.variable, conditions),

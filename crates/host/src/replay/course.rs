@@ -25,7 +25,7 @@ const MAX_STEPS: usize = 4_000_000;
 /// Course of the dry run of all programs.
 #[derive(Default)]
 pub(super) struct Course {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<CourseStep>,
     pub(super) axes: Vec<AxisCourse>,
     /// The conditions whose answer only the machine knows.
     pub(super) conditions: BTreeSet<Condition>,
@@ -38,7 +38,7 @@ pub(super) struct Course {
 }
 
 /// An executed block.
-pub(super) struct Step {
+pub(super) struct CourseStep {
     pub(super) program: u32,
     pub(super) file: Arc<str>,
     pub(super) line: u32,
@@ -52,13 +52,13 @@ pub(super) struct AxisCourse {
     pub(super) name: String,
     /// Whether friction compensation is active at first; `None` where it is unknown.
     pub(super) start: Option<bool>,
-    pub(super) switches: Vec<Switch>,
+    pub(super) switches: Vec<AxisSwitch>,
     /// Position in mm or degrees of the machine.
     position: Option<f64>,
 }
 
 /// A change of the state of an axis.
-pub(super) struct Switch {
+pub(super) struct AxisSwitch {
     /// The position of its step.
     pub(super) at: usize,
     /// Whether friction compensation is active from there on; `None` where it is unknown.
@@ -140,7 +140,7 @@ impl Course {
             _ => Arc::from(row.file),
         };
         self.file = Some(Arc::clone(&file));
-        self.steps.push(Step {
+        self.steps.push(CourseStep {
             program: row.program,
             file,
             line: row.line,
@@ -181,7 +181,7 @@ impl Course {
         for change in row.changes.iter().filter(|it| it.kind == Kind::Frict) {
             let name = row.state.name(change.axis);
             if let Some(course) = self.axes.iter_mut().find(|it| it.name == name) {
-                course.switches.push(Switch {
+                course.switches.push(AxisSwitch {
                     at,
                     to: None,
                     positions: None,
@@ -211,7 +211,7 @@ impl Course {
             let last = course.switches.last().map_or(course.start, |it| it.to);
             if last != now {
                 let possible = state.possible_of(axis, Kind::Frict);
-                course.switches.push(Switch {
+                course.switches.push(AxisSwitch {
                     at,
                     to: now,
                     positions: None,

@@ -84,7 +84,7 @@ pub struct RecordedChange {
 
 /// The channels that were found.
 #[derive(Default)]
-struct Found {
+struct RecordedChannels {
     axes: Vec<FoundAxis>,
     block: Option<ChannelIndex>,
     by_number: bool,
@@ -109,7 +109,7 @@ pub fn read_states(
     channels: &ReplayChannels,
     machine: &Machine,
 ) -> Result<StateRecording, HostError> {
-    let mut found = Found::default();
+    let mut found = RecordedChannels::default();
     let recording = read_trace(path, |described| {
         found = channels.find(described, machine)?;
         let time = channels.selection.find(ChannelQuantity::Time, described)?;
@@ -124,7 +124,7 @@ pub fn read_states(
             ..Choice::default()
         })
     })?;
-    let samples = Samples {
+    let samples = RecordingSamples {
         path,
         recording: &recording,
         found: &found,
@@ -138,7 +138,11 @@ pub fn read_states(
 }
 
 impl ReplayChannels {
-    fn find(&self, channels: &[Channel], machine: &Machine) -> Result<Found, SelectError> {
+    fn find(
+        &self,
+        channels: &[Channel],
+        machine: &Machine,
+    ) -> Result<RecordedChannels, SelectError> {
         let named = |name: &str| {
             self.selection
                 .pick_named(name, ChannelQuantity::Time, channels)
@@ -195,7 +199,7 @@ impl ReplayChannels {
             Some(_) => None,
             None => given(&self.block, "block")?.or_else(|| short("0x121301:0x21")),
         };
-        Ok(Found {
+        Ok(RecordedChannels {
             axes,
             by_number: line.is_none() && block.is_some(),
             block: line.or(block).map(|pick| pick.channel),
@@ -248,13 +252,13 @@ pub(crate) fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
 }
 
 /// The samples of a recording.
-struct Samples<'a> {
+struct RecordingSamples<'a> {
     path: &'a Path,
     recording: &'a TraceRecording,
-    found: &'a Found,
+    found: &'a RecordedChannels,
 }
 
-impl Samples<'_> {
+impl RecordingSamples<'_> {
     fn axis(&self, axis: &FoundAxis) -> Result<RecordedAxis, TraceError> {
         let states = numbers_of(self.path, self.recording, axis.state)?;
         let times = self.times(axis.state)?;

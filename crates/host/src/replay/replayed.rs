@@ -1,7 +1,7 @@
 //! A recording beside the dry run of its programs.
 
 use super::beside::{Measure, ReplayedAxis};
-use super::conditions::{Answers, MAX_WAYS, TriedCondition};
+use super::conditions::{AssumedAnswers, MAX_WAYS, TriedCondition};
 use super::course::{Course, is_open};
 use super::recorded::{RecordedGap, StateRecording};
 use crate::discovery::LoadedMachine;
@@ -91,7 +91,7 @@ impl Replay<'_> {
             return Ok(undecided);
         }
         drop(course);
-        let all = match Answers::all(&conditions) {
+        let all = match AssumedAnswers::all(&conditions) {
             Ok(all) => all,
             Err(count) => {
                 let untried = format!(

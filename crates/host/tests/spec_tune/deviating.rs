@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use frictcomp_host::{Watch, tune};
 use frictcomp_physics::circle::{
-    Checked, Circle, CircularTest, Comparison, Direction, Job, Shaping, Task, Tuned,
+    Circle, CircularTest, Comparison, Direction, LapRun, RemainingGlitch, Shaping, Task, Tuned,
 };
 use frictcomp_physics::current::Switched;
 use frictcomp_physics::simulation::{DriveParameters, Preset};
@@ -16,7 +16,7 @@ use super::task;
 /// A machine, what the check says of it, and the drives that it may have.
 struct Machine {
     name: &'static str,
-    said: fn(&Checked) -> f64,
+    said: fn(&RemainingGlitch) -> f64,
     drives: &'static [fn(&DriveParameters) -> DriveParameters],
     switched: Switched,
 }
@@ -68,7 +68,7 @@ fn driven_um(task: &Task, tuned: &Tuned, machine: &Machine, circle: Circle) -> f
             compensation: tuned.axes.each_ref().map(|it| it.compensation.clone()),
             reading: task.reading,
         };
-        let job = Job {
+        let job = LapRun {
             compensation: machine.switched,
             direction: Direction::Ccw,
         };

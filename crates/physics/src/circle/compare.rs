@@ -2,7 +2,7 @@
 
 use super::centre::PathCentre;
 use super::figures::{Figures, Nominal, Paths};
-use super::lap::{Job, Lap};
+use super::lap::{Lap, LapRun};
 use super::reference::CircleError;
 use super::test::CircularTest;
 use crate::current::Switched;
@@ -35,7 +35,7 @@ impl CircularTest {
     /// # Errors
     /// Those of [`run`](Self::run).
     pub fn compare(&self) -> Result<Comparison, CircleError> {
-        let laps: Result<Vec<_>, _> = Job::ALL.into_iter().map(|job| self.run(job)).collect();
+        let laps: Result<Vec<_>, _> = LapRun::ALL.into_iter().map(|job| self.run(job)).collect();
         Ok(Comparison::of(laps?))
     }
 }

@@ -15,14 +15,14 @@ const LEAST_MM: f64 = 0.0005;
 
 /// A steady shift of both axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::circle) struct Drift {
+pub(in crate::circle) struct CircleDrift {
     /// The shift in mm a turn.
     pub(in crate::circle) per_turn_mm: [f64; 2],
     /// Its standard error.
     pub(in crate::circle) error_mm: [f64; 2],
 }
 
-impl Drift {
+impl CircleDrift {
     /// The shift that differences between two turns show, each with what a constant and a shift of
     /// either axis make of it; `None` where they do not show one.
     pub(in crate::circle) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {

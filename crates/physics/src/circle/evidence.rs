@@ -5,12 +5,12 @@ use serde::Serialize;
 
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
-use super::drift::Drift;
+use super::drift::CircleDrift;
 use super::evidence_shape::{OtherShape, ShapeTerm, Term};
 use super::oscillation::Oscillation;
 use super::pitch;
 use super::profile::{Quality, RadialProfile};
-use super::series::{Series, beyond_noise};
+use super::series::{AngleSeries, beyond_noise};
 use super::shapes::Shapes;
 use super::swings::stick_slip;
 
@@ -49,13 +49,13 @@ impl CircleEvidence {
         quality: Quality,
     ) -> Option<Self> {
         let paths: Vec<(Direction, &RadialProfile)> = paths.collect();
-        let in_steps = |steps: fn(&RadialProfile, Direction, usize) -> Option<Series>| {
+        let in_steps = |steps: fn(&RadialProfile, Direction, usize) -> Option<AngleSeries>| {
             let paths = paths.iter();
             let series =
                 paths.map(|&(direction, profile)| steps(profile, direction, quality.samples));
-            series.collect::<Option<Vec<Series>>>()
+            series.collect::<Option<Vec<AngleSeries>>>()
         };
-        let [coarse, fine] = [in_steps(Series::coarse)?, in_steps(Series::fine)?];
+        let [coarse, fine] = [in_steps(AngleSeries::coarse)?, in_steps(AngleSeries::fine)?];
         let mut shapes = Shapes::fit(&coarse)?;
         let noise_um = quality.noise_um;
         let floor = (REST_OF_NOISE * noise_um)
@@ -118,12 +118,12 @@ impl CircleEvidence {
 
 /// What neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or of the fine
 /// ones, in which a fast oscillation shows.
-fn rest(shapes: &Shapes, fine: &[Series], noise_um: f64) -> f64 {
+fn rest(shapes: &Shapes, fine: &[AngleSeries], noise_um: f64) -> f64 {
     beyond_noise(&shapes.left, noise_um).max(beyond_noise(fine, noise_um))
 }
 
 /// The shift of each axis in µm a turn.
-fn drifts(drift: Drift) -> [Term; 2] {
+fn drifts(drift: CircleDrift) -> [Term; 2] {
     const UM_PER_MM: f64 = 1000.0;
     let sizes = drift.per_turn_mm.into_iter().zip(drift.error_mm);
     let mut terms = PlaneAxis::ALL

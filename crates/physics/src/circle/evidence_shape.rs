@@ -14,7 +14,7 @@ const LEAST_TERM_UM: f64 = 0.5;
 pub(super) const SHAPES: usize = 13;
 
 /// One value for each fitted shape.
-pub(super) type Row = [f64; SHAPES];
+pub(super) type ShapeValues = [f64; SHAPES];
 
 /// A shape that no term has.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::linear::Normal;
-use super::profile::{Point, RadialProfile, UM_PER_M};
+use super::profile::{ProfilePoint, RadialProfile, UM_PER_M};
 use super::quiet::{Beside, QuietPath};
-use super::window::Window;
+use super::window::CrossingWindow;
 
 /// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -89,7 +89,7 @@ const SETTLED: f64 = 0.15;
 impl PathShape {
     /// The shape of a path; `None` where its windows reach the next crossings.
     pub(super) fn of(profile: &RadialProfile, direction: Direction) -> Option<Self> {
-        let window = Window::of(profile.turn_s())?;
+        let window = CrossingWindow::of(profile.turn_s())?;
         let quiet = QuietPath::of(profile, direction, window)?;
         let seen = Seen {
             profile,
@@ -138,7 +138,7 @@ pub(super) fn straightened(
     profile: &RadialProfile,
     direction: Direction,
 ) -> Option<[Vec<(f64, f64)>; 4]> {
-    let window = Window::of(profile.turn_s())?;
+    let window = CrossingWindow::of(profile.turn_s())?;
     let seen = Seen {
         profile,
         direction,
@@ -152,7 +152,7 @@ pub(super) fn straightened(
 struct Seen<'a> {
     profile: &'a RadialProfile,
     direction: Direction,
-    window: Window,
+    window: CrossingWindow,
     quiet: QuietPath,
 }
 
@@ -164,7 +164,7 @@ impl Seen<'_> {
         let fixed = self
             .profile
             .fixed(crossing, self.direction, self.window.inside());
-        let straight = |(way, point): (f64, Point)| {
+        let straight = |(way, point): (f64, ProfilePoint)| {
             let level = self.quiet.smooth(point) + line[0] + line[1] * way;
             (way, point.deviation - level)
         };
@@ -205,7 +205,7 @@ impl Seen<'_> {
     /// angle.
     fn line(&self, crossing: Crossing) -> [f64; 2] {
         let mut normal = Normal::<2>::new();
-        for ways in [Window::before(), self.window.after()] {
+        for ways in [CrossingWindow::before(), self.window.after()] {
             for (way, point) in self.profile.fixed(crossing, self.direction, ways) {
                 normal.add([1.0, way], point.deviation - self.quiet.smooth(point));
             }
@@ -233,7 +233,7 @@ impl Seen<'_> {
     /// harmonics. After the crossing the peak may not have decayed yet.
     fn offset(&self, crossing: Crossing) -> f64 {
         let mut mean = Normal::<1>::new();
-        let ways = Window::before();
+        let ways = CrossingWindow::before();
         for (_, point) in self.profile.fixed(crossing, self.direction, ways) {
             let level = self.quiet.level(crossing, Beside::Before, point);
             mean.add([1.0], point.deviation - level);

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::profile::{Gatherer, RadialProfile};
-use super::reference::{CircleError, Stretch, TURNS};
-use super::simulate::{AxisRun, Run};
+use super::reference::{CircleArc, CircleError, TURNS};
+use super::simulate::{AxesSimulation, AxisRun};
 use super::test::CircularTest;
 use crate::current::Switched;
 
@@ -19,7 +19,7 @@ const LATER: f64 = 0.5;
 
 /// One run of a test: half a turn of run-in, and a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Job {
+pub struct LapRun {
     /// Whether friction compensation is on.
     pub compensation: Switched,
     /// The direction of travel.
@@ -31,18 +31,18 @@ pub struct Job {
 #[non_exhaustive]
 pub struct Lap {
     /// Job of the run.
-    pub job: Job,
+    pub job: LapRun,
     /// The turn.
     pub profile: RadialProfile,
     /// Cycles of the speed loop in which a force was limited.
     pub saturated_cycles: u64,
 }
 
-impl Job {
+impl LapRun {
     /// The four runs of a test.
     pub const ALL: [Self; 4] = {
-        const fn job(compensation: Switched, direction: Direction) -> Job {
-            Job {
+        const fn job(compensation: Switched, direction: Direction) -> LapRun {
+            LapRun {
                 compensation,
                 direction,
             }
@@ -64,7 +64,7 @@ impl CircularTest {
     /// # Errors
     /// A circle that cannot be simulated or that the drives do not follow, or a drive that is
     /// unstable.
-    pub fn run(&self, job: Job) -> Result<Lap, CircleError> {
+    pub fn run(&self, job: LapRun) -> Result<Lap, CircleError> {
         self.circle.check()?;
         match self.drive(job, TURNS) {
             // The lag of the drives still grew by much of a turn on a circle that is over before they
@@ -75,8 +75,8 @@ impl CircularTest {
     }
 
     /// The same over so many commanded turns.
-    fn drive(&self, job: Job, turns: f64) -> Result<Lap, CircleError> {
-        let stretch = Stretch {
+    fn drive(&self, job: LapRun, turns: f64) -> Result<Lap, CircleError> {
+        let stretch = CircleArc {
             start: 0.0,
             length: turns * TAU,
             lead: 0,
@@ -92,7 +92,7 @@ impl CircularTest {
                 Switched::Off => None,
             },
         };
-        let run = Run {
+        let run = AxesSimulation {
             circle: self.circle,
             model: self.model,
             reading: self.reading,

@@ -55,7 +55,7 @@ pub use fitted::{
     DriveFit, Extent, FittedDrive, ObservedCircle, predicted_height_um, recorded_height_um,
 };
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
-pub use lap::{Job, Lap};
+pub use lap::{Lap, LapRun};
 pub use learn::{
     LearnedCircle, LearnedRound, Learner, LearningProgress, Proposal, RecordedTwice, RoundVerdict,
     TooMuchCurrent,
@@ -69,7 +69,7 @@ pub use recorded::{
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
 pub use tune::{
-    Aim, Candidate, Checked, FeedResult, FreeParameter, Heights, Ranges, Robust, Shaping,
-    Simulations, Task, Tuned, TunedAxis, tune, tune_with,
+    Candidate, FeedResult, FreeParameter, Heights, Ranges, RemainingGlitch, Robust, Shaping,
+    Simulations, Task, Tuned, TunedAxis, TuningAim, tune, tune_with,
 };
 pub use waveform::Waveform;

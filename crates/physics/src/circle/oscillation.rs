@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::series::{Series, real};
+use super::series::{AngleSeries, real};
 
 /// The slowest oscillation that counts as one, in Hz.
 const SLOWEST_HZ: f64 = 5.0;
@@ -26,21 +26,21 @@ pub(super) struct Oscillation {
 }
 
 /// A stretch of a path without a gap, and the seconds of its steps.
-type Stretch<'a> = (&'a [Option<f64>], f64);
+type GaplessPath<'a> = (&'a [Option<f64>], f64);
 
 impl Oscillation {
     /// The frequency that explains most of paths in coarse and in fine steps.
-    pub(super) fn search(coarse: &[Series], fine: &[Series]) -> Option<Self> {
+    pub(super) fn search(coarse: &[AngleSeries], fine: &[AngleSeries]) -> Option<Self> {
         let durations = coarse.iter().filter_map(|it| it.turn_s);
         let turn_s = durations.reduce(f64::max)?;
-        let whole: Option<Vec<Stretch<'_>>> = coarse
+        let whole: Option<Vec<GaplessPath<'_>>> = coarse
             .iter()
             .map(|one| Some((one.values.as_slice(), one.step_s()?)))
             .collect();
         let whole = whole?;
         let parts = stretches(fine);
-        let highest = |series: &[Series]| {
-            let steps = series.iter().filter_map(Series::step_s);
+        let highest = |series: &[AngleSeries]| {
+            let steps = series.iter().filter_map(AngleSeries::step_s);
             1.0 / (LEAST_STEPS * steps.fold(f64::MIN_POSITIVE, f64::max))
         };
         let [turning, highest] = [highest(coarse), highest(fine)];
@@ -53,7 +53,7 @@ impl Oscillation {
         })
     }
 
-    fn best(stretches: &[Stretch<'_>], [from, to]: [f64; 2], step: f64) -> Self {
+    fn best(stretches: &[GaplessPath<'_>], [from, to]: [f64; 2], step: f64) -> Self {
         let mut best = Self::default();
         let mut hertz = from;
         while hertz < to {
@@ -66,7 +66,7 @@ impl Oscillation {
         best
     }
 
-    fn of(stretches: &[Stretch<'_>], hertz: f64) -> Self {
+    fn of(stretches: &[GaplessPath<'_>], hertz: f64) -> Self {
         let (mut explains, mut all, mut amplitude_um) = (0.0, 0.0, 0.0_f64);
         for (values, step_s) in stretches {
             let (sin, cos) = (TAU * hertz * step_s).sin_cos();
@@ -95,7 +95,7 @@ impl Oscillation {
 }
 
 /// The paths between their reversals, in stretches in which an oscillation keeps its phase.
-fn stretches(series: &[Series]) -> Vec<Stretch<'_>> {
+fn stretches(series: &[AngleSeries]) -> Vec<GaplessPath<'_>> {
     let mut stretches = Vec::new();
     for one in series {
         let Some(step_s) = one.step_s() else {

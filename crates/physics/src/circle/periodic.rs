@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::crossing::PlaneAxis;
-use super::evidence_shape::{Row, SHAPES};
-use super::series::Series;
+use super::evidence_shape::{SHAPES, ShapeValues};
+use super::series::AngleSeries;
 
-use super::turning::Turning;
+use super::turning::CosineSine;
 
 /// A screw of an axis with a pitch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub(super) struct Screw {
 
 impl Screw {
     /// What a cosine and a sine of the screw make of the radial deviation.
-    pub(super) fn columns(&self, angle: Turning, radius_mm: f64) -> [f64; 2] {
+    pub(super) fn columns(&self, angle: CosineSine, radius_mm: f64) -> [f64; 2] {
         let along = match self.axis {
             PlaneAxis::X => angle.cos,
             PlaneAxis::Y => angle.sin,
@@ -28,7 +28,7 @@ impl Screw {
     }
 
     /// The mean square of paths that it explains by itself.
-    pub(super) fn explains(&self, left: &[Series]) -> f64 {
+    pub(super) fn explains(&self, left: &[AngleSeries]) -> f64 {
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
         for one in left {
             for (angle, value) in one.steps() {
@@ -61,7 +61,7 @@ impl Periodic {
     }
 
     /// The error in µm at a place of the path.
-    pub(super) fn at(&self, angle: Turning, radius_mm: f64) -> f64 {
+    pub(super) fn at(&self, angle: CosineSine, radius_mm: f64) -> f64 {
         let [cos, sin] = self.screw.columns(angle, radius_mm);
         self.joint.parts[0] * cos + self.joint.parts[1] * sin
     }
@@ -75,7 +75,7 @@ pub(super) struct Joint {
     pub(super) explains: f64,
     inverse: [f64; 3],
     /// How much of each shape the cosine and the sine are.
-    pub(super) shares: [Row; 2],
+    pub(super) shares: [ShapeValues; 2],
 }
 
 impl Joint {

@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 
 use super::crossing::Crossing;
 use super::direction::Direction;
-use super::drift::Drift;
+use super::drift::CircleDrift;
 
 /// Micrometres in a metre.
 pub const UM_PER_M: f64 = 1e6;
@@ -29,7 +29,7 @@ const _: () = assert!(
 
 /// A point of the path: the direction in which it lies, and its radial deviation in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Point {
+pub(super) struct ProfilePoint {
     pub(super) cos: f64,
     pub(super) sin: f64,
     pub(super) deviation: f64,
@@ -43,16 +43,16 @@ const WHOLE_TURN: f64 = 360.0;
 pub(super) struct Gatherer {
     radius: f64,
     fixed: Vec<f64>,
-    outer: Vec<Option<Point>>,
-    inner: Vec<Option<Point>>,
-    last: Option<Place>,
+    outer: Vec<Option<ProfilePoint>>,
+    inner: Vec<Option<ProfilePoint>>,
+    last: Option<SectorPlace>,
     /// Sectors between two points that are bridged at most.
     widest: f64,
 }
 
 /// A place on the path: the angle in sectors, and the sector.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct SectorPlace {
     angle: f64,
     sector: usize,
     deviation: f64,
@@ -68,7 +68,7 @@ pub(super) struct Quality {
     /// Samples of a turn.
     pub(super) samples: usize,
     /// The shift from turn to turn, where there are several.
-    pub(super) drift: Option<Drift>,
+    pub(super) drift: Option<CircleDrift>,
 }
 
 /// The radial deviations of one turn.
@@ -76,8 +76,8 @@ pub(super) struct Quality {
 pub struct RadialProfile {
     radius: f64,
     fixed: Vec<f64>,
-    outer: Vec<Option<Point>>,
-    inner: Vec<Option<Point>>,
+    outer: Vec<Option<ProfilePoint>>,
+    inner: Vec<Option<ProfilePoint>>,
     /// Duration of the turn in s, where it is known.
     turn_s: Option<f64>,
     /// Centre of the angles and deviations, in m.
@@ -122,7 +122,7 @@ impl Gatherer {
     /// Keeps a point in m if it is the outermost or the innermost of its sector, and gives its
     /// place.
     #[inline]
-    fn keep(&mut self, x: f64, y: f64) -> Place {
+    fn keep(&mut self, x: f64, y: f64) -> SectorPlace {
         let distance = (x * x + y * y).sqrt();
         let deviation = distance - self.radius;
         let angle = y.atan2(x);
@@ -130,7 +130,7 @@ impl Gatherer {
         #[allow(clippy::cast_precision_loss)] // 36000
         let angle = positive * (ANGLES as f64 / TAU);
         let sector = index(angle);
-        let point = || Point {
+        let point = || ProfilePoint {
             cos: x / distance,
             sin: y / distance,
             deviation,
@@ -143,7 +143,7 @@ impl Gatherer {
         if inner.is_none_or(|inner| deviation < inner.deviation) {
             *inner = Some(point());
         }
-        Place {
+        SectorPlace {
             angle,
             sector,
             deviation,
@@ -153,7 +153,7 @@ impl Gatherer {
     /// Interpolates at the fixed angles between two points of different sectors, the short way
     /// round.
     #[inline]
-    fn fill(&mut self, from: Place, to: Place) {
+    fn fill(&mut self, from: SectorPlace, to: SectorPlace) {
         #[allow(clippy::cast_precision_loss)] // 36000
         let turn = ANGLES as f64;
         let mut way = to.angle - from.angle;
@@ -266,12 +266,12 @@ impl RadialProfile {
     }
 
     /// The outermost point of each sector that has one.
-    pub(super) fn outer(&self) -> impl Iterator<Item = &Point> {
+    pub(super) fn outer(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.outer.iter().flatten()
     }
 
     /// The innermost point of each sector that has one.
-    pub(super) fn inner(&self) -> impl Iterator<Item = &Point> {
+    pub(super) fn inner(&self) -> impl Iterator<Item = &ProfilePoint> {
         self.inner.iter().flatten()
     }
 
@@ -318,7 +318,7 @@ impl RadialProfile {
         crossing: Crossing,
         direction: Direction,
         ways: RangeInclusive<i32>,
-    ) -> impl Iterator<Item = (f64, Point)> {
+    ) -> impl Iterator<Item = (f64, ProfilePoint)> {
         ways.map(move |way| {
             let at = sector(crossing, direction, way);
             (f64::from(way), self.at_fixed(at))
@@ -331,7 +331,7 @@ impl RadialProfile {
         crossing: Crossing,
         direction: Direction,
         ways: RangeInclusive<i32>,
-    ) -> impl Iterator<Item = (f64, Point)> {
+    ) -> impl Iterator<Item = (f64, ProfilePoint)> {
         let last = *ways.end();
         ways.flat_map(move |way| {
             let at = sector(crossing, direction, way);
@@ -353,10 +353,10 @@ impl RadialProfile {
     }
 
     /// The path at the fixed angle with a number.
-    fn at_fixed(&self, number: usize) -> Point {
+    fn at_fixed(&self, number: usize) -> ProfilePoint {
         #[allow(clippy::cast_precision_loss)] // 36000
         let (sin, cos) = (number as f64 / ANGLES as f64 * TAU).sin_cos();
-        Point {
+        ProfilePoint {
             cos,
             sin,
             deviation: self.fixed[number],
@@ -367,7 +367,7 @@ impl RadialProfile {
     pub(super) fn about(&self, centre: [f64; 2]) -> Self {
         let [x, y] = [0, 1].map(|axis| centre[axis] - self.origin[axis]);
         let mut seen = Gatherer::new(self.radius, WHOLE_TURN);
-        let place = |point: Point| {
+        let place = |point: ProfilePoint| {
             let distance = self.radius + point.deviation;
             (distance * point.cos - x, distance * point.sin - y)
         };

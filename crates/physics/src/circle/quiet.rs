@@ -9,8 +9,8 @@
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::linear::Normal;
-use super::profile::{Point, RadialProfile};
-use super::window::Window;
+use super::profile::{ProfilePoint, RadialProfile};
+use super::window::CrossingWindow;
 
 /// The undisturbed path, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,14 +37,14 @@ impl QuietPath {
     pub(super) fn of(
         profile: &RadialProfile,
         direction: Direction,
-        window: Window,
+        window: CrossingWindow,
     ) -> Option<Self> {
         let places = Crossing::ALL
             .into_iter()
             .flat_map(|crossing| profile.fixed(crossing, direction, window.quiet()));
         let mut normal = Normal::<7>::new();
         for (_, point) in places {
-            let Point {
+            let ProfilePoint {
                 cos,
                 sin,
                 deviation,
@@ -64,7 +64,7 @@ impl QuietPath {
     }
 
     /// The path without any step in the direction of a point.
-    pub(super) fn smooth(&self, point: Point) -> f64 {
+    pub(super) fn smooth(&self, point: ProfilePoint) -> f64 {
         let [along, across] = second_harmonic(point);
         self.mean
             + self.shift[0] * point.cos
@@ -74,7 +74,7 @@ impl QuietPath {
     }
 
     /// The path on one side of a crossing, continued over it, in the direction of a point.
-    pub(super) fn level(&self, crossing: Crossing, beside: Beside, point: Point) -> f64 {
+    pub(super) fn level(&self, crossing: Crossing, beside: Beside, point: ProfilePoint) -> f64 {
         let side = match beside {
             Beside::Before => -1.0,
             Beside::After => 1.0,
@@ -93,13 +93,13 @@ impl QuietPath {
 }
 
 /// The second harmonic in the direction of a point: along the axes, and at 45°.
-fn second_harmonic(Point { cos, sin, .. }: Point) -> [f64; 2] {
+fn second_harmonic(ProfilePoint { cos, sin, .. }: ProfilePoint) -> [f64; 2] {
     [cos * cos - sin * sin, 2.0 * cos * sin]
 }
 
 /// Returns the displacement of the path outwards by an axis with a backlash of 1: half of it
 /// against the direction of the axis.
-fn lag(axis: PlaneAxis, Point { cos, sin, .. }: Point, direction: Direction) -> f64 {
+fn lag(axis: PlaneAxis, ProfilePoint { cos, sin, .. }: ProfilePoint, direction: Direction) -> f64 {
     let turning = direction.sign();
     match axis {
         PlaneAxis::X => 0.5 * turning * sin.signum() * cos,

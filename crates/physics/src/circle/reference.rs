@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -45,16 +45,16 @@ impl Default for Circle {
 #[non_exhaustive]
 pub enum CircleError {
     /// A radius of 0 mm.
-    #[error("a radius of {} mm is not possible; it must be between 0.1 and 100000 mm", Shown(*.0))]
+    #[error("a radius of {} mm is not possible; it must be between 0.1 and 100000 mm", ReadableNumber(*.0))]
     Radius(f64),
     /// A feed of 0 mm/min.
-    #[error("a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", Shown(*.0))]
+    #[error("a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", ReadableNumber(*.0))]
     Feed(f64),
     /// A CNC cycle of 0.1 ms.
     #[error(
         "a CNC cycle of {} ms is not possible; it must be a whole multiple of 0.25 ms, the cycle of \
          the position loop, up to 100 ms",
-        Shown(.0 * 1000.0)
+        ReadableNumber(.0 * 1000.0)
     )]
     CycleTime(f64),
     /// A feed of 1 mm/min: the circle takes hours.
@@ -74,7 +74,7 @@ pub enum CircleError {
     #[error(
         "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min has only {cycles:.0} CNC cycles of \
          {} ms, {MIN_CYCLES} are needed",
-        Shown(.cycle_time_s * 1000.0)
+        ReadableNumber(.cycle_time_s * 1000.0)
     )]
     TooFast {
         /// Radius.
@@ -150,7 +150,7 @@ impl CircleError {
 
 /// A stretch of the circle: from an angle over so many radians in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stretch {
+pub(super) struct CircleArc {
     /// The commanded angle at the start in radians.
     pub(super) start: f64,
     /// The length in radians.
@@ -257,7 +257,7 @@ impl Circle {
     }
 
     /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
-    pub(super) fn at(&self, stretch: Stretch, k: usize) -> [(f64, f64); 2] {
+    pub(super) fn at(&self, stretch: CircleArc, k: usize) -> [(f64, f64); 2] {
         #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
         let time = k as f64 * self.cycle_time_s;
         let turning = stretch.direction.sign() * self.angular_velocity();

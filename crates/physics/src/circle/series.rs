@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::direction::Direction;
 use super::profile::{ANGLES, RadialProfile, UM_PER_M};
-use super::turning::Turning;
+use super::turning::CosineSine;
 
 /// Fixed angles of a profile in a step of the shapes.
 const COARSE: usize = 10;
@@ -23,12 +23,12 @@ const BLOCK_DEG: f64 = 2.0;
 
 /// A path in equal steps of the angle, in µm, without the reversals.
 #[derive(Debug, Clone)]
-pub(super) struct Series {
+pub(super) struct AngleSeries {
     pub(super) direction: Direction,
     /// Noise of a step as a part of that of a sample.
     pub(super) noise_share: f64,
     /// Steps outside the mask.
-    places: Vec<(Turning, f64)>,
+    places: Vec<(CosineSine, f64)>,
     pub(super) values: Vec<Option<f64>>,
     pub(super) radius_mm: f64,
     pub(super) turn_s: Option<f64>,
@@ -39,7 +39,7 @@ pub(super) fn real(count: usize) -> f64 {
     count as f64
 }
 
-impl Series {
+impl AngleSeries {
     /// The path of a profile that has so many samples, in the steps of the shapes; `None` where the
     /// reversals take all of it.
     pub(super) fn coarse(
@@ -94,18 +94,18 @@ impl Series {
         Some(series)
     }
 
-    fn angle_of(&self, at: usize) -> Turning {
-        Turning::of((real(at) + 0.5) / real(self.values.len()) * TAU)
+    fn angle_of(&self, at: usize) -> CosineSine {
+        CosineSine::of((real(at) + 0.5) / real(self.values.len()) * TAU)
     }
 
-    fn unmasked(&self) -> Vec<(Turning, f64)> {
+    fn unmasked(&self) -> Vec<(CosineSine, f64)> {
         let all = self.values.iter().enumerate();
         all.filter_map(|(at, value)| Some((self.angle_of(at), (*value)?)))
             .collect()
     }
 
     /// The steps that are not masked, with their directions.
-    pub(super) fn steps(&self) -> impl Iterator<Item = (Turning, f64)> + '_ {
+    pub(super) fn steps(&self) -> impl Iterator<Item = (CosineSine, f64)> + '_ {
         self.places.iter().copied()
     }
 
@@ -115,7 +115,7 @@ impl Series {
     }
 
     /// The path less a model of it.
-    pub(super) fn less(&self, model: impl Fn(Turning, Direction) -> f64) -> Self {
+    pub(super) fn less(&self, model: impl Fn(CosineSine, Direction) -> f64) -> Self {
         let mut left = self.clone();
         for (at, value) in left.values.iter_mut().enumerate() {
             if let Some(value) = value {
@@ -147,7 +147,7 @@ impl Series {
 }
 
 /// What paths with such a noise hold beyond it, root mean square.
-pub(super) fn beyond_noise(left: &[Series], noise_um: f64) -> f64 {
+pub(super) fn beyond_noise(left: &[AngleSeries], noise_um: f64) -> f64 {
     let squares = left.iter().map(|one| {
         let noise = noise_um * one.noise_share;
         let of_steps = one.steps().map(|(_, value)| value * value).sum::<f64>();

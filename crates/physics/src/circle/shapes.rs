@@ -2,11 +2,11 @@
 
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
-use super::evidence_shape::{Row, SHAPES, ShapeTerm, Term};
+use super::evidence_shape::{SHAPES, ShapeTerm, ShapeValues, Term};
 use super::linear::Normal;
 use super::periodic::{Joint, Periodic, Screw};
-use super::series::Series;
-use super::turning::Turning;
+use super::series::AngleSeries;
+use super::turning::CosineSine;
 
 /// Shapes that both directions tell, with their places in a row, and how many times its unknown each is.
 const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
@@ -32,13 +32,13 @@ const UNTOLD: [usize; 3] = [8, 11, 12];
 pub(super) struct Shapes {
     normal: Normal<SHAPES>,
     is_single: bool,
-    found: Row,
+    found: ShapeValues,
     pub(super) terms: Vec<Term>,
-    pub(super) left: Vec<Series>,
+    pub(super) left: Vec<AngleSeries>,
 }
 
 impl Shapes {
-    pub(super) fn fit(series: &[Series]) -> Option<Self> {
+    pub(super) fn fit(series: &[AngleSeries]) -> Option<Self> {
         let is_single = series.len() == 1;
         let mut normal = Normal::<SHAPES>::new();
         for one in series {
@@ -59,7 +59,7 @@ impl Shapes {
     }
 
     /// The shapes together with a periodic error, which takes from each what it may be as well.
-    pub(super) fn with(&self, periodic: &Periodic, series: &[Series]) -> Option<Self> {
+    pub(super) fn with(&self, periodic: &Periodic, series: &[AngleSeries]) -> Option<Self> {
         let joint = &periodic.joint;
         let mut found = self.found;
         let mut spreads = self.normal.spreads()?;
@@ -104,7 +104,9 @@ impl Shapes {
             self.normal.solve_for(sums[0])?,
             self.normal.solve_for(sums[1])?,
         ];
-        let dot = |one: &Row, other: &Row| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        let dot = |one: &ShapeValues, other: &ShapeValues| {
+            one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>()
+        };
         let own = [
             squares[0] - dot(&sums[0], &shares[0]),
             squares[1] - dot(&sums[0], &shares[1]),
@@ -116,9 +118,14 @@ impl Shapes {
         Some(joint)
     }
 
-    fn judged(mut self, series: &[Series], spreads: &Row, periodic: Option<&Periodic>) -> Self {
+    fn judged(
+        mut self,
+        series: &[AngleSeries],
+        spreads: &ShapeValues,
+        periodic: Option<&Periodic>,
+    ) -> Self {
         self.left = self.less(series, periodic);
-        let of_blocks = self.left.iter().map(Series::block_variance);
+        let of_blocks = self.left.iter().map(AngleSeries::block_variance);
         let of_blocks = of_blocks.fold(0.0, f64::max);
         let told: &[(usize, ShapeTerm, f64)] = if self.is_single { &OF_ONE } else { &OF_BOTH };
         let term = |&(at, shape, factor): &(usize, ShapeTerm, f64)| Term {
@@ -131,8 +138,12 @@ impl Shapes {
     }
 
     /// Paths less the shapes, and less a periodic error.
-    pub(super) fn less(&self, series: &[Series], periodic: Option<&Periodic>) -> Vec<Series> {
-        let less = |one: &Series| {
+    pub(super) fn less(
+        &self,
+        series: &[AngleSeries],
+        periodic: Option<&Periodic>,
+    ) -> Vec<AngleSeries> {
+        let less = |one: &AngleSeries| {
             one.less(|angle, direction| {
                 let row = row(angle, direction, self.is_single);
                 let of_shapes: f64 = row.iter().zip(self.found).map(|(a, b)| a * b).sum();
@@ -144,15 +155,15 @@ impl Shapes {
 }
 
 /// Steps where X and Y reverse: half of them against the direction of the axis.
-fn steps(angle: Turning, turning: f64) -> [f64; 2] {
+fn steps(angle: CosineSine, turning: f64) -> [f64; 2] {
     [
         0.5 * turning * angle.sin.signum() * angle.cos,
         -0.5 * turning * angle.cos.signum() * angle.sin,
     ]
 }
 
-fn row(angle: Turning, direction: Direction, is_single: bool) -> Row {
-    let Turning { cos, sin } = angle;
+fn row(angle: CosineSine, direction: Direction, is_single: bool) -> ShapeValues {
+    let CosineSine { cos, sin } = angle;
     let turning = direction.sign();
     let of = |which: f64| if turning * which > 0.0 { 1.0 } else { 0.0 };
     let [ccw, cw] = [of(1.0), of(-1.0)];

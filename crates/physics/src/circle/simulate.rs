@@ -2,7 +2,7 @@
 
 use super::crossing::PlaneAxis;
 use super::method::Method;
-use super::reference::{Circle, CircleError, Stretch};
+use super::reference::{Circle, CircleArc, CircleError};
 use crate::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
 };
@@ -12,7 +12,7 @@ use frictcomp::lists::FrictionList;
 
 /// Remarks of a simulation besides its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Remarks {
+pub(super) struct SimulationRemarks {
     /// Cycles of the speed loop in which a force was limited.
     pub(super) saturated_cycles: u64,
 }
@@ -31,7 +31,7 @@ pub(super) struct AxisRun<'a> {
 
 /// Simulation of `N` axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Run<'a, const N: usize> {
+pub(super) struct AxesSimulation<'a, const N: usize> {
     pub(super) circle: Circle,
     pub(super) model: FrictionModel,
     pub(super) reading: Reading,
@@ -77,7 +77,7 @@ impl<'a> AxisRun<'a> {
     }
 }
 
-impl<const N: usize> Run<'_, N> {
+impl<const N: usize> AxesSimulation<'_, N> {
     /// Follows a stretch with the drives and hands out the number of the CNC cycle and the actual
     /// positions in m after every simulation step.
     ///
@@ -85,9 +85,9 @@ impl<const N: usize> Run<'_, N> {
     /// A drive that leaves the circle by more than its radius.
     pub(super) fn simulate(
         &self,
-        stretch: Stretch,
+        stretch: CircleArc,
         mut take: impl FnMut(usize, [f64; N]),
-    ) -> Result<Remarks, CircleError> {
+    ) -> Result<SimulationRemarks, CircleError> {
         let circle = &self.circle;
         let cycles = circle.cycles(stretch.length);
         let at = |k: usize| {
@@ -145,7 +145,7 @@ impl<const N: usize> Run<'_, N> {
             self.check(drives.drives(), k)?;
             from = to;
         }
-        Ok(Remarks {
+        Ok(SimulationRemarks {
             saturated_cycles: drives.saturated_cycles(),
         })
     }

@@ -2,12 +2,12 @@
 
 /// Cosine and sine of an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Turning {
+pub(super) struct CosineSine {
     pub(super) cos: f64,
     pub(super) sin: f64,
 }
 
-impl Turning {
+impl CosineSine {
     /// Of an angle in radians.
     pub(super) fn of(angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();

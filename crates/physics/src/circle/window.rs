@@ -25,11 +25,11 @@ const FASTEST_DEG_PER_S: f64 = 45.0 / SETTLING_S;
 
 /// The window at every crossing of a path, in fixed angles in the direction of travel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Window {
+pub(super) struct CrossingWindow {
     after: i32,
 }
 
-impl Window {
+impl CrossingWindow {
     /// The window of a path that takes so many seconds a turn; ±8° where nobody knows them. `None`
     /// where it would reach the next crossing.
     pub(super) fn of(turn_s: Option<f64>) -> Option<Self> {
@@ -90,14 +90,14 @@ mod tests {
     #[test]
     fn a_window_lasts_at_least_as_long_as_loops_settle() {
         // R5.22
-        assert_eq!(Window::of(None).unwrap().inside(), -800..=800);
-        assert_eq!(Window::of(Some(60.0)).unwrap().inside(), -800..=800);
+        assert_eq!(CrossingWindow::of(None).unwrap().inside(), -800..=800);
+        assert_eq!(CrossingWindow::of(Some(60.0)).unwrap().inside(), -800..=800);
         // Radius 10 mm at 1200 mm/min: 2 rad/s, 34.4° in 0.3 s.
-        let window = Window::of(Some(std::f64::consts::PI)).unwrap();
+        let window = CrossingWindow::of(Some(std::f64::consts::PI)).unwrap();
         assert_eq!(window.inside(), -800..=3438);
         assert_eq!(window.after(), 3438..=6876);
         // Radius 5 mm at 1000 mm/min: 191°/s.
-        assert_eq!(Window::of(Some(1.885)), None);
+        assert_eq!(CrossingWindow::of(Some(1.885)), None);
         assert!((fastest_feed(5.0) - 785.4).abs() < 0.1);
     }
 }

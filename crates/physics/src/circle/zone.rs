@@ -1,6 +1,6 @@
 //! Centres: of the least-squares circle and of the minimum zone.
 
-use super::profile::{Point, RadialProfile};
+use super::profile::{ProfilePoint, RadialProfile};
 
 /// Rounds of the exchange at most; a handful is needed.
 const ROUNDS: usize = 60;
@@ -86,8 +86,8 @@ pub(super) fn minimum_zone(profiles: &[&RadialProfile]) -> Zone {
 }
 
 /// The points that stick out farthest and least as seen from a centre, with their deviations.
-fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(Point, f64)>; 2] {
-    let mut found = [None::<(Point, f64)>; 2];
+fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(ProfilePoint, f64)>; 2] {
+    let mut found = [None::<(ProfilePoint, f64)>; 2];
     for profile in profiles {
         for &point in profile.outer() {
             let deviation = seen_from(centre, profile.radius_m(), point);
@@ -106,7 +106,7 @@ fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(Point, f6
 }
 
 /// The radial deviation of a point as seen from another centre.
-fn seen_from(centre: [f64; 2], radius: f64, point: Point) -> f64 {
+fn seen_from(centre: [f64; 2], radius: f64, point: ProfilePoint) -> f64 {
     let along = centre[0] * point.cos + centre[1] * point.sin;
     let across = centre[1] * point.cos - centre[0] * point.sin;
     let distance = radius + point.deviation;
@@ -117,13 +117,13 @@ fn seen_from(centre: [f64; 2], radius: f64, point: Point) -> f64 {
 /// The points that the exchange has gathered.
 struct Few {
     radius: f64,
-    outer: Vec<Point>,
-    inner: Vec<Point>,
+    outer: Vec<ProfilePoint>,
+    inner: Vec<ProfilePoint>,
 }
 
 impl Few {
     fn width(&self, centre: [f64; 2]) -> f64 {
-        let seen = |&point: &Point| seen_from(centre, self.radius, point);
+        let seen = |&point: &ProfilePoint| seen_from(centre, self.radius, point);
         let outer = self.outer.iter().map(seen).fold(f64::MIN, f64::max);
         let inner = self.inner.iter().map(seen).fold(f64::MAX, f64::min);
         outer - inner

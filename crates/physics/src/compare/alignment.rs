@@ -6,11 +6,11 @@ use std::ops::Range;
 use crate::contour::BlockDeviation;
 
 /// A block of each version; `None` where it is in the other one only.
-pub(super) type Aligned = (Option<usize>, Option<usize>);
+pub(super) type AlignedBlocks = (Option<usize>, Option<usize>);
 
 /// Key by which two blocks are the same: the file, unless it is that of the program, and the
 /// number, or without one the text. The line is not part of it.
-type Identity<'a> = (Option<&'a str>, Result<i64, &'a str>);
+type BlockIdentity<'a> = (Option<&'a str>, Result<i64, &'a str>);
 
 /// Positions of a block that is the same in both versions.
 type Anchor = (usize, usize);
@@ -18,7 +18,7 @@ type Anchor = (usize, usize);
 /// Aligns the blocks of two versions in the order of the new one. Blocks that are only once in
 /// each version hold the others in their places; between them blocks are the same by their
 /// identity, and as many that are left in both versions were changed.
-pub(super) fn align(old: &[BlockDeviation], new: &[BlockDeviation]) -> Vec<Aligned> {
+pub(super) fn align(old: &[BlockDeviation], new: &[BlockDeviation]) -> Vec<AlignedBlocks> {
     let identities = [old, new].map(|blocks| {
         let program = blocks.first().map(|block| &block.file);
         let identity = |block| identity(block, program.map(|file| &**file));
@@ -42,7 +42,7 @@ pub(super) fn align(old: &[BlockDeviation], new: &[BlockDeviation]) -> Vec<Align
     aligned
 }
 
-fn identity<'a>(block: &'a BlockDeviation, program: Option<&str>) -> Identity<'a> {
+fn identity<'a>(block: &'a BlockDeviation, program: Option<&str>) -> BlockIdentity<'a> {
     let file = (Some(&*block.file) != program).then(|| {
         let name = block.file.rsplit(['/', '\\']).next();
         name.unwrap_or(&block.file)
@@ -51,7 +51,7 @@ fn identity<'a>(block: &'a BlockDeviation, program: Option<&str>) -> Identity<'a
 }
 
 /// The blocks that are once in each version, as many as keep their order.
-fn anchors(old: &[Identity<'_>], new: &[Identity<'_>]) -> Vec<Anchor> {
+fn anchors(old: &[BlockIdentity<'_>], new: &[BlockIdentity<'_>]) -> Vec<Anchor> {
     let old_places = once(old);
     let new_places = once(new);
     let pairs = (0..new.len()).filter_map(|at| {
@@ -63,7 +63,7 @@ fn anchors(old: &[Identity<'_>], new: &[Identity<'_>]) -> Vec<Anchor> {
 }
 
 /// Returns the position of each identity, `None` for one with several.
-fn once<'a, 'b>(all: &'b [Identity<'a>]) -> HashMap<&'b Identity<'a>, Option<usize>> {
+fn once<'a, 'b>(all: &'b [BlockIdentity<'a>]) -> HashMap<&'b BlockIdentity<'a>, Option<usize>> {
     let mut places = HashMap::new();
     for (at, identity) in all.iter().enumerate() {
         let place = places.entry(identity).or_insert(Some(at));
@@ -98,11 +98,11 @@ fn longest_in_order(pairs: &[Anchor]) -> Vec<Anchor> {
 
 /// Aligns what stands between two anchors.
 fn between(
-    (old, old_range): (&[Identity<'_>], Range<usize>),
-    (new, new_range): (&[Identity<'_>], Range<usize>),
-    aligned: &mut Vec<Aligned>,
+    (old, old_range): (&[BlockIdentity<'_>], Range<usize>),
+    (new, new_range): (&[BlockIdentity<'_>], Range<usize>),
+    aligned: &mut Vec<AlignedBlocks>,
 ) {
-    let mut places: HashMap<&Identity<'_>, Vec<usize>> = HashMap::new();
+    let mut places: HashMap<&BlockIdentity<'_>, Vec<usize>> = HashMap::new();
     for at in old_range.clone().rev() {
         places.entry(&old[at]).or_default().push(at);
     }
@@ -144,7 +144,7 @@ mod tests {
         texts.iter().zip(1..).map(block).collect()
     }
 
-    fn aligned(old: &[&str], new: &[&str]) -> Vec<Aligned> {
+    fn aligned(old: &[&str], new: &[&str]) -> Vec<AlignedBlocks> {
         align(&blocks("old.nc", old), &blocks("new.nc", new))
     }
 

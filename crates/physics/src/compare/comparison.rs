@@ -3,7 +3,7 @@
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use super::obstacle::Obstacle;
-use super::switch::{Identity, Switch};
+use super::switch::{Switch, SwitchIdentity};
 use super::version::Version;
 
 frictcomp::words! {
@@ -21,7 +21,7 @@ frictcomp::words! {
 /// A switch in its place among those of the other version.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum Paired {
+pub enum PairedSwitch {
     /// Both versions switch.
     Both {
         /// The switch of the old version.
@@ -50,7 +50,7 @@ frictcomp::words! {
 /// Two versions side by side.
 #[derive(Debug, Clone)]
 pub struct VersionComparison {
-    pairs: Vec<Paired>,
+    pairs: Vec<PairedSwitch>,
     obstacles: [Option<Obstacle>; 2],
 }
 
@@ -64,15 +64,15 @@ impl VersionComparison {
     }
 
     /// The switches of both versions in their order.
-    pub fn pairs(&self) -> &[Paired] {
+    pub fn pairs(&self) -> &[PairedSwitch] {
         &self.pairs
     }
 
     /// The switches of only one version.
     pub fn differences(&self) -> impl Iterator<Item = (Which, &Switch)> {
         self.pairs.iter().filter_map(|pair| match pair {
-            Paired::Both { .. } => None,
-            Paired::One(which, switch) => Some((*which, switch)),
+            PairedSwitch::Both { .. } => None,
+            PairedSwitch::One(which, switch) => Some((*which, switch)),
         })
     }
 
@@ -99,7 +99,7 @@ impl VersionComparison {
     }
 }
 
-fn pair(old: Vec<Switch>, new: Vec<Switch>) -> Vec<Paired> {
+fn pair(old: Vec<Switch>, new: Vec<Switch>) -> Vec<PairedSwitch> {
     let operations = capture_diff_slices(Algorithm::Myers, &identities(&old), &identities(&new));
     let (mut old, mut new) = (old.into_iter(), new.into_iter());
     let mut pairs = Vec::with_capacity(old.len().max(new.len()));
@@ -107,18 +107,18 @@ fn pair(old: Vec<Switch>, new: Vec<Switch>) -> Vec<Paired> {
         let (before, after) = (operation.old_range().len(), operation.new_range().len());
         if let DiffOp::Equal { .. } = operation {
             let both = old.by_ref().zip(new.by_ref()).take(before);
-            pairs.extend(both.map(|(old, new)| Paired::Both { old, new }));
+            pairs.extend(both.map(|(old, new)| PairedSwitch::Both { old, new }));
         } else {
             let gone = old.by_ref().take(before);
-            pairs.extend(gone.map(|switch| Paired::One(Which::Old, switch)));
+            pairs.extend(gone.map(|switch| PairedSwitch::One(Which::Old, switch)));
             let come = new.by_ref().take(after);
-            pairs.extend(come.map(|switch| Paired::One(Which::New, switch)));
+            pairs.extend(come.map(|switch| PairedSwitch::One(Which::New, switch)));
         }
     }
     pairs
 }
 
-fn identities(switches: &[Switch]) -> Vec<Identity<'_>> {
+fn identities(switches: &[Switch]) -> Vec<SwitchIdentity<'_>> {
     switches.iter().map(Switch::identity).collect()
 }
 
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn moved_lines_make_no_difference() {
         // R9.81
-        let both = |pairs: &Paired| matches!(pairs, Paired::Both { .. });
+        let both = |pairs: &PairedSwitch| matches!(pairs, PairedSwitch::Both { .. });
         let pairs = pair(vec![switch(4, 25)], vec![switch(9, 25)]);
         assert!(pairs.len() == 1 && pairs.iter().all(both));
         let pairs = pair(
@@ -152,9 +152,9 @@ mod tests {
             vec![switch(4, 20), switch(5, 30)],
         );
         let expected = [
-            Paired::One(Which::Old, switch(4, 25)),
-            Paired::One(Which::New, switch(4, 20)),
-            Paired::Both {
+            PairedSwitch::One(Which::Old, switch(4, 25)),
+            PairedSwitch::One(Which::New, switch(4, 20)),
+            PairedSwitch::Both {
                 old: switch(5, 30),
                 new: switch(5, 30),
             },

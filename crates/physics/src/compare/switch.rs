@@ -32,7 +32,7 @@ pub struct Switch {
 /// Key by which a switch of one version is the same as one of the other: the line is not part of
 /// it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) struct Identity<'a> {
+pub(super) struct SwitchIdentity<'a> {
     block: Result<i64, &'a str>,
     axis: &'a str,
     kind: Kind,
@@ -57,8 +57,8 @@ impl Switch {
     }
 
     /// A block is known by its number, one without a number by its text.
-    pub(super) fn identity(&self) -> Identity<'_> {
-        Identity {
+    pub(super) fn identity(&self) -> SwitchIdentity<'_> {
+        SwitchIdentity {
             block: self.number.ok_or(&self.text),
             axis: &self.axis,
             kind: self.kind,

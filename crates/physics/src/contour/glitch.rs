@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-use super::measured::Measured;
+use super::measured::MeasuredCycle;
 use super::path::Places;
 use crate::motion::Movement;
 
@@ -33,7 +33,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// Values of a cycle that matter here.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Moment {
+pub(super) struct CycleValues {
     time_s: f64,
     /// By how much the path has turned up to here, in rad.
     turned: f64,
@@ -46,7 +46,7 @@ pub(super) struct Moment {
 /// The last cycles.
 #[derive(Debug, Default)]
 pub(super) struct Course {
-    moments: VecDeque<Moment>,
+    moments: VecDeque<CycleValues>,
     /// The direction of the path.
     along: Places,
     turned: f64,
@@ -54,7 +54,7 @@ pub(super) struct Course {
 
 impl Course {
     /// Takes a cycle.
-    pub(super) fn push(&mut self, measured: &Measured<'_>) -> Moment {
+    pub(super) fn push(&mut self, measured: &MeasuredCycle<'_>) -> CycleValues {
         let velocities = measured.velocities;
         let speed = velocities.iter().map(|it| it * it).sum::<f64>().sqrt();
         let mut breaks = measured.cause.movement != Movement::Feed || speed == 0.0;
@@ -70,7 +70,7 @@ impl Course {
             self.turned += turn;
             self.along = along;
         }
-        let moment = Moment {
+        let moment = CycleValues {
             time_s: measured.time_s,
             turned: self.turned,
             errors: measured.distances.map(|distance| distance.normal),
@@ -80,7 +80,7 @@ impl Course {
             self.moments.clear();
         }
         self.moments.push_back(moment);
-        let is_needed = |first: &Moment| {
+        let is_needed = |first: &CycleValues| {
             moment.turned - first.turned <= SIDE_TURN
                 || moment.time_s - first.time_s <= 2.0 * WINDOW_S
         };
@@ -100,12 +100,12 @@ impl Course {
 
 /// The deviation around a reversal, in the direction of the axis.
 #[derive(Debug)]
-pub(super) struct Window {
+pub(super) struct ReversalWindow {
     normal: Places,
     time_s: f64,
     turned: f64,
-    before: Side,
-    after: Side,
+    before: WindowSide,
+    after: WindowSide,
     /// The extremes are looked for in these cycles.
     inside: Vec<(f64, [f64; 3])>,
     /// End of the window after the reversal.
@@ -115,9 +115,9 @@ pub(super) struct Window {
 }
 
 /// Cycles beside the window.
-type Side = Vec<(f64, [f64; 3])>;
+type WindowSide = Vec<(f64, [f64; 3])>;
 
-impl Window {
+impl ReversalWindow {
     /// The window of a reversal at the last cycle of a course.
     pub(super) fn begin(course: &Course, normal: Places) -> Self {
         let last = course.moments.back();
@@ -125,8 +125,8 @@ impl Window {
             normal,
             time_s: last.map_or(0.0, |last| last.time_s),
             turned: last.map_or(0.0, |last| last.turned),
-            before: Side::new(),
-            after: Side::new(),
+            before: WindowSide::new(),
+            after: WindowSide::new(),
             inside: Vec::new(),
             ended: None,
             reach: SIDE_TURN,
@@ -152,14 +152,14 @@ impl Window {
     }
 
     /// The time from the reversal to a cycle, and the angle by which the path turns.
-    fn since(&self, moment: &Moment) -> (f64, f64) {
+    fn since(&self, moment: &CycleValues) -> (f64, f64) {
         (
             (moment.time_s - self.time_s).abs(),
             (moment.turned - self.turned).abs(),
         )
     }
 
-    fn value(&self, moment: &Moment) -> (f64, [f64; 3]) {
+    fn value(&self, moment: &CycleValues) -> (f64, [f64; 3]) {
         let along = |error: Places| {
             let axes = error.iter().zip(&self.normal);
             axes.map(|(error, normal)| error * normal).sum::<f64>()
@@ -168,7 +168,7 @@ impl Window {
     }
 
     /// Takes the next cycle; `Break` where it ends.
-    pub(super) fn push(&mut self, moment: &Moment) -> ControlFlow<()> {
+    pub(super) fn push(&mut self, moment: &CycleValues) -> ControlFlow<()> {
         if moment.breaks {
             return ControlFlow::Break(());
         }

@@ -6,7 +6,7 @@ use super::path::Distance;
 use crate::motion::Cause;
 
 /// Measured values of a cycle.
-pub(super) struct Measured<'a> {
+pub(super) struct MeasuredCycle<'a> {
     pub(super) time_s: f64,
     pub(super) cause: &'a Arc<Cause>,
     /// Commanded positions of the driven axes, in mm.

@@ -18,7 +18,7 @@ const STRAIGHT: f64 = 1e-9;
 const CORNER_COSINE: f64 = 0.955;
 
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct PathPoint {
     place: Places,
     /// By how much the direction of the path changes here with the distance, by axis.
     bend: Places,
@@ -42,7 +42,7 @@ pub(super) struct Distance {
 /// The commanded path, as far as it matters.
 #[derive(Debug, Clone)]
 pub(super) struct CommandedPath {
-    points: VecDeque<Point>,
+    points: VecDeque<PathPoint>,
     /// Number of points before the commanded one among which the nearest may be.
     back: u64,
     /// The number of the first of the points.
@@ -83,7 +83,7 @@ impl CommandedPath {
         (self.first + count).saturating_sub(1)
     }
 
-    fn at(&self, number: u64) -> Option<&Point> {
+    fn at(&self, number: u64) -> Option<&PathPoint> {
         let position = number.checked_sub(self.first)?;
         self.points.get(usize::try_from(position).ok()?)
     }
@@ -91,7 +91,7 @@ impl CommandedPath {
     /// Goes on to a place, and returns the number of the point that stands for it.
     pub(super) fn push(&mut self, place: Places) -> u64 {
         let Some(last) = self.points.back() else {
-            self.points.push_back(Point {
+            self.points.push_back(PathPoint {
                 place,
                 bend: Places::default(),
                 side: 1.0,
@@ -125,7 +125,7 @@ impl CommandedPath {
             last.side = side;
             last.is_corner = is_corner;
         }
-        self.points.push_back(Point {
+        self.points.push_back(PathPoint {
             place,
             bend: Places::default(),
             side,

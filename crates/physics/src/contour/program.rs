@@ -7,13 +7,13 @@ use std::sync::Arc;
 use super::axes::MovingAxes;
 use super::feed::{FeedOnly, FeedReached, is_too_slow};
 use super::figures::{ContourSummary, Deviations, Due};
-use super::measured::Measured;
+use super::measured::MeasuredCycle;
 use super::obstacle::ContourObstacle;
 use super::options::{ContourAxis, ContourOptions, MOST_AXES};
 use super::path::{CommandedPath, Distance, Places};
 use super::per_run::PerRun;
-use super::reversals::{ContourReversal, Event, Reversals};
-use super::run::Run;
+use super::reversals::{ContourReversal, ReversalFinder, WindowEvent};
+use super::run::DrivenRun;
 use crate::current::{
     AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
     VELOCITY_UNITS_PER_MM_PER_S,
@@ -120,8 +120,8 @@ struct Tracer<S> {
     waiting: VecDeque<Cycle>,
     /// Cycles whose currents are known.
     ready: VecDeque<Cycle>,
-    runs: Option<[Run; 3]>,
-    reversals: Reversals,
+    runs: Option<[DrivenRun; 3]>,
+    reversals: ReversalFinder,
     deviations: PerRun<Deviations>,
     due: Due,
     feed: FeedReached,
@@ -157,7 +157,7 @@ impl<S: ContourSink> ProgramContour<S> {
             ready: VecDeque::new(),
             runs: None,
             axes: names.iter().map(summary).collect(),
-            reversals: Reversals::new(names, options.planner.cycle_s),
+            reversals: ReversalFinder::new(names, options.planner.cycle_s),
             deviations: PerRun::default(),
             due: Due::default(),
             feed: FeedReached::default(),
@@ -460,7 +460,7 @@ impl<S: ContourSink> Tracer<S> {
         let options = &self.options;
         let runs = self
             .runs
-            .get_or_insert_with(|| [(); 3].map(|()| Run::at_rest(options, &cycle.places)));
+            .get_or_insert_with(|| [(); 3].map(|()| DrivenRun::at_rest(options, &cycle.places)));
         let none = Places::default();
         let [programmed, all_on] = &cycle.added;
         let mut distances = [Distance::default(); 3];
@@ -497,7 +497,7 @@ impl<S: ContourSink> Tracer<S> {
         }
         let (axes, sink) = (&mut self.axes, &mut self.sink);
         if is_of_machine {
-            let measured = Measured {
+            let measured = MeasuredCycle {
                 time_s: cycle.time_s,
                 cause: &cycle.cause,
                 positions: &cycle.places[..count],
@@ -529,9 +529,9 @@ impl<S: ContourSink> Tracer<S> {
 fn take<S: ContourSink>(
     axes: &mut [ContourSummary],
     sink: &mut S,
-    (event, reversal): &(Event, ContourReversal),
+    (event, reversal): &(WindowEvent, ContourReversal),
 ) {
-    if *event == Event::Switch {
+    if *event == WindowEvent::Switch {
         sink.switch(reversal);
         return;
     }

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use super::glitch::{Course, Window};
-use super::measured::Measured;
+use super::glitch::{Course, ReversalWindow};
+use super::measured::MeasuredCycle;
 use super::path::Places;
 use super::per_run::PerRun;
 use crate::motion::Movement;
@@ -77,7 +77,7 @@ impl ContourReversal {
 
 /// Event in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Event {
+pub(super) enum WindowEvent {
     /// An axis reverses.
     Reversal,
     /// Compensation of an axis is switched while it moves on.
@@ -86,15 +86,15 @@ pub(super) enum Event {
 
 /// A reversal whose window has not ended.
 struct Open {
-    event: Event,
+    event: WindowEvent,
     reversal: ContourReversal,
     axis: usize,
     /// `None` where the path turns back: nothing of the axis is normal to it.
-    window: Option<Window>,
+    window: Option<ReversalWindow>,
 }
 
 impl Open {
-    fn finish(mut self) -> (Event, ContourReversal) {
+    fn finish(mut self) -> (WindowEvent, ContourReversal) {
         if let Some(window) = self.window {
             let (figure, glitch_um) = match window.figure() {
                 Some(glitch_um) => (GlitchFigure::Measured, glitch_um),
@@ -108,7 +108,7 @@ impl Open {
 }
 
 /// Finds reversals and follows each to the end of its window.
-pub(super) struct Reversals {
+pub(super) struct ReversalFinder {
     names: Vec<String>,
     cycle_s: f64,
     /// The direction in which each axis moved last.
@@ -120,7 +120,7 @@ pub(super) struct Reversals {
     open: Vec<Open>,
 }
 
-impl Reversals {
+impl ReversalFinder {
     pub(super) fn new(names: Vec<String>, cycle_s: f64) -> Self {
         let count = names.len();
         Self {
@@ -136,7 +136,7 @@ impl Reversals {
     }
 
     /// The trace begins anew: no axis has a direction.
-    pub(super) fn restart(&mut self, mut take: impl FnMut((Event, ContourReversal))) {
+    pub(super) fn restart(&mut self, mut take: impl FnMut((WindowEvent, ContourReversal))) {
         self.open.drain(..).for_each(|open| take(open.finish()));
         self.directions.fill(0.0);
         self.velocities.fill(0.0);
@@ -148,8 +148,8 @@ impl Reversals {
     /// Takes a cycle, and gives out the reversals whose windows end.
     pub(super) fn push(
         &mut self,
-        measured: &Measured<'_>,
-        mut take: impl FnMut((Event, ContourReversal)),
+        measured: &MeasuredCycle<'_>,
+        mut take: impl FnMut((WindowEvent, ContourReversal)),
     ) {
         let moment = self.course.push(measured);
         let reverses = |axis: usize| self.directions[axis] * measured.velocities[axis] < 0.0;
@@ -171,10 +171,10 @@ impl Reversals {
             }
         }
         for axis in turned {
-            self.begin(Event::Reversal, axis, measured);
+            self.begin(WindowEvent::Reversal, axis, measured);
         }
         for axis in self.switched(measured) {
-            self.begin(Event::Switch, axis, measured);
+            self.begin(WindowEvent::Switch, axis, measured);
         }
         for (direction, velocity) in self.directions.iter_mut().zip(measured.velocities) {
             if *velocity != 0.0 {
@@ -187,7 +187,7 @@ impl Reversals {
     }
 
     /// The axes whose compensation is switched in a feed move, in which they move on.
-    fn switched(&self, measured: &Measured<'_>) -> Vec<usize> {
+    fn switched(&self, measured: &MeasuredCycle<'_>) -> Vec<usize> {
         let now = &measured.cause.friction;
         let Some(before) = self.friction.as_ref().filter(|before| before != &now) else {
             return Vec::new();
@@ -205,14 +205,14 @@ impl Reversals {
         axes.filter(differs).collect()
     }
 
-    fn begin(&mut self, event: Event, axis: usize, measured: &Measured<'_>) {
+    fn begin(&mut self, event: WindowEvent, axis: usize, measured: &MeasuredCycle<'_>) {
         let along = self.course.direction();
         let share = along[axis];
         let window = (share.abs() <= ALONG).then(|| {
             let mut normal: Places = along.map(|it| -share * it);
             normal[axis] += 1.0;
             let length = (1.0 - share * share).sqrt();
-            Window::begin(&self.course, normal.map(|it| it / length))
+            ReversalWindow::begin(&self.course, normal.map(|it| it / length))
         });
         self.open.push(Open {
             event,
@@ -222,7 +222,7 @@ impl Reversals {
         });
     }
 
-    fn reversal(&self, axis: usize, measured: &Measured<'_>) -> ContourReversal {
+    fn reversal(&self, axis: usize, measured: &MeasuredCycle<'_>) -> ContourReversal {
         let cause = measured.cause;
         let change = measured.velocities[axis] - self.velocities[axis];
         ContourReversal {

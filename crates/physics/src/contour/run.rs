@@ -10,7 +10,7 @@ const MM_PER_M: f64 = 1000.0;
 const LOST_MM: f64 = 100.0;
 
 /// The drives of one run.
-pub(super) struct Run {
+pub(super) struct DrivenRun {
     drives: Vec<Drives<1>>,
     /// The commanded velocities of the cycle before, in m/s.
     slopes: Places,
@@ -18,7 +18,7 @@ pub(super) struct Run {
     pub(super) near: u64,
 }
 
-impl Run {
+impl DrivenRun {
     /// Drives that rest at a place.
     pub(super) fn at_rest(options: &ContourOptions, place: &Places) -> Self {
         let settle = |(at, axis): (usize, &ContourAxis)| {

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::additive::Switched;
 use super::columns::TraceColumns;
 use crate::motion::{CycleError, check_cycle};
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 
 /// The cycle of a trace that says nothing about time.
 const DEFAULT_CYCLE_S: f64 = 0.001;
@@ -40,8 +40,8 @@ pub enum CyclesError {
     /// A row before the one above it.
     #[error(
         "the time jumps back at row {row}, from {} to {} s",
-        Shown(*.before_s),
-        Shown(*.time_s)
+        ReadableNumber(*.before_s),
+        ReadableNumber(*.time_s)
     )]
     Backwards {
         /// The row, counted from 1 below the header.
@@ -52,7 +52,7 @@ pub enum CyclesError {
         time_s: f64,
     },
     /// A row at the time of the one above it.
-    #[error("row {row} has the time of the row above, {} s", Shown(*.time_s))]
+    #[error("row {row} has the time of the row above, {} s", ReadableNumber(*.time_s))]
     Repeated {
         /// The row, counted from 1 below the header.
         row: usize,
@@ -63,7 +63,7 @@ pub enum CyclesError {
     #[error(
         "a gap of {} ms before row {row}, at {} s; a CNC cycle has {} ms",
         milliseconds(*.step_s),
-        Shown(*.time_s),
+        ReadableNumber(*.time_s),
         milliseconds(*.cycle_s)
     )]
     Gap {
@@ -79,7 +79,7 @@ pub enum CyclesError {
     /// A step that is not the cycle.
     #[error(
         "row {row}, at {} s, comes {} ms after the row above; a CNC cycle has {} ms",
-        Shown(*.time_s),
+        ReadableNumber(*.time_s),
         milliseconds(*.step_s),
         milliseconds(*.cycle_s)
     )]
@@ -100,7 +100,7 @@ pub enum CyclesError {
         row: usize,
     },
     /// Rows that are so far apart that nobody can want the cycles between them.
-    #[error("the times of the trace are {} s apart, too far for cycles of {} ms", Shown(*.length_s), milliseconds(*.cycle_s))]
+    #[error("the times of the trace are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
     TooLong {
         /// From the first time to the last.
         length_s: f64,
@@ -110,8 +110,8 @@ pub enum CyclesError {
 }
 
 /// A time in ms without what its difference was rounded by.
-fn milliseconds(seconds: f64) -> Shown {
-    Shown((seconds * 1e9).round() / 1e6)
+fn milliseconds(seconds: f64) -> ReadableNumber {
+    ReadableNumber((seconds * 1e9).round() / 1e6)
 }
 
 /// The cycle of a trace: the one that is given, else the usual step of its times.

@@ -1,7 +1,7 @@
 //! Velocities around zero that are no motion: measured or rounded values toggle while an axis stands.
 
 use super::units::POSITION_UNITS_PER_MM;
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 
 /// Velocities that count as standstill.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,7 +30,7 @@ impl Standstills {
         let Self { count, cycles } = self;
         let what = match band {
             DeadBand::Toggling => "in which the velocity only toggles around zero".to_owned(),
-            DeadBand::Below(limit) => format!("with a velocity up to {}", Shown(limit)),
+            DeadBand::Below(limit) => format!("with a velocity up to {}", ReadableNumber(limit)),
         };
         (count > 0).then(|| {
             let stretches = if count == 1 { "stretch" } else { "stretches" };

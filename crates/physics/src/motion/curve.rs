@@ -30,14 +30,14 @@ const STEPS: usize = 8;
 
 /// A span of a B-spline.
 #[derive(Debug, Clone)]
-pub(super) struct Curve {
-    axes: Box<[Axis]>,
+pub(super) struct SplineSpan {
+    axes: Box<[MovingAxis]>,
     length: f64,
 }
 
 /// One axis that moves along a span.
 #[derive(Debug, Clone, Copy)]
-struct Axis {
+struct MovingAxis {
     /// Its place among the axes of the machine.
     place: usize,
     /// Whether the feed refers to it.
@@ -58,7 +58,7 @@ pub(super) struct Along {
     growth: f64,
 }
 
-impl Axis {
+impl MovingAxis {
     fn position(&self, u: f64) -> f64 {
         let horner = |sum: f64, coefficient: &f64| sum * u + coefficient;
         self.cubic.iter().rev().fold(0.0, horner)
@@ -90,13 +90,13 @@ impl Axis {
     }
 }
 
-impl Curve {
+impl SplineSpan {
     /// The span with these control points, by axis; `None` where it is no curve with a length.
     pub(super) fn new(points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let [p, q, r, s] = points;
         let axis = |place: usize| {
             let (p, q, r, s) = (p[place], q[place], r[place], s[place]);
-            Axis {
+            MovingAxis {
                 place,
                 is_main: main[place],
                 cubic: [
@@ -191,7 +191,7 @@ impl Curve {
         self.along(u)
     }
 
-    fn axis(&self, axis: usize) -> Option<&Axis> {
+    fn axis(&self, axis: usize) -> Option<&MovingAxis> {
         self.axes.iter().find(|it| it.place == axis)
     }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 
 /// The shortest and the longest CNC cycle in ms.
 const SHORTEST_MS: f64 = 0.001;
@@ -12,7 +12,7 @@ const LONGEST_MS: f64 = 1000.0;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "a CNC cycle of {} ms is not possible; it must be between {SHORTEST_MS} and {LONGEST_MS} ms",
-    Shown(*.milliseconds)
+    ReadableNumber(*.milliseconds)
 )]
 #[non_exhaustive]
 pub struct CycleError {

@@ -1,7 +1,7 @@
 //! Block transitions: how fast one piece of the path may turn into the next (R5.2).
 
 use super::limits::AxisLimits;
-use super::segment::Segment;
+use super::segment::PathSegment;
 use super::share::{KINK_SHARE, Share};
 use frictcomp::interpreter::BlockEnd;
 
@@ -41,8 +41,8 @@ impl Junction {
     /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
     /// axis in that cycle.
     pub(super) fn between(
-        before: &Segment,
-        after: &Segment,
+        before: &PathSegment,
+        after: &PathSegment,
         limits: &[AxisLimits],
         cycle: f64,
     ) -> Self {

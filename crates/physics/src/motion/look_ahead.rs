@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 
 use super::junction::Junction;
 use super::limits::{AxisLimits, MachineLimits};
-use super::plan::{Stage, Stretch, plan};
+use super::plan::{PlanInput, ProfileSpan, plan};
 use super::profile::{Bounds, RampForm};
 use super::sampler::Sampler;
-use super::segment::Segment;
+use super::segment::PathSegment;
 use super::share::Share;
 use super::trace::{Dwell, Movement, TraceSink};
 use frictcomp::interpreter::BlockEnd;
@@ -25,7 +25,7 @@ pub(super) struct LookAhead {
     /// The path velocity at the start of the first segment in the queue.
     velocity: f64,
     /// Rest of the last plan.
-    left: Vec<Stretch>,
+    left: Vec<ProfileSpan>,
     sampler: Sampler,
     slow_kinks: u64,
 }
@@ -35,7 +35,7 @@ const REACHED: f64 = 0.8;
 
 /// A segment and the transition into it.
 struct Queued {
-    segment: Segment,
+    segment: PathSegment,
     entry: Junction,
     share: Share,
 }
@@ -53,15 +53,15 @@ impl LookAhead {
     }
 
     /// The path velocity along a segment at which one axis moves at its limit.
-    pub(super) fn fastest(&self, segment: &Segment) -> f64 {
+    pub(super) fn fastest(&self, segment: &PathSegment) -> f64 {
         segment.fastest(self.limits_of(segment))
     }
 
-    fn limits_of(&self, segment: &Segment) -> &[AxisLimits] {
+    fn limits_of(&self, segment: &PathSegment) -> &[AxisLimits] {
         self.limits.during(segment.cause.movement, segment.slope)
     }
 
-    fn ramps_of(&self, segment: &Segment) -> RampForm {
+    fn ramps_of(&self, segment: &PathSegment) -> RampForm {
         match self.limits.profile(segment.slope) {
             SlopeProfile::Sin2 => RampForm::SineSquared,
             _ => RampForm::Linear,
@@ -79,7 +79,11 @@ impl LookAhead {
     }
 
     /// Adds the next segment, which begins where the last one ends.
-    pub(super) fn add(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+    pub(super) fn add(
+        &mut self,
+        segment: PathSegment,
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
         let cycle = self.sampler.cycle();
         let entry = match self.queue.back() {
             Some(last) => {
@@ -117,11 +121,11 @@ impl LookAhead {
     }
 
     /// Whether a kink between feed moves slows the path down, and not the program.
-    fn is_slow(&self, entry: Junction, next: &Segment) -> bool {
+    fn is_slow(&self, entry: Junction, next: &PathSegment) -> bool {
         let Some(Queued { segment: last, .. }) = self.queue.back() else {
             return false;
         };
-        let is_feed = |segment: &Segment| segment.cause.movement == Movement::Feed;
+        let is_feed = |segment: &PathSegment| segment.cause.movement == Movement::Feed;
         let is_kink = entry.is_kink() || entry == Junction::Stop;
         is_kink
             && last.end == BlockEnd::Through
@@ -178,7 +182,7 @@ impl LookAhead {
 
     /// Returns the number of stretches in the first half of the queue; the next one is cut in two
     /// where that changes nothing.
-    fn cut(&self, stretches: &mut Vec<Stretch>) -> usize {
+    fn cut(&self, stretches: &mut Vec<ProfileSpan>) -> usize {
         let (mut kept, mut segments) = (0, 0);
         while let Some(stretch) = stretches.get(kept)
             && segments + stretch.segments <= CAPACITY / 2
@@ -196,8 +200,8 @@ impl LookAhead {
     }
 
     /// A plan for the whole queue.
-    fn plan(&mut self) -> Vec<Stretch> {
-        let stages: Vec<Stage> = self.queue.iter().map(|queued| self.stage(queued)).collect();
+    fn plan(&mut self) -> Vec<ProfileSpan> {
+        let stages: Vec<PlanInput> = self.queue.iter().map(|queued| self.stage(queued)).collect();
         if let Some(stretches) = plan(&stages, self.velocity) {
             return stretches;
         }
@@ -209,9 +213,9 @@ impl LookAhead {
         stretches
     }
 
-    fn stage(&self, queued: &Queued) -> Stage {
+    fn stage(&self, queued: &Queued) -> PlanInput {
         let segment = &queued.segment;
-        Stage {
+        PlanInput {
             length: segment.length,
             bounds: Bounds {
                 ramps: self.ramps_of(segment),
@@ -221,7 +225,7 @@ impl LookAhead {
         }
     }
 
-    fn follow(&mut self, stretches: &[Stretch], sink: &mut dyn TraceSink) -> ControlFlow<()> {
+    fn follow(&mut self, stretches: &[ProfileSpan], sink: &mut dyn TraceSink) -> ControlFlow<()> {
         for stretch in stretches {
             let segments = self
                 .queue

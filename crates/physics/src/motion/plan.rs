@@ -15,7 +15,7 @@ use super::profile::{Bounds, VelocityProfile, fits, reach};
 
 /// Inputs of the plan from a segment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stage {
+pub(super) struct PlanInput {
     pub(super) length: f64,
     pub(super) bounds: Bounds,
     /// The transition into it.
@@ -24,7 +24,7 @@ pub(super) struct Stage {
 
 /// One profile over one or several segments.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(super) struct ProfileSpan {
     /// Number of its segments.
     pub(super) segments: usize,
     pub(super) profile: VelocityProfile,
@@ -34,7 +34,7 @@ pub(super) struct Stretch {
     bounds: Bounds,
 }
 
-impl Stretch {
+impl ProfileSpan {
     fn new(start: f64, end: f64, span: &Interval, bounds: Bounds) -> Self {
         Self {
             segments: span.segments,
@@ -95,7 +95,7 @@ const ONE_BY_ONE: usize = 6;
 
 /// Plans a motion over all stages that begins with a velocity and ends at rest. `None` where the
 /// stages cannot be followed from that velocity.
-pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
+pub(super) fn plan(stages: &[PlanInput], start: f64) -> Option<Vec<ProfileSpan>> {
     let velocities = highest(stages, start);
     let envelope = Envelope { stages, velocities };
     let knots = envelope.knots();
@@ -136,7 +136,7 @@ pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
 
 /// The stages with the highest velocities at their transitions.
 struct Envelope<'a> {
-    stages: &'a [Stage],
+    stages: &'a [PlanInput],
     velocities: Vec<f64>,
 }
 
@@ -186,7 +186,7 @@ impl Envelope<'_> {
     }
 
     /// The profiles from knot to knot.
-    fn stretches(&self, knots: &[usize], start: f64) -> Option<Vec<Stretch>> {
+    fn stretches(&self, knots: &[usize], start: f64) -> Option<Vec<ProfileSpan>> {
         let spans = self.spans(knots);
         let first = spans.first()?;
         if !fits(start, first.end.min(start), first.length, &first.bounds) {
@@ -200,7 +200,7 @@ impl Envelope<'_> {
             };
             let end = span.end.min(reach(velocity, span.length, &bounds));
             let start = std::mem::replace(&mut velocity, end);
-            Stretch::new(start, end, span, bounds)
+            ProfileSpan::new(start, end, span, bounds)
         });
         Some(stretches.collect())
     }
@@ -221,7 +221,7 @@ impl Envelope<'_> {
     }
 
     /// The transitions that were no knots and are passed too fast.
-    fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[Stretch]) -> Vec<usize> {
+    fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[ProfileSpan]) -> Vec<usize> {
         let mut broken = Vec::new();
         let mut passed = passed.iter().copied().peekable();
         for (pair, stretch) in knots.windows(2).zip(stretches) {
@@ -247,7 +247,7 @@ impl Envelope<'_> {
 
 /// The highest velocities at the transitions, from the start to the rest at the end, that the
 /// accelerations allow.
-fn highest(stages: &[Stage], start: f64) -> Vec<f64> {
+fn highest(stages: &[PlanInput], start: f64) -> Vec<f64> {
     let mut velocities = vec![0.0; stages.len() + 1];
     for (at, stage) in stages.iter().enumerate().rev() {
         let ahead = velocities[at + 1];
@@ -261,7 +261,7 @@ fn highest(stages: &[Stage], start: f64) -> Vec<f64> {
 }
 
 /// The bound of the transition into a stage.
-fn bound(stages: &[Stage], at: usize) -> f64 {
+fn bound(stages: &[PlanInput], at: usize) -> f64 {
     let stage = &stages[at];
     let before = match at.checked_sub(1) {
         Some(before) => stages[before].bounds.velocity,
@@ -272,12 +272,12 @@ fn bound(stages: &[Stage], at: usize) -> f64 {
 }
 
 /// Whether the highest velocity of a transition is its bound.
-fn touches(stages: &[Stage], velocities: &[f64], at: usize) -> bool {
+fn touches(stages: &[PlanInput], velocities: &[f64], at: usize) -> bool {
     velocities[at] >= bound(stages, at) * (1.0 - TOUCH)
 }
 
 /// The velocity that a stage's acceleration makes of another one.
-fn gained(velocity: f64, stage: &Stage) -> f64 {
+fn gained(velocity: f64, stage: &PlanInput) -> f64 {
     (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
 }
 
@@ -292,7 +292,7 @@ struct Interval {
 }
 
 impl Interval {
-    fn new(stages: &[Stage], velocities: &[f64], knots: Range<usize>) -> Self {
+    fn new(stages: &[PlanInput], velocities: &[f64], knots: Range<usize>) -> Self {
         let (from, to) = (knots.start, knots.end);
         let mut span = Self {
             segments: to - from,

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use super::limits::MachineLimits;
 use super::look_ahead::LookAhead;
-use super::remarks::{At, Remark, Remarks};
+use super::remarks::{MotionRemark, MotionRemarks, RemarkPlace};
 use super::rounding::{Rounding, Transitions};
 use super::sampler::Sampler;
-use super::segment::{Ends, Segment};
+use super::segment::{Ends, PathSegment};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
-use frictcomp::interpreter::{Form, Motion, PathFeed, PositionFrame, SAME_PLACE, Travel};
+use frictcomp::interpreter::{Motion, PathFeed, PathForm, PositionFrame, SAME_PLACE, Travel};
 use frictcomp::machine::{Axis, Machine};
 use frictcomp::timeline::Row;
 
@@ -77,7 +77,7 @@ pub struct TrajectoryPlanner {
     left_out: u64,
     /// Those of them that are not known to be rapid.
     left_out_feed: u64,
-    remarks: Remarks,
+    remarks: MotionRemarks,
 }
 
 /// A difference, in mm or degrees, that rounding makes and no program.
@@ -89,7 +89,7 @@ fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
         .iter()
         .zip(to)
         .all(|(from, to)| (to - from).abs() < NOTHING);
-    stays && !matches!(travel.form, Form::Arc(_))
+    stays && !matches!(travel.form, PathForm::Arc(_))
 }
 
 /// Whether the path is known.
@@ -101,7 +101,7 @@ enum Running {
 }
 
 /// Why a motion cannot be followed.
-enum Obstacle {
+enum PlanObstacle {
     /// The positions of the axes before it are not known.
     Start,
     Reason(&'static str),
@@ -129,7 +129,7 @@ impl TrajectoryPlanner {
             has_lost: false,
             left_out: 0,
             left_out_feed: 0,
-            remarks: Remarks::default(),
+            remarks: MotionRemarks::default(),
             names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
         }
     }
@@ -153,12 +153,12 @@ impl TrajectoryPlanner {
     /// FC915 at the last block that moved something.
     fn check_budget(&mut self) {
         if self.path.look_ahead().is_over() {
-            let at = At {
+            let at = RemarkPlace {
                 file: &Arc::clone(&self.file),
                 text: &std::mem::take(&mut self.text),
                 line: self.line,
             };
-            let remark = Remark {
+            let remark = MotionRemark {
                 code: Code::Fc915,
                 message: "the trace is longer than its budget and ends here",
                 help: Advice::RaiseBudget(Budget::Cycles),
@@ -209,13 +209,13 @@ impl TrajectoryPlanner {
         let segment = self.segment(row, travel);
         let segment = match segment {
             Ok(segment) => segment,
-            Err(Obstacle::Start) if self.running == Running::No => {
+            Err(PlanObstacle::Start) if self.running == Running::No => {
                 self.note_before(row, travel);
                 self.leave_out(row, UNKNOWN_START, sink);
                 return ControlFlow::Continue(());
             }
-            Err(Obstacle::Start) => return self.lose(row, UNKNOWN_START, sink),
-            Err(Obstacle::Reason(reason)) => return self.lose(row, reason, sink),
+            Err(PlanObstacle::Start) => return self.lose(row, UNKNOWN_START, sink),
+            Err(PlanObstacle::Reason(reason)) => return self.lose(row, reason, sink),
         };
         let Some(segment) = segment else {
             if self.running == Running::Yes {
@@ -224,13 +224,13 @@ impl TrajectoryPlanner {
             return ControlFlow::Continue(());
         };
         if !row.modal.transformed.is_empty() {
-            let remark = Remark {
+            let remark = MotionRemark {
                 code: Code::Fc904,
                 message: "from here on the trace is that of the program, not of the machine: a \
                           transformation is active",
                 help: "the axes of the machine move differently".into(),
             };
-            self.remarks.say(&At::of(row), remark);
+            self.remarks.say(&RemarkPlace::of(row), remark);
         }
         let jumped = self.stand.iter().zip(&travel.from);
         if self.running == Running::Yes
@@ -290,19 +290,23 @@ impl TrajectoryPlanner {
     }
 
     /// The segment of a motion; `None` where nothing moves.
-    fn segment(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Segment>, Obstacle> {
-        if let Form::Unknown(reason) = travel.form {
-            return Err(Obstacle::Reason(reason));
+    fn segment(
+        &mut self,
+        row: &Row<'_>,
+        travel: &Travel,
+    ) -> Result<Option<PathSegment>, PlanObstacle> {
+        if let PathForm::Unknown(reason) = travel.form {
+            return Err(PlanObstacle::Reason(reason));
         }
         if self.unknown_at_start(travel).next().is_some() {
-            return Err(Obstacle::Start);
+            return Err(PlanObstacle::Start);
         }
         let feed = match travel.feed {
-            PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
+            PathFeed::Unknown(reason) => return Err(PlanObstacle::Reason(reason)),
             PathFeed::PerMinute(feed) | PathFeed::Seconds(feed) | PathFeed::OfAxes(feed)
                 if feed <= 0.0 =>
             {
-                return Err(Obstacle::Reason("F is not above 0"));
+                return Err(PlanObstacle::Reason("F is not above 0"));
             }
             feed => feed,
         };
@@ -312,7 +316,7 @@ impl TrajectoryPlanner {
             let (start, end) = match ends {
                 (Some(start), Some(end)) => (*start, *end),
                 (Some(_), None) => {
-                    return Err(Obstacle::Reason("its end is not known"));
+                    return Err(PlanObstacle::Reason("its end is not known"));
                 }
                 // It does not move: where it stands does not matter.
                 (None, _) => (0.0, 0.0),
@@ -332,7 +336,7 @@ impl TrajectoryPlanner {
             return Ok(None);
         }
         let movement = match travel.form {
-            Form::Rapid => Movement::Rapid,
+            PathForm::Rapid => Movement::Rapid,
             _ => Movement::Feed,
         };
         self.remarks.say_simplified(row, travel.simplified);
@@ -343,21 +347,23 @@ impl TrajectoryPlanner {
             main: &self.main,
         };
         let segment = match &travel.form {
-            Form::Arc(arc) => Some(Segment::arc(ends, arc, cause).map_err(Obstacle::Reason)?),
-            _ => Segment::line(ends, cause),
+            PathForm::Arc(arc) => {
+                Some(PathSegment::arc(ends, arc, cause).map_err(PlanObstacle::Reason)?)
+            }
+            _ => PathSegment::line(ends, cause),
         };
         let Some(mut segment) = segment else {
             return Ok(None);
         };
         if !segment.length.is_finite() {
-            return Err(Obstacle::Reason("it is too long to compute"));
+            return Err(PlanObstacle::Reason("it is too long to compute"));
         }
         segment.feed = match feed {
             PathFeed::PerMinute(feed) => feed / 60.0,
             PathFeed::Seconds(seconds) => segment.length / seconds,
             PathFeed::OfAxes(share) if share >= 1.0 => f64::INFINITY,
             PathFeed::OfAxes(share) => self.path.look_ahead().fastest(&segment) * share,
-            PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
+            PathFeed::Unknown(reason) => return Err(PlanObstacle::Reason(reason)),
         };
         segment.end = travel.end;
         segment.slope = travel.slope;
@@ -399,7 +405,7 @@ impl TrajectoryPlanner {
     fn leave_out(&mut self, row: &Row<'_>, reason: &'static str, sink: &mut dyn TraceSink) {
         self.left_out += 1;
         let is_rapid =
-            matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == Form::Rapid);
+            matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == PathForm::Rapid);
         self.left_out_feed += u64::from(!is_rapid);
         sink.left_out(&SkippedMotion {
             time_s: self.path.look_ahead().time_s(),

@@ -12,13 +12,13 @@ use frictcomp::timeline::Row;
 const MAX_NAMED: usize = 100;
 
 /// The place of a block.
-pub(super) struct At<'a> {
+pub(super) struct RemarkPlace<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
     pub(super) line: u32,
 }
 
-impl<'a> At<'a> {
+impl<'a> RemarkPlace<'a> {
     pub(super) fn of(row: &Row<'a>) -> Self {
         Self {
             file: row.file,
@@ -38,20 +38,20 @@ impl<'a> At<'a> {
 }
 
 /// Something to say about a block.
-pub(super) struct Remark<'a> {
+pub(super) struct MotionRemark<'a> {
     pub(super) code: Code,
     pub(super) message: &'a str,
     pub(super) help: Advice,
 }
 
 /// Key of a message: the code, file and line of a block, and its subject.
-type Key = (Code, Arc<str>, u32, &'static str);
+type RemarkKey = (Code, Arc<str>, u32, &'static str);
 
 /// Messages on motions, each once a place.
 #[derive(Default)]
-pub(super) struct Remarks {
+pub(super) struct MotionRemarks {
     diagnostics: Vec<Diagnostic>,
-    named: BTreeSet<Key>,
+    named: BTreeSet<RemarkKey>,
     /// Functions that the last motion was followed without.
     simplified: Simplifications,
     before: Option<BeforeTrace>,
@@ -66,7 +66,7 @@ struct BeforeTrace {
     axes: BTreeSet<String>,
 }
 
-impl Remarks {
+impl MotionRemarks {
     pub(super) fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
@@ -80,7 +80,7 @@ impl Remarks {
     /// change of the origin it would not help to know where they stood at the start.
     pub(super) fn note_before(&mut self, row: &Row<'_>, unknown: Vec<String>) {
         let before = self.before.get_or_insert_with(|| BeforeTrace {
-            place: At::of(row).place(),
+            place: RemarkPlace::of(row).place(),
             count: 0,
             axes: BTreeSet::new(),
         });
@@ -124,12 +124,12 @@ impl Remarks {
         for what in holds.without(self.simplified).iter() {
             let message = format!("the trace {}", what.instead());
             let key = (Code::Fc907, Arc::from(row.file), row.line, what.name());
-            let remark = Remark {
+            let remark = MotionRemark {
                 code: Code::Fc907,
                 message: &message,
                 help: Advice::ReadPage(Code::Fc907),
             };
-            self.say_once(key, &At::of(row), remark);
+            self.say_once(key, &RemarkPlace::of(row), remark);
         }
         self.simplified = holds;
     }
@@ -138,20 +138,20 @@ impl Remarks {
     pub(super) fn say_left_out(&mut self, row: &Row<'_>, reason: &str) {
         let message = format!("the trace leaves this motion out: {reason}");
         let key = (Code::Fc903, Arc::from(row.file), row.line, "");
-        let remark = Remark {
+        let remark = MotionRemark {
             code: Code::Fc903,
             message: &message,
             help: Advice::CompleteMotion,
         };
-        self.say_once(key, &At::of(row), remark);
+        self.say_once(key, &RemarkPlace::of(row), remark);
     }
 
     /// Something that holds for the rest of the program: only the first is said.
-    pub(super) fn say(&mut self, at: &At<'_>, remark: Remark<'_>) {
+    pub(super) fn say(&mut self, at: &RemarkPlace<'_>, remark: MotionRemark<'_>) {
         self.say_once((remark.code, Arc::from(""), 0, ""), at, remark);
     }
 
-    fn say_once(&mut self, key: Key, at: &At<'_>, remark: Remark<'_>) {
+    fn say_once(&mut self, key: RemarkKey, at: &RemarkPlace<'_>, remark: MotionRemark<'_>) {
         if self.named.len() < MAX_NAMED && self.named.insert(key) {
             let diagnostic = Diagnostic::new(remark.code, at.place(), remark.message);
             let diagnostic = diagnostic.with_help(remark.help);

@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::look_ahead::LookAhead;
-use super::segment::Segment;
-use super::smoothing::{Place, SmoothRun};
+use super::segment::PathSegment;
+use super::smoothing::{AxisPositions, SmoothRun};
 use super::trace::{Cause, Dwell, Movement, TraceSink};
 use frictcomp::interpreter::{BlockEnd, Contouring, Joining};
 
@@ -56,7 +56,7 @@ pub struct Transitions {
 }
 
 /// Passage of a transition.
-enum Passage {
+enum CornerPassage {
     /// As it is.
     Kink,
     /// The blocks are part of one curve.
@@ -90,7 +90,7 @@ pub(super) struct Rounding {
 
 /// A straight block.
 struct Straight {
-    segment: Segment,
+    segment: PathSegment,
     contouring: Option<Contouring>,
 }
 
@@ -122,7 +122,7 @@ impl Rounding {
     /// Adds the next segment, and how the transition after it is rounded.
     pub(super) fn add(
         &mut self,
-        (segment, contouring): (Segment, Option<Contouring>),
+        (segment, contouring): (PathSegment, Option<Contouring>),
         sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         let is_line = segment.is_straight() && segment.cause.movement == Movement::Feed;
@@ -142,11 +142,11 @@ impl Rounding {
             return ControlFlow::Continue(());
         };
         match self.passage(last, &next.segment) {
-            Passage::Kink => {
+            CornerPassage::Kink => {
                 self.flush(None, sink)?;
                 self.begin(next, None);
             }
-            Passage::Joined { sagitta } => {
+            CornerPassage::Joined { sagitta } => {
                 self.transitions.joined += 1;
                 note(&mut self.transitions.sagitta, sagitta, &next.segment.cause);
                 self.run.push(next.segment.ends().into());
@@ -155,7 +155,7 @@ impl Rounding {
                     self.hand_on_span(sink)?;
                 }
             }
-            Passage::Corner(corner) => {
+            CornerPassage::Corner(corner) => {
                 self.transitions.rounded += 1;
                 note(
                     &mut self.transitions.rounding,
@@ -184,7 +184,7 @@ impl Rounding {
     }
 
     /// Begins a run with a block, at its start or farther on.
-    fn begin(&mut self, block: Straight, from: Option<Place>) {
+    fn begin(&mut self, block: Straight, from: Option<AxisPositions>) {
         let start = from.unwrap_or_else(|| block.segment.starts().into());
         self.run.begin(start);
         self.run.push(block.segment.ends().into());
@@ -203,7 +203,7 @@ impl Rounding {
             return ControlFlow::Continue(());
         };
         let before = last.segment.clone();
-        let along = |segment: &Segment, from: &[f64], part: f64| -> Place {
+        let along = |segment: &PathSegment, from: &[f64], part: f64| -> AxisPositions {
             let way = part * corner.reach / segment.length;
             let ends = segment.starts().iter().zip(segment.ends());
             let steps = ends.map(|(start, end)| way * (end - start));
@@ -232,7 +232,7 @@ impl Rounding {
     }
 
     /// Hands the rest of the run on, which ends at its last vertex or before it.
-    fn flush(&mut self, end: Option<Place>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+    fn flush(&mut self, end: Option<AxisPositions>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         if self.blocks.is_empty() {
             return ControlFlow::Continue(());
         }
@@ -267,14 +267,14 @@ impl Rounding {
         }
     }
 
-    fn hand_on(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+    fn hand_on(&mut self, segment: PathSegment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.look_ahead.add(segment, sink)
     }
 
     /// Returns the passage of the transition from the last block to the next one.
-    fn passage(&self, last: &Straight, next: &Segment) -> Passage {
+    fn passage(&self, last: &Straight, next: &PathSegment) -> CornerPassage {
         let Some(contouring) = &last.contouring else {
-            return Passage::Kink;
+            return CornerPassage::Kink;
         };
         let main = || (0..self.main.len()).filter(|axis| self.main[*axis]);
         let directions = [&last.segment, next].map(|segment| {
@@ -287,7 +287,7 @@ impl Rounding {
             sine += (two(axis) - one(axis)).powi(2);
         }
         if cosine == 0.0 && sine == 0.0 {
-            return Passage::Kink;
+            return CornerPassage::Kink;
         }
         // Twice the sine of half the angle.
         let chord = sine.sqrt();
@@ -312,11 +312,11 @@ impl Rounding {
             _ => kink <= FINE_KINK && bow <= FINE.min(4.0 * tolerance),
         };
         if joins && is_even && tolerance > 0.0 && beside <= 4.0 * tolerance {
-            return Passage::Joined { sagitta };
+            return CornerPassage::Joined { sagitta };
         }
         let angle = contouring.max_angle_deg.map_or(TURNS_BACK, f64::to_radians);
         if kink < STRAIGHT || kink > angle.min(TURNS_BACK) {
-            return Passage::Kink;
+            return CornerPassage::Kink;
         }
         // The spline is a sixth of the difference of its neighbours from the corner.
         let part = chord / 6.0;
@@ -329,9 +329,9 @@ impl Rounding {
                 f64::INFINITY
             });
         if reach <= 0.0 {
-            return Passage::Kink;
+            return CornerPassage::Kink;
         }
-        Passage::Corner(Corner {
+        CornerPassage::Corner(Corner {
             reach,
             departure: reach * part,
         })

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::profile::VelocityProfile;
-use super::segment::Segment;
+use super::segment::PathSegment;
 use super::trace::{Cause, Dwell, Sample, TraceSink};
 use frictcomp::comp::AxisIndex;
 
@@ -65,7 +65,7 @@ impl Sampler {
     /// Follows segments with a profile that spans them.
     pub(super) fn follow(
         &mut self,
-        segments: impl Iterator<Item = Segment>,
+        segments: impl Iterator<Item = PathSegment>,
         profile: &VelocityProfile,
         sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {

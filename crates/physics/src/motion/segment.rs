@@ -2,7 +2,7 @@
 
 use std::sync::Arc as Shared;
 
-use super::curve::Curve;
+use super::curve::SplineSpan;
 use super::limits::AxisLimits;
 use super::profile::{Bounds, RampForm};
 use super::share::Share;
@@ -22,10 +22,10 @@ const NO_SLOPE: f64 = 1e-12;
 
 /// A piece of the path.
 #[derive(Debug, Clone)]
-pub(super) struct Segment {
+pub(super) struct PathSegment {
     from: Box<[f64]>,
     to: Box<[f64]>,
-    shape: Shape,
+    shape: SegmentShape,
     /// The distance along the path that the feed refers to, in mm or degrees.
     pub(super) length: f64,
     /// The highest path velocity that the program asks for.
@@ -40,15 +40,15 @@ pub(super) struct Segment {
 
 /// Shape of a segment.
 #[derive(Debug, Clone)]
-enum Shape {
+enum SegmentShape {
     Line,
-    Arc(Circle),
-    Curve(Box<Curve>),
+    Arc(PlaneArc),
+    Curve(Box<SplineSpan>),
 }
 
 /// An arc in the plane of two axes.
 #[derive(Debug, Clone, Copy)]
-struct Circle {
+struct PlaneArc {
     axes: [usize; 2],
     centre: [f64; 2],
     radius: f64,
@@ -66,7 +66,7 @@ pub(super) struct Ends<'a> {
     pub(super) main: &'a [bool],
 }
 
-impl Segment {
+impl PathSegment {
     /// A straight segment; `None` where nothing moves.
     pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
         let way = |main: bool| {
@@ -85,7 +85,7 @@ impl Segment {
         if length == 0.0 {
             return None;
         }
-        Some(Self::new(ends, Shape::Line, length, cause))
+        Some(Self::new(ends, SegmentShape::Line, length, cause))
     }
 
     /// An arc or a helix.
@@ -98,13 +98,13 @@ impl Segment {
         cause: Shared<Cause>,
     ) -> Result<Self, &'static str> {
         let axes = arc.axes.map(frictcomp::comp::AxisIndex::get);
-        let circle = Circle::new(axes, &ends.from, &ends.to, arc)?;
+        let circle = PlaneArc::new(axes, &ends.from, &ends.to, arc)?;
         let depth = (0..ends.from.len())
             .filter(|axis| ends.main[*axis] && !axes.contains(axis))
             .map(|axis| ends.to[axis] - ends.from[axis])
             .fold(0.0, f64::hypot);
         let length = (circle.radius * circle.sweep).hypot(depth);
-        Ok(Self::new(ends, Shape::Arc(circle), length, cause))
+        Ok(Self::new(ends, SegmentShape::Arc(circle), length, cause))
     }
 
     /// The same block along other lines: from one place to another, straight.
@@ -120,7 +120,7 @@ impl Segment {
 
     /// The same block along the span of a B-spline with these control points.
     pub(super) fn curved(&self, points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
-        let curve = Curve::new(points, main)?;
+        let curve = SplineSpan::new(points, main)?;
         let place = |along| {
             let still = points[1];
             (0..still.len())
@@ -133,7 +133,7 @@ impl Segment {
             main,
         };
         let length = curve.length();
-        let shape = Shape::Curve(Box::new(curve));
+        let shape = SegmentShape::Curve(Box::new(curve));
         Some(Self::new(ends, shape, length, Shared::clone(&self.cause)).paced_as(self))
     }
 
@@ -149,18 +149,18 @@ impl Segment {
 
     /// Whether it is straight.
     pub(super) fn is_straight(&self) -> bool {
-        matches!(self.shape, Shape::Line)
+        matches!(self.shape, SegmentShape::Line)
     }
 
     /// The arc that it is.
-    fn circle(&self) -> Option<&Circle> {
+    fn circle(&self) -> Option<&PlaneArc> {
         match &self.shape {
-            Shape::Arc(circle) => Some(circle),
+            SegmentShape::Arc(circle) => Some(circle),
             _ => None,
         }
     }
 
-    fn new(ends: Ends<'_>, shape: Shape, length: f64, cause: Shared<Cause>) -> Self {
+    fn new(ends: Ends<'_>, shape: SegmentShape, length: f64, cause: Shared<Cause>) -> Self {
         Self {
             from: ends.from,
             to: ends.to,
@@ -200,7 +200,7 @@ impl Segment {
 
     /// Returns the position of an axis after a distance along the segment, and its slope there.
     pub(super) fn place(&self, axis: usize, distance: f64) -> [f64; 2] {
-        if let Shape::Curve(curve) = &self.shape
+        if let SegmentShape::Curve(curve) = &self.shape
             && distance > 0.0
             && distance < self.length
         {
@@ -220,7 +220,7 @@ impl Segment {
         if distance >= self.length {
             return self.to[axis];
         }
-        if let Shape::Curve(curve) = &self.shape {
+        if let SegmentShape::Curve(curve) = &self.shape {
             let along = curve.after(distance);
             return curve.position(axis, along).unwrap_or(self.from[axis]);
         }
@@ -242,8 +242,8 @@ impl Segment {
     /// The change of the position of an axis with the distance, `dx/ds`, after a distance.
     pub(super) fn slope(&self, axis: usize, distance: f64) -> f64 {
         let slope = match &self.shape {
-            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[0],
-            Shape::Arc(circle) if circle.axes.contains(&axis) => {
+            SegmentShape::Curve(curve) => curve.shape(axis, curve.after(distance))[0],
+            SegmentShape::Arc(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.radius * circle.sweep / self.length;
                 if axis == circle.axes[0] {
@@ -260,8 +260,8 @@ impl Segment {
     /// The change of the slope of an axis with the distance, `d²x/ds²`.
     pub(super) fn bend(&self, axis: usize, distance: f64) -> f64 {
         match &self.shape {
-            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[1],
-            Shape::Arc(circle) if circle.axes.contains(&axis) => {
+            SegmentShape::Curve(curve) => curve.shape(axis, curve.after(distance))[1],
+            SegmentShape::Arc(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.sweep / self.length;
                 let share = if axis == circle.axes[0] {
@@ -286,7 +286,7 @@ impl Segment {
             curve_jerk: f64::INFINITY,
             ramps: RampForm::default(),
         };
-        if let Shape::Curve(curve) = &self.shape {
+        if let SegmentShape::Curve(curve) = &self.shape {
             curve.restrict(&mut bounds, (limits, share));
             return bounds;
         }
@@ -317,7 +317,7 @@ impl Segment {
     }
 }
 
-impl Circle {
+impl PlaneArc {
     fn new(
         axes: [usize; 2],
         from: &[f64],

@@ -33,20 +33,20 @@ fn weights(half: usize) -> Vec<f64> {
 }
 
 /// Positions of axes.
-pub(super) type Place = Box<[f64]>;
+pub(super) type AxisPositions = Box<[f64]>;
 
 /// The vertices of a run of short lines, of which control points are made as it goes on.
 #[derive(Debug)]
 pub(super) struct SmoothRun {
     weights: Vec<Vec<f64>>,
     /// The vertices that still matter.
-    vertices: VecDeque<Place>,
+    vertices: VecDeque<AxisPositions>,
     /// The number of the first of them in the run.
     first: usize,
     /// The number of the last vertex, once it is known.
     last: Option<usize>,
     /// The smooth vertices around the newest span.
-    smooth: VecDeque<Place>,
+    smooth: VecDeque<AxisPositions>,
     /// The number of the first of them in the run.
     first_smooth: usize,
 }
@@ -64,7 +64,7 @@ impl SmoothRun {
     }
 
     /// Begins a run at its first vertex.
-    pub(super) fn begin(&mut self, vertex: Place) {
+    pub(super) fn begin(&mut self, vertex: AxisPositions) {
         self.vertices.clear();
         self.vertices.push_back(vertex);
         self.smooth.clear();
@@ -72,7 +72,7 @@ impl SmoothRun {
     }
 
     /// Adds the next vertex.
-    pub(super) fn push(&mut self, vertex: Place) {
+    pub(super) fn push(&mut self, vertex: AxisPositions) {
         self.vertices.push_back(vertex);
     }
 
@@ -82,7 +82,7 @@ impl SmoothRun {
     }
 
     /// Ends the run at another place than its newest vertex.
-    pub(super) fn end(&mut self, vertex: Option<Place>) {
+    pub(super) fn end(&mut self, vertex: Option<AxisPositions>) {
         if let (Some(vertex), Some(newest)) = (vertex, self.vertices.back_mut()) {
             *newest = vertex;
         }
@@ -95,13 +95,13 @@ impl SmoothRun {
         self.last.is_some() || span + 4 + WIDEST <= self.newest()
     }
 
-    pub(super) fn vertex(&self, number: usize) -> &Place {
+    pub(super) fn vertex(&self, number: usize) -> &AxisPositions {
         let at = number.saturating_sub(self.first);
         &self.vertices[at.min(self.vertices.len() - 1)]
     }
 
     /// The four control points of the span after a vertex, which is never before that of the last call.
-    pub(super) fn span(&mut self, number: usize) -> [Place; 4] {
+    pub(super) fn span(&mut self, number: usize) -> [AxisPositions; 4] {
         self.smooth_around(number);
         let before = match number.checked_sub(1) {
             Some(before) => self.control(before),
@@ -129,7 +129,7 @@ impl SmoothRun {
     }
 
     /// A control point: the smooth vertex, so far beyond it that the spline passes through it.
-    fn control(&self, number: usize) -> Place {
+    fn control(&self, number: usize) -> AxisPositions {
         let smooth = |number: usize| &self.smooth[number - self.first_smooth];
         let own = smooth(number);
         let inner = number >= 2 && self.last.is_none_or(|last| number + 2 <= last);
@@ -154,11 +154,11 @@ impl SmoothRun {
         }
     }
 
-    fn weighed(&self, number: usize) -> Place {
+    fn weighed(&self, number: usize) -> AxisPositions {
         let rest = self.last.map_or(WIDEST, |last| last.saturating_sub(number));
         let half = WIDEST.min(number).min(rest);
         let own = self.vertex(number);
-        let mut smooth: Place = own.iter().map(|x| x * self.weights[half][0]).collect();
+        let mut smooth: AxisPositions = own.iter().map(|x| x * self.weights[half][0]).collect();
         for (at, weight) in self.weights[half].iter().enumerate().skip(1) {
             let sides = [self.vertex(number - at), self.vertex(number + at)];
             for (axis, sum) in smooth.iter_mut().enumerate() {
@@ -170,7 +170,7 @@ impl SmoothRun {
 }
 
 /// The place beyond the end of a path, as far away as another one before it.
-fn mirrored(end: &Place, before: &Place) -> Place {
+fn mirrored(end: &AxisPositions, before: &AxisPositions) -> AxisPositions {
     let axes = end.iter().zip(before.iter());
     axes.map(|(end, before)| 2.0 * end - before).collect()
 }

@@ -2,14 +2,14 @@
 
 /// A dead zone: the load follows the motor only when the play is used up.
 #[derive(Debug, Clone)]
-pub(super) struct Coupling {
+pub(super) struct DeadZone {
     /// Half of the play in m.
     half: f64,
     /// Position of the load in m.
     load: f64,
 }
 
-impl Coupling {
+impl DeadZone {
     /// A coupling with so much play in m whose motor has driven the load for a long time; at
     /// standstill the load is in the middle.
     pub(super) fn settled(play: f64, position: f64, velocity: f64) -> Self {
@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn the_load_stays_until_the_play_is_used_up() {
         // R5.27
-        let mut coupling = Coupling::settled(8e-6, 0.0, 1.0);
+        let mut coupling = DeadZone::settled(8e-6, 0.0, 1.0);
         let places = [0.0, 10e-6, 6e-6, 2e-6, 0.0].map(|position| coupling.follow(position));
         let expected = [-4e-6, 6e-6, 6e-6, 6e-6, 4e-6];
         for (place, expected) in places.into_iter().zip(expected) {
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn without_play_the_load_is_where_the_motor_is() {
-        let mut coupling = Coupling::settled(0.0, 0.1, -1.0);
+        let mut coupling = DeadZone::settled(0.0, 0.1, -1.0);
         for position in [0.1, 0.100_000_3, -7.0] {
             assert_eq!(coupling.follow(position).to_bits(), position.to_bits());
         }

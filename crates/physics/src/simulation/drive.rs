@@ -1,7 +1,7 @@
 //! One feed drive: position loop, speed loop, current loop, mass and contact (chapter 5.2).
 
 use super::clock::{SPEED_LOOP_S, STEP_S};
-use super::coupling::Coupling;
+use super::coupling::DeadZone;
 use super::friction::{Contact, FrictionModel, Push};
 use super::parameters::DriveParameters;
 use super::stiction::Stiction;
@@ -25,7 +25,7 @@ pub struct Setpoint {
 pub struct Drive {
     parameters: DriveParameters,
     contact: Contact,
-    coupling: Coupling,
+    coupling: DeadZone,
     /// Stiction compensation, where it acts.
     stiction: Option<Stiction>,
     /// Position of the motor in m; the position loop measures it.
@@ -62,7 +62,7 @@ impl Drive {
         let force = friction.steady_n(setpoint.velocity_m_per_s);
         Self {
             contact: Contact::settled(friction, model, setpoint.velocity_m_per_s),
-            coupling: Coupling::settled(
+            coupling: DeadZone::settled(
                 parameters.backlash_m,
                 setpoint.position_m,
                 setpoint.velocity_m_per_s,

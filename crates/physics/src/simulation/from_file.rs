@@ -7,7 +7,7 @@ use super::friction::GmsElement;
 use super::parameters::DriveParameters;
 use super::plant::{Plant, Preset, UnknownPreset};
 use super::plant_file::{DriveTable, PlantFile, StictionTable};
-use super::plant_keys::{Quantity, StictionKey};
+use super::plant_keys::{PlantQuantity, StictionKey};
 use crate::stiction::StictionParameters;
 use frictcomp::config::ConfigError;
 use frictcomp::diagnostic::Advice;
@@ -56,16 +56,16 @@ fn base(name: &Given<String>) -> Result<Preset, ConfigError> {
 /// formula follows from the new ones, unless it is written itself.
 fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParameters, ConfigError> {
     let mut drive = drive.clone();
-    if let Some(mass) = table.number(Quantity::Mass) {
+    if let Some(mass) = table.number(PlantQuantity::Mass) {
         drive.set_mass(mass);
     }
-    if let Some(force) = table.number(Quantity::RatedForce) {
+    if let Some(force) = table.number(PlantQuantity::RatedForce) {
         drive.set_rated_force(force);
     }
-    if let Some(stiffness) = table.number(Quantity::Stiffness) {
+    if let Some(stiffness) = table.number(PlantQuantity::Stiffness) {
         drive.set_stiffness(stiffness);
     }
-    if let Some(micrometres) = table.number(Quantity::Backlash) {
+    if let Some(micrometres) = table.number(PlantQuantity::Backlash) {
         drive.backlash_m = micrometres * 1e-6;
     }
     for (quantity, number) in table.numbers() {
@@ -119,27 +119,27 @@ fn compensated(
 }
 
 /// The parameter that a number is; `None` where others follow from it or it has another unit.
-pub(super) fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64> {
+pub(super) fn parameter(drive: &mut DriveParameters, quantity: PlantQuantity) -> Option<&mut f64> {
     let friction = &mut drive.friction;
     Some(match quantity {
-        Quantity::Mass => &mut drive.mass_kg,
-        Quantity::PositionGain => &mut drive.position_gain_per_s,
-        Quantity::SpeedGain => &mut drive.speed_gain_n_s_per_m,
-        Quantity::IntegralTime => &mut drive.integral_time_s,
-        Quantity::CurrentTime => &mut drive.current_time_s,
-        Quantity::VelocityForward => &mut drive.velocity_forward,
-        Quantity::AccelerationForward => &mut drive.acceleration_forward,
-        Quantity::ForcePerUnit => &mut drive.force_per_unit_n,
-        Quantity::RatedForce | Quantity::Backlash => return None,
-        Quantity::MaxForce => &mut drive.max_force_n,
-        Quantity::Coulomb => &mut friction.coulomb_n,
-        Quantity::Breakaway => &mut friction.breakaway_n,
-        Quantity::StribeckVelocity => &mut friction.stribeck_velocity_m_per_s,
-        Quantity::Viscous => &mut friction.viscous_n_s_per_m,
-        Quantity::StribeckShape => &mut friction.shape,
-        Quantity::Stiffness => &mut friction.stiffness_n_per_m,
-        Quantity::Damping => &mut friction.damping_n_s_per_m,
-        Quantity::DampingVelocity => &mut friction.damping_velocity_m_per_s,
+        PlantQuantity::Mass => &mut drive.mass_kg,
+        PlantQuantity::PositionGain => &mut drive.position_gain_per_s,
+        PlantQuantity::SpeedGain => &mut drive.speed_gain_n_s_per_m,
+        PlantQuantity::IntegralTime => &mut drive.integral_time_s,
+        PlantQuantity::CurrentTime => &mut drive.current_time_s,
+        PlantQuantity::VelocityForward => &mut drive.velocity_forward,
+        PlantQuantity::AccelerationForward => &mut drive.acceleration_forward,
+        PlantQuantity::ForcePerUnit => &mut drive.force_per_unit_n,
+        PlantQuantity::RatedForce | PlantQuantity::Backlash => return None,
+        PlantQuantity::MaxForce => &mut drive.max_force_n,
+        PlantQuantity::Coulomb => &mut friction.coulomb_n,
+        PlantQuantity::Breakaway => &mut friction.breakaway_n,
+        PlantQuantity::StribeckVelocity => &mut friction.stribeck_velocity_m_per_s,
+        PlantQuantity::Viscous => &mut friction.viscous_n_s_per_m,
+        PlantQuantity::StribeckShape => &mut friction.shape,
+        PlantQuantity::Stiffness => &mut friction.stiffness_n_per_m,
+        PlantQuantity::Damping => &mut friction.damping_n_s_per_m,
+        PlantQuantity::DampingVelocity => &mut friction.damping_velocity_m_per_s,
     })
 }
 
@@ -150,7 +150,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
     if friction.coulomb_n <= 0.0 && friction.breakaway_n > 0.0 {
         let message = "`Fs` without `Fc`: nothing is left to slide against".to_owned();
         return refuse(
-            Quantity::Coulomb,
+            PlantQuantity::Coulomb,
             message,
             "write both, or 0 for both".into(),
         );
@@ -161,7 +161,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             friction.breakaway_n, friction.coulomb_n
         );
         let help = "the breakaway friction is at least the Coulomb friction";
-        return refuse(Quantity::Breakaway, message, help.into());
+        return refuse(PlantQuantity::Breakaway, message, help.into());
     }
     // Both limits are those of the explicit step, which cannot follow a contact that swings faster.
     let most = drive.mass_kg / (STEP_S * STEP_S);
@@ -171,7 +171,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             friction.stiffness_n_per_m, drive.mass_kg
         );
         let help = format!("`sigma0` is at most {most:.3e} here");
-        return refuse(Quantity::Stiffness, message, help.into());
+        return refuse(PlantQuantity::Stiffness, message, help.into());
     }
     let most = drive.mass_kg / STEP_S;
     let damping = friction.damping_n_s_per_m + friction.viscous_n_s_per_m;
@@ -182,7 +182,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             drive.mass_kg
         );
         let help = format!("`sigma1` + `fv` is at most {most:.3e} here");
-        return refuse(Quantity::Damping, message, help.into());
+        return refuse(PlantQuantity::Damping, message, help.into());
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 
-use super::plant_keys::{self as keys, Facts, Quantity, StictionKey};
+use super::plant_keys::{self as keys, KeyFacts, PlantQuantity, StictionKey};
 use frictcomp::config::{ConfigError, Section, Shape};
 use frictcomp::diagnostic::Advice;
 use frictcomp::lists::{Given, Number, Written};
@@ -26,7 +26,7 @@ pub(super) struct PlantFile {
 /// The values of a drive that a table has, each within its range.
 #[derive(Debug, Clone)]
 pub(super) struct DriveTable {
-    numbers: Vec<(Quantity, Given<f64>)>,
+    numbers: Vec<(PlantQuantity, Given<f64>)>,
     /// Rate at which slipping elements follow the friction.
     pub(super) attraction: Option<f64>,
     /// The share and the stiffness in N/m of each element of the Maxwell-slip model.
@@ -89,9 +89,9 @@ impl PlantFile {
 impl DriveTable {
     fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
         let mut numbers = Vec::new();
-        for quantity in Quantity::ALL {
+        for quantity in PlantQuantity::ALL {
             let help = match quantity {
-                Quantity::Backlash => "backlash is the width of the dead zone, 0 without one",
+                PlantQuantity::Backlash => "backlash is the width of the dead zone, 0 without one",
                 _ => "all values are in SI units: kg, N, m, s",
             };
             if let Some(number) = number(table, &quantity.facts(), help)? {
@@ -108,27 +108,27 @@ impl DriveTable {
             },
             whole: table.whole(),
         };
-        let either = [Quantity::RatedForce, Quantity::ForcePerUnit];
+        let either = [PlantQuantity::RatedForce, PlantQuantity::ForcePerUnit];
         if either
             .iter()
             .all(|&quantity| read.number(quantity).is_some())
         {
             let message = "`k_I` and `rated_force` mean the same".to_owned();
             let help = "`k_I` is `rated_force` / 1000; remove one of them";
-            return Err(read.refuse(Quantity::ForcePerUnit, message, help));
+            return Err(read.refuse(PlantQuantity::ForcePerUnit, message, help));
         }
         Ok(read)
     }
 
     /// The numbers of the table.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = (Quantity, f64)> {
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (PlantQuantity, f64)> {
         self.numbers
             .iter()
             .map(|(quantity, given)| (*quantity, given.value))
     }
 
     /// A number of the table.
-    pub(super) fn number(&self, quantity: Quantity) -> Option<f64> {
+    pub(super) fn number(&self, quantity: PlantQuantity) -> Option<f64> {
         self.numbers()
             .find_map(|(other, number)| (other == quantity).then_some(number))
     }
@@ -136,7 +136,7 @@ impl DriveTable {
     /// The error about a number, at its place, or at the table without it.
     pub(super) fn refuse(
         &self,
-        quantity: Quantity,
+        quantity: PlantQuantity,
         message: String,
         help: impl Into<Advice>,
     ) -> ConfigError {
@@ -167,10 +167,10 @@ impl StictionTable {
 /// The number of a key within its range; `None` without the key.
 fn number(
     table: &Section<'_>,
-    facts: &Facts,
+    facts: &KeyFacts,
     help: &'static str,
 ) -> Result<Option<Given<f64>>, ConfigError> {
-    let Facts { key, unit, range } = *facts;
+    let KeyFacts { key, unit, range } = *facts;
     let Some(place) = table.given(key) else {
         return Ok(None);
     };

@@ -19,7 +19,7 @@ pub(super) const MAX_ELEMENTS: usize = 20;
 
 /// A key whose value is one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(super) enum PlantQuantity {
     /// The moved mass; the gain of the speed loop and the damping of the contact follow from it.
     Mass,
     PositionGain,
@@ -63,7 +63,7 @@ pub(super) enum StictionKey {
 
 /// Facts about a key.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Facts {
+pub(super) struct KeyFacts {
     /// The symbol of the equations.
     pub(super) key: &'static str,
     /// Its unit, empty where it has none; except in `[stiction]` and for backlash those of SI.
@@ -73,7 +73,7 @@ pub(super) struct Facts {
     pub(super) range: [f64; 2],
 }
 
-impl Quantity {
+impl PlantQuantity {
     pub(super) const ALL: [Self; 19] = [
         Self::Mass,
         Self::PositionGain,
@@ -96,7 +96,7 @@ impl Quantity {
         Self::Backlash,
     ];
 
-    pub(super) const fn facts(self) -> Facts {
+    pub(super) const fn facts(self) -> KeyFacts {
         let (key, unit, range) = match self {
             Self::Mass => ("m", "kg", [0.01, 1e6]),
             Self::PositionGain => ("Kv", "1/s", [0.1, 2000.0]),
@@ -118,7 +118,7 @@ impl Quantity {
             Self::DampingVelocity => ("vd", "m/s", [1e-6, 10.0]),
             Self::Backlash => ("backlash_um", "µm", [0.0, 1000.0]),
         };
-        Facts { key, unit, range }
+        KeyFacts { key, unit, range }
     }
 }
 
@@ -132,7 +132,7 @@ impl StictionKey {
     ];
 
     /// The units are those of the manual; only MP1511 has a documented range (R8.3).
-    pub(super) const fn facts(self) -> Facts {
+    pub(super) const fn facts(self) -> KeyFacts {
         let (key, unit, range) = match self {
             Self::Factor => ("mp1511", "µs", [0.0, 16_777_215.0]),
             Self::Limit => ("mp1512", "counting steps", [0.0, 1e6]),
@@ -140,7 +140,7 @@ impl StictionKey {
             Self::Cycle => ("tc", "µs", [250.0, 1e5]),
             Self::Feed => ("mp1513", "m/min", [0.0, 1000.0]),
         };
-        Facts { key, unit, range }
+        KeyFacts { key, unit, range }
     }
 }
 
@@ -159,14 +159,14 @@ pub(super) const BASE: &str = "base";
 /// The table of each axis.
 pub(super) const AXES: [&str; 2] = ["x", "y"];
 
-const COUNT: usize = Quantity::ALL.len() + 3;
+const COUNT: usize = PlantQuantity::ALL.len() + 3;
 
 /// The keys of `[x]` and `[y]`.
 pub(super) const AXIS_KEYS: [&str; COUNT] = {
     let mut keys = [""; COUNT];
     let mut at = 0;
-    while at < Quantity::ALL.len() {
-        keys[at] = Quantity::ALL[at].facts().key;
+    while at < PlantQuantity::ALL.len() {
+        keys[at] = PlantQuantity::ALL[at].facts().key;
         at += 1;
     }
     keys[COUNT - 3] = ELEMENTS;
@@ -204,7 +204,7 @@ pub(super) const FILE: &str = "plant";
 pub(super) const AXIS_TABLE: &str = "[x] and [y]";
 pub(super) const STICTION_TABLE: &str = "[stiction]";
 
-const fn of(facts: Facts) -> KeyForm {
+const fn of(facts: KeyFacts) -> KeyForm {
     KeyForm {
         key: facts.key,
         form: Form::Within(facts.range),
@@ -219,8 +219,8 @@ const fn key(key: &'static str, form: Form, meaning: &'static str) -> KeyForm {
 const AXIS_FORMS: [KeyForm; COUNT] = {
     let mut forms = [key("", Form::Text, ""); COUNT];
     let mut at = 0;
-    while at < Quantity::ALL.len() {
-        forms[at] = of(Quantity::ALL[at].facts());
+    while at < PlantQuantity::ALL.len() {
+        forms[at] = of(PlantQuantity::ALL[at].facts());
         at += 1;
     }
     let elements = "share and stiffness in N/m of each element";

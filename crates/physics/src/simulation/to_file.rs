@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::from_file::parameter;
 use super::parameters::DriveParameters;
 use super::plant::Plant;
-use super::plant_keys::{ATTRACTION, AXES, ELEMENTS, Quantity};
+use super::plant_keys::{ATTRACTION, AXES, ELEMENTS, PlantQuantity};
 
 impl Plant {
     /// The plant file that gives the same plant, but for stiction compensation and friction that differs
@@ -26,9 +26,9 @@ impl Plant {
 fn table(drive: &DriveParameters) -> String {
     let mut drive = drive.clone();
     let mut out = String::new();
-    for quantity in Quantity::ALL {
+    for quantity in PlantQuantity::ALL {
         let value = match quantity {
-            Quantity::Backlash => Some(drive.backlash_m * 1e6),
+            PlantQuantity::Backlash => Some(drive.backlash_m * 1e6),
             _ => parameter(&mut drive, quantity).copied(),
         };
         let facts = quantity.facts();

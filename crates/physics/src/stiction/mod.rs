@@ -15,4 +15,4 @@ pub use formula::{FORMULAS, Formula};
 pub use guideline::{Guideline, MP1511_GUIDELINE_US, MP1511_RANGE_US, MP1512_GUIDELINE};
 pub use parameters::StictionParameters;
 pub use quantity::{Quantity, UnitError};
-pub use solve::{Effect, Solution, Solved, StictionError, solve};
+pub use solve::{FeedEffect, Solution, Solved, StictionError, solve};

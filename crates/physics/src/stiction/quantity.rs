@@ -39,7 +39,7 @@ pub enum Quantity {
 }
 
 /// Fixed facts about a quantity.
-struct Facts {
+struct QuantityFacts {
     quantity: Quantity,
     symbol: &'static str,
     /// Its key in records, and its name for a host.
@@ -63,9 +63,9 @@ const fn facts(
     names: [&'static str; 2],
     unit: &'static str,
     units: &'static [(&'static str, f64)],
-) -> Facts {
+) -> QuantityFacts {
     let [symbol, name] = names;
-    Facts {
+    QuantityFacts {
         quantity,
         symbol,
         name,
@@ -74,7 +74,7 @@ const fn facts(
     }
 }
 
-const TABLE: [Facts; 13] = [
+const TABLE: [QuantityFacts; 13] = [
     facts(Quantity::DeltaSa, ["Δs_a", "delta_sa"], "mm", LENGTHS_MM),
     facts(Quantity::Tc, ["t_C", "tc"], "µs", TIMES),
     facts(Quantity::Kv, ["k_v", "kv"], "(m/min)/mm", GAINS),
@@ -120,7 +120,7 @@ impl Quantity {
         TABLE.iter().map(|row| row.quantity)
     }
 
-    fn facts(self) -> &'static Facts {
+    fn facts(self) -> &'static QuantityFacts {
         let row = TABLE.iter().find(|row| row.quantity == self);
         row.expect("every quantity has a row")
     }

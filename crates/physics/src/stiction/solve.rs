@@ -28,7 +28,7 @@ pub struct Solved {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum Effect {
+pub enum FeedEffect {
     /// The feed is at most MP1513.
     Acts,
     /// The feed is above MP1513.
@@ -46,7 +46,7 @@ pub struct Solution {
     /// `Δs_a` in mm as it acts, where the limit cuts it (R8.1).
     pub clipped_to: Option<f64>,
     /// Whether it acts at the commanded feed.
-    pub effect: Effect,
+    pub effect: FeedEffect,
     /// The guidelines that are not kept.
     pub guidelines: Vec<Guideline>,
 }
@@ -249,9 +249,9 @@ impl State {
     fn solution(self) -> Solution {
         let guidelines = not_kept(self.get(Quantity::Mp1511), self.get(Quantity::Mp1512));
         let effect = match (self.get(Quantity::Feed), self.get(Quantity::Mp1513)) {
-            (Some(feed), Some(most)) if feed.abs() <= most => Effect::Acts,
-            (Some(_), Some(_)) => Effect::TooFast,
-            _ => Effect::Unknown,
+            (Some(feed), Some(most)) if feed.abs() <= most => FeedEffect::Acts,
+            (Some(_), Some(_)) => FeedEffect::TooFast,
+            _ => FeedEffect::Unknown,
         };
         let values = self.values.iter().map(|(&quantity, &value)| Solved {
             quantity,
@@ -358,10 +358,10 @@ mod tests {
             let values = given(&[(Quantity::Feed, feed), (Quantity::Mp1513, most)]);
             solve(&values).map(|solution| solution.effect)
         };
-        assert_eq!(effect(0.5, 0.5), Ok(Effect::Acts));
-        assert_eq!(effect(0.51, 0.5), Ok(Effect::TooFast));
+        assert_eq!(effect(0.5, 0.5), Ok(FeedEffect::Acts));
+        assert_eq!(effect(0.51, 0.5), Ok(FeedEffect::TooFast));
         let solution = solve(&given(&WORKED)).expect("a solution");
-        assert_eq!(solution.effect, Effect::Unknown);
+        assert_eq!(solution.effect, FeedEffect::Unknown);
     }
 
     #[test]

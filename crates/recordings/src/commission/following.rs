@@ -87,7 +87,7 @@ pub(super) struct Following {
 
 /// A reversal without a stop.
 #[derive(Debug, Clone)]
-pub(super) struct Turn {
+pub(super) struct PassedReversal {
     /// The direction after it.
     pub(super) sign: f64,
     /// The fastest velocity of the stroke before it in mm/s or °/s.
@@ -125,7 +125,7 @@ impl Following {
         if velocities.iter().all(|it| it.abs() < STANDSTILL) {
             return Err(NotFollowed::Still);
         }
-        let motion = Motion::of(&velocities, step_s);
+        let motion = CommandedMotion::of(&velocities, step_s);
         let answer = motion.answer(&errors);
         let left: Vec<f64> = (0..errors.len())
             .map(|at| errors[at] - answer.as_ref().map_or(0.0, |it| motion.expected(it, at)))
@@ -150,7 +150,7 @@ impl Following {
     }
 
     /// The reversals without a stop, in their order.
-    pub(super) fn turns(&self) -> Vec<Turn> {
+    pub(super) fn turns(&self) -> Vec<PassedReversal> {
         let after = samples_in(AFTER_S, self.step_s);
         let at_once = samples_in(AT_ONCE_S, self.step_s);
         let mut turns = Vec::new();
@@ -164,7 +164,7 @@ impl Following {
             if let Some((before, _)) = last.filter(|it| it.1 * sign < 0.0) {
                 if at - before <= at_once && at + after <= self.left.len() {
                     let left = self.left[at..at + after].iter().map(|it| it * sign);
-                    turns.push(Turn {
+                    turns.push(PassedReversal {
                         sign,
                         speed,
                         left: left.collect(),
@@ -200,7 +200,7 @@ fn commanded(track: &Track) -> Vec<f64> {
 }
 
 /// The commanded motion, with the accelerations that still show at each sample.
-struct Motion<'a> {
+struct CommandedMotion<'a> {
     velocities: &'a [f64],
     accelerations: Vec<f64>,
     /// The weights of earlier accelerations for each knot, and the sample before which they begin.
@@ -210,7 +210,7 @@ struct Motion<'a> {
     step_s: f64,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> CommandedMotion<'a> {
     fn of(velocities: &'a [f64], step_s: f64) -> Self {
         let last = velocities.len() - 1;
         let slope = |at: usize| {

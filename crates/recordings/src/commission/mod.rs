@@ -28,10 +28,10 @@ pub use plant_found::{
     ComparedGlitch, PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch, TunedList,
     against_plant, held_out, with_friction,
 };
-pub use program::{Measurement, PlanStep, Program, Turning};
+pub use program::{Measurement, MeasuringProgram, PlanStep, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
 pub use results::{
-    BeforeAfter, Found, RecordingResult, before_after, refuse_strangers, without_effect,
+    BeforeAfter, RecordingOutcome, RecordingResult, before_after, refuse_strangers, without_effect,
 };
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::PlanError;
-use super::program::Program;
+use super::program::MeasuringProgram;
 use super::request::{Installed, MeasuredAxis, PlanRequest};
 use super::room::Room;
-use super::runs::{Runs, circle_radius};
+use super::runs::{RoomPrograms, circle_radius};
 use super::signature::Signature;
 use frictcomp::machine::AxisType;
 
@@ -42,7 +42,7 @@ pub struct Plan {
     /// The feed of all motions that are not measured, in mm/min or °/min.
     pub approach: f64,
     /// The programs in the order in which they run.
-    pub programs: Vec<Program>,
+    pub programs: Vec<MeasuringProgram>,
 }
 
 impl Plan {
@@ -67,7 +67,7 @@ impl Plan {
             [first, second] => Some(circle_radius([first, second], &feeds, request.radius)?),
             _ => None,
         };
-        let runs = Runs {
+        let runs = RoomPrograms {
             rooms: &rooms,
             radius,
         };

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A measuring program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Program {
+pub struct MeasuringProgram {
     /// The number of its signature, from 1 to 1023.
     pub number: u16,
     /// Its file without a folder.

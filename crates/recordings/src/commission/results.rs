@@ -19,14 +19,14 @@ pub struct RecordingResult {
     /// The number of its program.
     pub program: Option<u16>,
     /// Result.
-    pub found: Found,
+    pub found: RecordingOutcome,
 }
 
 /// Result of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum Found {
+pub enum RecordingOutcome {
     /// The friction of an axis.
     Friction(FrictionFound),
     /// Circles.
@@ -37,7 +37,7 @@ pub enum Found {
     Refused(String),
 }
 
-impl Found {
+impl RecordingOutcome {
     /// Reasons for which nothing is concluded from it.
     pub fn against(&self) -> &[String] {
         match self {
@@ -224,7 +224,7 @@ pub fn refuse_strangers(results: &mut [RecordingResult]) {
                 .refuse(format!("it is `{}` once more", same.file));
             continue;
         }
-        let Found::Circles(found) = &mut result.found else {
+        let RecordingOutcome::Circles(found) = &mut result.found else {
             continue;
         };
         if !found.against.is_empty() {

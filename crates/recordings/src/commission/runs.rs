@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::error::PlanError;
-use super::program::{Measurement, PlanStep, Program, Turning};
+use super::program::{Measurement, MeasuringProgram, PlanStep, Turning};
 use super::room::{Room, SPARE};
 use super::signature::Signature;
 
@@ -14,17 +14,21 @@ const PAUSE_S: f64 = 0.2;
 const RADIUS: f64 = 100.0;
 
 /// The programs of axes in their rooms.
-pub(super) struct Runs<'a> {
+pub(super) struct RoomPrograms<'a> {
     pub(super) rooms: &'a [Room<'a>],
     /// The radius of the circles; `None` for one axis alone.
     pub(super) radius: Option<f64>,
 }
 
-impl Runs<'_> {
+impl RoomPrograms<'_> {
     /// Constant speeds up and then down, each back and forth.
-    pub(super) fn friction(&self, axis: usize, speeds: Vec<f64>) -> Result<Program, PlanError> {
+    pub(super) fn friction(
+        &self,
+        axis: usize,
+        speeds: Vec<f64>,
+    ) -> Result<MeasuringProgram, PlanError> {
         let room = &self.rooms[axis];
-        let mut made = Motions::at(room.low);
+        let mut made = AxisMotions::at(room.low);
         let up = speeds.iter().copied();
         for speed in up.chain(speeds.iter().rev().copied()) {
             let way = room.way_at(speed)?;
@@ -41,10 +45,14 @@ impl Runs<'_> {
     }
 
     /// Strokes at each feed, without a pause at their ends.
-    pub(super) fn strokes(&self, axis: usize, feeds: &[f64]) -> Result<Program, PlanError> {
+    pub(super) fn strokes(
+        &self,
+        axis: usize,
+        feeds: &[f64],
+    ) -> Result<MeasuringProgram, PlanError> {
         const STROKES: usize = 4;
         let room = &self.rooms[axis];
-        let mut made = Motions::at(room.low);
+        let mut made = AxisMotions::at(room.low);
         for &feed in feeds {
             let way = room.way_at(feed / 60.0)?;
             made.steps
@@ -62,12 +70,12 @@ impl Runs<'_> {
     }
 
     /// Half a turn to speed up, two turns, half a turn to slow down, in each direction.
-    pub(super) fn circles(&self, feed: f64) -> Program {
+    pub(super) fn circles(&self, feed: f64) -> MeasuringProgram {
         const REST_S: f64 = 1.0;
         let radius = self.radius.unwrap_or(RADIUS);
         let centre: Vec<f64> = self.rooms.iter().map(Room::middle).collect();
         let [x, y] = [0, 1].map(|at| centre.get(at).copied().unwrap_or_default());
-        let mut made = Motions::at(x + radius);
+        let mut made = AxisMotions::at(x + radius);
         let (right, left) = ([x + radius, y], [x - radius, y]);
         for turning in [Turning::Ccw, Turning::Cw] {
             made.steps.push(PlanStep::Note(turning.words().to_owned()));
@@ -107,13 +115,13 @@ impl Turning {
 }
 
 /// Motions of one axis, one after another.
-struct Motions {
+struct AxisMotions {
     steps: Vec<PlanStep>,
     place: f64,
     time_s: f64,
 }
 
-impl Motions {
+impl AxisMotions {
     fn at(place: f64) -> Self {
         Self {
             steps: Vec::new(),
@@ -140,8 +148,8 @@ impl Motions {
         self.steps.push(PlanStep::Dwell(seconds));
     }
 
-    fn program(self, file: String, role: Measurement, start: Vec<f64>) -> Program {
-        Program {
+    fn program(self, file: String, role: Measurement, start: Vec<f64>) -> MeasuringProgram {
+        MeasuringProgram {
             number: 0,
             file,
             role,
@@ -152,7 +160,7 @@ impl Motions {
     }
 }
 
-impl Program {
+impl MeasuringProgram {
     /// The axis of its signature.
     pub fn signed_axis(&self) -> usize {
         match self.role {

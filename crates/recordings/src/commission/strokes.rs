@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::at_feed::ON_FEED;
-use super::following::{Following, NotFollowed, Turn};
+use super::following::{Following, NotFollowed, PassedReversal};
 use crate::identify::{Track, count};
 
 /// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
@@ -82,11 +82,11 @@ impl StrokesFound {
             against: Vec::new(),
         };
         for &feed in feeds {
-            let is_at = |turn: &&Turn| {
+            let is_at = |turn: &&PassedReversal| {
                 let ratio = turn.speed * 60.0 / (feed * part);
                 (ratio - 1.0).abs() <= ONE_RATIO
             };
-            let at_feed: Vec<&Turn> = turns.iter().filter(is_at).collect();
+            let at_feed: Vec<&PassedReversal> = turns.iter().filter(is_at).collect();
             if at_feed.len() < REVERSALS {
                 found.against.push(format!(
                     "at F{feed} it has {} of {REVERSALS} reversals: it ends early, or is of another program",
@@ -131,11 +131,11 @@ impl StrokesFound {
 }
 
 impl FeedReversals {
-    fn of(feed: f64, turns: &[&Turn]) -> Self {
+    fn of(feed: f64, turns: &[&PassedReversal]) -> Self {
         let mut worst = (0.0_f64, 0.0_f64);
         for sign in [1.0, -1.0] {
             let same = turns.iter().filter(|it| it.sign * sign > 0.0);
-            let same: Vec<&Turn> = same.copied().collect();
+            let same: Vec<&PassedReversal> = same.copied().collect();
             let samples = same.iter().map(|it| it.left.len()).min().unwrap_or(0);
             let mean_at =
                 |at: usize| same.iter().map(|it| it.left[at]).sum::<f64>() / count(same.len());

@@ -2,9 +2,9 @@
 
 use super::doubts::{no_difference, not_moved, unseen};
 use super::fit::{Counted, Explained, Model};
-use super::recorded::{EvidenceRecording, Motion};
+use super::recorded::{CycleMotion, EvidenceRecording};
 use super::verdict::Conclusion;
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::{Alternative, Question};
 use frictcomp_physics::current::Reading;
@@ -57,7 +57,7 @@ pub fn judge_currents(recorded: &EvidenceRecording, list: &FrictionList) -> Vec<
 struct Judgement<'a> {
     recorded: &'a EvidenceRecording,
     list: &'a FrictionList,
-    motion: Motion,
+    motion: CycleMotion,
     counted: Counted,
     best: Explained,
     /// The noise of a sample.
@@ -143,7 +143,7 @@ impl<'a> Judgement<'a> {
             return Err(format!(
                 "the recorded current is {} times that of the value list: it has another unit, or another \
                  list or axis was recorded",
-                Shown(rounded(gain))
+                ReadableNumber(rounded(gain))
             ));
         }
         let rests = || self.best.rests(&self.counted);
@@ -155,9 +155,9 @@ impl<'a> Judgement<'a> {
             return Err(format!(
                 "no combination of readings explains the recorded current: it differs from the nearest one by {} \
                  at most, mostly by less than {}; another list or axis, or another CNC cycle than {} ms?",
-                Shown(rounded(most)),
-                Shown(rounded(2.0 * self.noise)),
-                Shown(rounded(self.motion.cycle_s * 1000.0))
+                ReadableNumber(rounded(most)),
+                ReadableNumber(rounded(2.0 * self.noise)),
+                ReadableNumber(rounded(self.motion.cycle_s * 1000.0))
             ));
         }
         Ok(())
@@ -243,10 +243,10 @@ impl<'a> Judgement<'a> {
         format!(
             "at {:.3} s and {} µm/s the current is {}, `{own}` gives {}, `{other}` {}; {} samples tell them apart",
             row.time_s,
-            Shown(rounded(row.velocity)),
-            Shown(rounded(recorded)),
-            Shown(rounded(self.best.currents[at])),
-            Shown(rounded(margin.rival.currents[at])),
+            ReadableNumber(rounded(row.velocity)),
+            ReadableNumber(rounded(recorded)),
+            ReadableNumber(rounded(self.best.currents[at])),
+            ReadableNumber(rounded(margin.rival.currents[at])),
             margin.samples
         )
     }
@@ -275,7 +275,7 @@ impl<'a> Judgement<'a> {
             ),
             _ => format!(
                 "the noise of {} hides the difference of the readings",
-                Shown(rounded(self.noise))
+                ReadableNumber(rounded(self.noise))
             ),
         }
     }
@@ -283,8 +283,8 @@ impl<'a> Judgement<'a> {
     fn too_coarse(&self) -> String {
         format!(
             "it is sampled every {} ms, and the CNC cycle has {} ms: record every cycle",
-            Shown(rounded(self.recorded.step_s() * 1000.0)),
-            Shown(rounded(self.motion.cycle_s * 1000.0))
+            ReadableNumber(rounded(self.recorded.step_s() * 1000.0)),
+            ReadableNumber(rounded(self.motion.cycle_s * 1000.0))
         )
     }
 }

@@ -1,7 +1,7 @@
 //! Why a recording cannot decide a question.
 
-use super::recorded::{EvidenceRecording, Motion};
-use frictcomp::diagnostic::Shown;
+use super::recorded::{CycleMotion, EvidenceRecording};
+use frictcomp::diagnostic::ReadableNumber;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::Question;
 use frictcomp_physics::current::{CommandedRow, Switched};
@@ -38,7 +38,7 @@ pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<S
 }
 
 /// Why no sample counts.
-pub(super) fn unseen(recorded: &EvidenceRecording, motion: &Motion) -> &'static str {
+pub(super) fn unseen(recorded: &EvidenceRecording, motion: &CycleMotion) -> &'static str {
     let mut rows = motion.rows.iter();
     let state = recorded.state.as_ref();
     if state.is_some_and(|it| it.values.iter().all(|value| *value == 0.0)) {
@@ -54,7 +54,7 @@ pub(super) fn unseen(recorded: &EvidenceRecording, motion: &Motion) -> &'static 
 pub(super) fn not_moved(
     question: Question,
     list: &FrictionList,
-    motion: &Motion,
+    motion: &CycleMotion,
 ) -> Option<String> {
     let rows: Vec<&CommandedRow> = motion.rows.iter().collect();
     let is_on = |row: &CommandedRow| row.switched == Switched::On;
@@ -77,7 +77,7 @@ pub(super) fn not_moved(
         Question::Below => {
             return Some(format!(
                 "the axis never moves slower than the first point, {} µm/s",
-                Shown(first)
+                ReadableNumber(first)
             ));
         }
         Question::Standstill => "the axis never stands still after a motion",

@@ -1,6 +1,6 @@
 //! The recorded current beside those that combinations of readings give.
 
-use super::recorded::{EvidenceRecording, Motion};
+use super::recorded::{CycleMotion, EvidenceRecording};
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::{AdditiveCurrent, Reading, Switched};
 
@@ -32,7 +32,7 @@ pub(super) struct Explained {
 
 /// The currents of a value list for a recorded motion.
 pub(super) struct Model<'a> {
-    pub(super) motion: &'a Motion,
+    pub(super) motion: &'a CycleMotion,
     pub(super) list: &'a FrictionList,
     pub(super) torque_scale: f64,
 }
@@ -40,7 +40,11 @@ pub(super) struct Model<'a> {
 impl Counted {
     /// The samples in which the current depends on nothing that was before the recording, or before
     /// compensation was switched on.
-    pub(super) fn of(recorded: &EvidenceRecording, motion: &Motion, list: &FrictionList) -> Self {
+    pub(super) fn of(
+        recorded: &EvidenceRecording,
+        motion: &CycleMotion,
+        list: &FrictionList,
+    ) -> Self {
         let counts = settled(motion, list);
         let begin_s = motion.rows.first().map_or(0.0, |row| row.time_s);
         let cycle = |time_s: f64| {
@@ -61,7 +65,7 @@ impl Counted {
 }
 
 /// For each cycle, whether its current is known from the recorded motion alone.
-fn settled(motion: &Motion, list: &FrictionList) -> Vec<bool> {
+fn settled(motion: &CycleMotion, list: &FrictionList) -> Vec<bool> {
     let rows = &motion.rows;
     let lookahead = usize::from(list.reversal_lookahead);
     let delay = usize::try_from(list.delay_cycles).unwrap_or_default();

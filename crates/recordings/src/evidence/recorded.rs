@@ -45,7 +45,7 @@ pub struct EvidenceRecording {
 }
 
 /// The motion of the axis in CNC cycles.
-pub(super) struct Motion {
+pub(super) struct CycleMotion {
     pub(super) trace: CommandedTrace,
     pub(super) rows: Vec<CommandedRow>,
     pub(super) cycle_s: f64,
@@ -64,7 +64,7 @@ impl EvidenceRecording {
     ///
     /// # Errors
     /// The times are none of a recording, or have a gap.
-    pub(super) fn motion(&self) -> Result<Motion, String> {
+    pub(super) fn motion(&self) -> Result<CycleMotion, String> {
         let clocks = [
             Some(&self.times_s),
             self.current.as_ref().map(|it| &it.times_s),
@@ -90,7 +90,7 @@ impl EvidenceRecording {
             .with_resampling(Resampling::Done);
         let trace = CommandedTrace::new(columns, options);
         let trace = trace.map_err(|error: CyclesError| error.to_string())?;
-        Ok(Motion {
+        Ok(CycleMotion {
             rows: trace.rows().collect(),
             trace,
             cycle_s,

@@ -1,6 +1,6 @@
 //! The stroke of a question: out, and back to where it began.
 
-use super::recorded::{EvidenceRecording, Motion, step};
+use super::recorded::{CycleMotion, EvidenceRecording, step};
 
 /// The stroke has been left on the way back below this part of it.
 const BACK: f64 = 0.95;
@@ -13,21 +13,21 @@ const AROUND: f64 = 0.03;
 
 /// A switch of the state, as a part of the stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Switch {
+pub(super) struct StrokeSwitch {
     pub(super) is_on: bool,
     pub(super) part: f64,
 }
 
 /// The way out of a stroke.
-pub(super) struct Stroke {
+pub(super) struct StrokeOut {
     /// Time, part of the stroke and speed of each cycle until the axis is on its way back.
     out: Vec<(f64, f64, f64)>,
     /// Whether compensation was on at its beginning.
     pub(super) begins_on: bool,
-    pub(super) switches: Vec<Switch>,
+    pub(super) switches: Vec<StrokeSwitch>,
 }
 
-impl Stroke {
+impl StrokeOut {
     /// The stroke of a recording.
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl Stroke {
         let state = recorded.state.as_ref().ok_or(
             "the recording has no channel with the state of friction compensation, `frict_comp.f_is_active`",
         )?;
-        let motion: Motion = recorded.motion()?;
+        let motion: CycleMotion = recorded.motion()?;
         let begin = motion.rows.first().map_or(0.0, |row| row.position);
         let far = |one: &f64, other: &f64| (one - begin).abs().total_cmp(&(other - begin).abs());
         let length = motion.rows.iter().map(|row| row.position).max_by(far);
@@ -81,7 +81,7 @@ impl Stroke {
         let is_on = |at: usize| state.values[at] != 0.0;
         let changes = (1..state.values.len()).filter(|at| is_on(*at) != is_on(at - 1));
         let switches = changes.filter(|at| state.times_s[*at] <= end_s);
-        let switches = switches.map(|at| Switch {
+        let switches = switches.map(|at| StrokeSwitch {
             is_on: is_on(at),
             part: part_at(state.times_s[at]),
         });

@@ -1,7 +1,7 @@
 //! Where a COMP command acts in a motion (R1.9), and whether it stops the path (R1.57).
 
 use super::recorded::EvidenceRecording;
-use super::stroke::{Stroke, Switch};
+use super::stroke::{StrokeOut, StrokeSwitch};
 use super::verdict::Conclusion;
 use frictcomp::readings::{Alternative, Question};
 
@@ -27,7 +27,7 @@ pub fn judge_with_motion(recorded: &EvidenceRecording) -> Conclusion {
 }
 
 fn with_motion(recorded: &EvidenceRecording) -> Result<(Alternative, String), String> {
-    let stroke = Stroke::of(recorded)?;
+    let stroke = StrokeOut::of(recorded)?;
     let mut switches = stroke.switches.as_slice();
     if stroke.begins_on {
         let [first, rest @ ..] = switches else {
@@ -63,7 +63,7 @@ pub fn judge_look_ahead(recorded: &EvidenceRecording) -> Conclusion {
 }
 
 fn look_ahead(recorded: &EvidenceRecording) -> Result<(Alternative, String), String> {
-    let stroke = Stroke::of(recorded)?;
+    let stroke = StrokeOut::of(recorded)?;
     let [first, second, third, fourth, last] = LOOK_AHEAD_PARTS;
     let at_plain = first + second + third;
     let at_commands = [first, first + second, at_plain + fourth];
@@ -103,7 +103,7 @@ fn look_ahead(recorded: &EvidenceRecording) -> Result<(Alternative, String), Str
 }
 
 /// Whether the switches are those of a program, and where it has them.
-fn are_at(switches: &[Switch], expected: &[(bool, f64)]) -> bool {
+fn are_at(switches: &[StrokeSwitch], expected: &[(bool, f64)]) -> bool {
     let mut pairs = switches.iter().zip(expected);
     let fits = pairs.all(|(switch, (is_on, part))| {
         switch.is_on == *is_on && (switch.part - part).abs() <= NEAR
@@ -111,7 +111,7 @@ fn are_at(switches: &[Switch], expected: &[(bool, f64)]) -> bool {
     fits && switches.len() == expected.len()
 }
 
-fn not_of_program(question: Question, switches: &[Switch]) -> String {
+fn not_of_program(question: Question, switches: &[StrokeSwitch]) -> String {
     let rule = question.facts().rule;
     let found = if switches.is_empty() {
         "it never switches".to_owned()
@@ -121,7 +121,7 @@ fn not_of_program(question: Question, switches: &[Switch]) -> String {
     format!("the recording is not that of `ask-{rule}.nc`: {found}")
 }
 
-fn shown(switches: &[Switch]) -> String {
+fn shown(switches: &[StrokeSwitch]) -> String {
     let each = switches.iter().map(|switch| {
         let word = if switch.is_on { "on" } else { "off" };
         format!("{word} after {}", percent(switch.part))

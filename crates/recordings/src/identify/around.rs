@@ -11,7 +11,7 @@ use super::statistics::count;
 
 /// A window around a reversal.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Window {
+pub(super) struct SignalWindow {
     pub(super) from: usize,
     pub(super) turn: usize,
     pub(super) to: usize,
@@ -41,11 +41,11 @@ const NEARLY: f64 = 1e-7;
 impl Instruments {
     /// Instruments of windows; `known` gives what is known of a sample without noise.
     pub(super) fn new(
-        windows: &[Window],
+        windows: &[SignalWindow],
         (step_s, signs): (f64, &[f64]),
         known: impl Fn(usize) -> Vec<f64>,
     ) -> Option<Self> {
-        let row = |window: &Window, at: usize| {
+        let row = |window: &SignalWindow, at: usize| {
             #[allow(clippy::cast_precision_loss)] // some hundred samples
             let time_s = (at as f64 - window.turn as f64) * step_s;
             let mut row = known(at);
@@ -75,7 +75,11 @@ impl Instruments {
     }
 
     /// A signal in all windows, divided by its size.
-    pub(super) fn column(&self, windows: &[Window], signal: impl Fn(usize) -> f64) -> Column {
+    pub(super) fn column(
+        &self,
+        windows: &[SignalWindow],
+        signal: impl Fn(usize) -> f64,
+    ) -> SignalAround {
         let mut values: Vec<Vec<f64>> = windows
             .iter()
             .map(|it| (it.from..it.to).map(&signal).collect())
@@ -117,7 +121,7 @@ impl Instruments {
             .collect();
         let spread = self.products.iter().zip(&expected);
         let spread = spread.map(|(products, it)| times(products, it)).collect();
-        Column {
+        SignalAround {
             values,
             size,
             moments,
@@ -134,7 +138,7 @@ impl Instruments {
 }
 
 /// A signal around reversals.
-pub(super) struct Column {
+pub(super) struct SignalAround {
     /// For each window its samples, divided by the size.
     pub(super) values: Vec<Vec<f64>>,
     pub(super) size: f64,
@@ -148,7 +152,7 @@ pub(super) struct Column {
     spread: Vec<Vec<f64>>,
 }
 
-impl Column {
+impl SignalAround {
     /// The product of what is expected of this signal with another signal.
     pub(super) fn expected_with(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.moments);

@@ -6,7 +6,7 @@ use super::finding::TraceFinding;
 use super::identified::IdentifyError;
 use super::measured::Measured;
 use super::statistics::{count, moving_average, samples_in};
-use super::track::{Samples, Track, TrackError};
+use super::track::{AxisSamples, Track, TrackError};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
 /// Friction found on circles.
@@ -80,11 +80,11 @@ pub fn identify_measured_circles(
 ) -> Result<OnCircles, IdentifyError> {
     let compensation = doubts::check_compensation(measured)?;
     let mut findings: Vec<TraceFinding> = compensation.into_iter().collect();
-    let mut rows = Rows::default();
+    let mut rows = NormalEquations::default();
     let mut fastest = 0.0_f64;
     let mut circles = Vec::new();
     for track in tracks {
-        let samples = Samples::new(track)?;
+        let samples = AxisSamples::new(track)?;
         let smooth = moving_average(&samples.velocities, samples_in(0.005, samples.step_s));
         fastest = smooth.iter().fold(fastest, |most, v| most.max(v.abs()));
         doubts::check_directions(&samples, &[])?;
@@ -119,7 +119,7 @@ fn points(fastest: f64) -> Vec<f64> {
 
 /// Sums of the least squares.
 #[derive(Debug, Default)]
-struct Rows {
+struct NormalEquations {
     speeds: Vec<f64>,
     /// Products of all parts with each other and with the torque.
     sums: Vec<Vec<f64>>,
@@ -127,8 +127,8 @@ struct Rows {
     used: usize,
 }
 
-impl Rows {
-    fn add(&mut self, samples: &Samples, smooth: &[f64]) {
+impl NormalEquations {
+    fn add(&mut self, samples: &AxisSamples, smooth: &[f64]) {
         let size = self.speeds.len() + 2;
         if self.sums.is_empty() {
             self.sums = vec![vec![0.0; size + 1]; size];

@@ -1,7 +1,7 @@
 //! Segments in which the torque stands at a limit (R6.21).
 
 use super::segment::Segment;
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// Fewer samples at the limit are no clipping.
 const FEWEST: usize = 5;
@@ -24,7 +24,7 @@ struct AtLimit {
 }
 
 /// The segments whose torque is cut off at the greatest or the least value of the recording.
-pub(super) fn clipped(samples: &Samples, segments: &[Segment]) -> Vec<usize> {
+pub(super) fn clipped(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize> {
     let mut found: Vec<usize> = [1.0, -1.0]
         .into_iter()
         .flat_map(|sign| clipped_at(samples, segments, sign))
@@ -35,7 +35,7 @@ pub(super) fn clipped(samples: &Samples, segments: &[Segment]) -> Vec<usize> {
 }
 
 /// The same at one end: the greatest value, or with the sign -1 the least.
-fn clipped_at(samples: &Samples, segments: &[Segment], sign: f64) -> Vec<usize> {
+fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usize> {
     let torque = |at: usize| sign * samples.torques[at];
     let limit = (0..samples.torques.len()).map(torque).fold(0.0, f64::max);
     let (mut at_limit, mut usual) = (Vec::new(), Vec::new());
@@ -98,7 +98,7 @@ fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f
 
 /// Whether the torque between the segments, where it is smaller than the limit, changes from sample to
 /// sample more often than not.
-fn varies_elsewhere(samples: &Samples, segments: &[Segment], limit: f64) -> bool {
+fn varies_elsewhere(samples: &AxisSamples, segments: &[Segment], limit: f64) -> bool {
     const ENOUGH: usize = 20;
     let is_within = |at: &usize| segments.iter().any(|it| it.samples.contains(at));
     let is_below = |at: usize| samples.torques[at].abs() < limit;

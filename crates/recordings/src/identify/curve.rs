@@ -75,7 +75,7 @@ impl Fit {
 }
 
 /// Points with their errors, of one sign.
-struct Points {
+struct SignedPoints {
     speeds: Vec<f64>,
     values: Vec<f64>,
     errors: Vec<f64>,
@@ -88,7 +88,7 @@ pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
     }
     // Where the torque runs against the speed, all of it is turned over.
     let sign = pairs.iter().map(|pair| pair.friction).sum::<f64>().signum();
-    let points = Points {
+    let points = SignedPoints {
         speeds: pairs.iter().map(|pair| pair.speed).collect(),
         values: pairs.iter().map(|pair| sign * pair.friction).collect(),
         errors: pairs
@@ -146,7 +146,7 @@ fn refined(at: f64, start: Fit, step: f64, try_at: impl Fn(f64) -> Option<Fit>) 
     best
 }
 
-impl Points {
+impl SignedPoints {
     /// The linear parameters for one vs: Fc above 0, Fs not below Fc, fv not below 0; repeated with
     /// less weight for what lies far off.
     fn solve(&self, stribeck: f64, shape: f64) -> Option<Fit> {

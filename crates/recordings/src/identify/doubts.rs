@@ -8,7 +8,7 @@ use super::pair::{Pair, speeds_of};
 use super::segment::Segment;
 use super::statistics::{count, samples_in, trimmed_mean};
 use super::tight::tight_spot;
-use super::track::Samples;
+use super::track::AxisSamples;
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
 
@@ -32,7 +32,7 @@ fn refused(code: Code, message: String, help: &str) -> IdentifyError {
 
 /// Whether velocity and position go the same way, and the velocity both ways.
 pub(super) fn check_directions(
-    samples: &Samples,
+    samples: &AxisSamples,
     segments: &[Segment],
 ) -> Result<(), IdentifyError> {
     let every = samples_in(0.1, samples.step_s);
@@ -70,7 +70,7 @@ pub(super) fn check_directions(
 }
 
 /// Whether all segments go one way; without segments, whether all velocities do.
-fn is_one_way(samples: &Samples, segments: &[Segment]) -> bool {
+fn is_one_way(samples: &AxisSamples, segments: &[Segment]) -> bool {
     /// Noise around standstill is a smaller part of the fastest speed.
     const NOISE: f64 = 0.1;
     if !segments.is_empty() {
@@ -94,7 +94,7 @@ fn unsigned_velocity(message: &str) -> IdentifyError {
 }
 
 /// A speed in what seems one direction with torques that differ as those of both directions do.
-fn two_torques(samples: &Samples, segments: &[Segment]) -> Option<(f64, [f64; 2])> {
+fn two_torques(samples: &AxisSamples, segments: &[Segment]) -> Option<(f64, [f64; 2])> {
     /// A difference by this part of the greater one is no drift.
     const APART: f64 = 0.3;
     let mean = |segment: &Segment| trimmed_mean(&samples.torques[segment.samples.clone()]);
@@ -108,7 +108,7 @@ fn two_torques(samples: &Samples, segments: &[Segment]) -> Option<(f64, [f64; 2]
 
 /// Drops segments whose torque is clipped, and says so.
 pub(super) fn drop_clipped(
-    samples: &Samples,
+    samples: &AxisSamples,
     segments: &mut Vec<Segment>,
 ) -> Result<Option<TraceFinding>, IdentifyError> {
     let clipped = clipped(samples, segments);
@@ -164,7 +164,7 @@ pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding>
 }
 
 /// Whether the torque changes so little that no friction is in it.
-pub(super) fn is_still(samples: &Samples, measured: &Measured) -> bool {
+pub(super) fn is_still(samples: &AxisSamples, measured: &Measured) -> bool {
     let torques = samples.torques.iter();
     let [low, high] = torques.fold([f64::MAX, f64::MIN], |[low, high], it| {
         [low.min(*it), high.max(*it)]
@@ -175,7 +175,7 @@ pub(super) fn is_still(samples: &Samples, measured: &Measured) -> bool {
 /// Friction at some speeds that is that of no axis, or of a recording that is not what it seems.
 pub(super) fn check_pairs(
     pairs: &[Pair],
-    samples: &Samples,
+    samples: &AxisSamples,
     measured: &Measured,
 ) -> Result<Vec<TraceFinding>, IdentifyError> {
     check_unsigned_torque(pairs, samples)?;
@@ -188,7 +188,7 @@ pub(super) fn check_pairs(
 /// The same for the points that circles tell.
 pub(super) fn check_points(
     points: &[[f64; 2]],
-    samples: &Samples,
+    samples: &AxisSamples,
     measured: &Measured,
 ) -> Result<Vec<TraceFinding>, IdentifyError> {
     /// Points from circles are exact to this part of the largest friction.
@@ -208,7 +208,7 @@ pub(super) fn check_points(
 }
 
 /// A torque that never changes its sign has the friction in what is the same in both directions.
-fn check_unsigned_torque(pairs: &[Pair], samples: &Samples) -> Result<(), IdentifyError> {
+fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), IdentifyError> {
     let torques = || samples.torques.iter().copied();
     let is_unsigned = torques().all(|it| it >= 0.0) || torques().all(|it| it <= 0.0);
     let both: Vec<(&Pair, f64)> = pairs
@@ -238,7 +238,7 @@ fn check_unsigned_torque(pairs: &[Pair], samples: &Samples) -> Result<(), Identi
 }
 
 /// Friction against the motion at some speeds, or at all of them.
-fn signs(pairs: &[Pair], samples: &Samples) -> Result<Option<TraceFinding>, IdentifyError> {
+fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, IdentifyError> {
     let is_so = |sign: f64| {
         move |it: &&Pair| it.friction * sign > SIGNIFICANT * it.error && it.offset.is_some()
     };
@@ -279,7 +279,7 @@ fn signs(pairs: &[Pair], samples: &Samples) -> Result<Option<TraceFinding>, Iden
 }
 
 /// Whether the torque has the sign of the acceleration, where it is strong enough to tell.
-fn accelerates_rightly(samples: &Samples) -> bool {
+fn accelerates_rightly(samples: &AxisSamples) -> bool {
     /// A correlation that noise does not make.
     const CLEAR: f64 = 0.2;
     let width = samples_in(0.01, samples.step_s);
@@ -412,7 +412,7 @@ fn contradicted(
 
 /// A place that the axis passes harder in both directions.
 pub(super) fn tight(
-    samples: &Samples,
+    samples: &AxisSamples,
     segments: &[Segment],
     pairs: &[Pair],
 ) -> Option<TraceFinding> {

@@ -8,7 +8,7 @@ use super::measured::Measured;
 use super::pair::{Drift, Pair};
 use super::ripple::Ripple;
 use super::segment::Segment;
-use super::support::Wanted;
+use super::support::RequestedPoints;
 use super::track::TrackError;
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 
@@ -17,7 +17,7 @@ use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct IdentifyOptions {
     /// Number of support points.
-    pub wanted: Wanted,
+    pub wanted: RequestedPoints,
     /// The accuracy that the friction should have, as a part of it.
     pub accuracy: f64,
     /// The speed in mm/s or °/s at which the machine works.
@@ -30,7 +30,7 @@ impl Default for IdentifyOptions {
     /// Eight points, 2 %, 1 m/min, the actual torque of the drive.
     fn default() -> Self {
         Self {
-            wanted: Wanted::Points(8),
+            wanted: RequestedPoints::Points(8),
             accuracy: 0.02,
             working_speed: 1000.0 / 60.0,
             measured: Measured::default(),

@@ -42,7 +42,7 @@ pub use segment::Segment;
 pub use speeds::identify;
 pub use states::{ComparedStates, StateRow};
 pub(crate) use statistics::{count, moving_average, noise_of, samples_in};
-pub use support::Wanted;
+pub use support::RequestedPoints;
 pub use timing::{ActingShare, Timing};
 pub use track::{Track, TrackError};
 pub use trend::{FrictionChange, FrictionLevels, FrictionParameter, Level, friction_changes};

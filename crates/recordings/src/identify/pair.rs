@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::segment::Segment;
 use super::statistics::{count, median, resolution, samples_in, standard_error, trimmed_mean};
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// Blocks for the standard error, in s.
 const BLOCK_S: f64 = 0.1;
@@ -52,7 +52,7 @@ struct Mean {
 
 /// The speeds of a recording.
 #[derive(Debug)]
-pub(super) struct Paired {
+pub(super) struct PairedSpeeds {
     /// Slowest first.
     pub(super) pairs: Vec<Pair>,
     /// Part that is the same in both directions at all speeds.
@@ -61,9 +61,9 @@ pub(super) struct Paired {
     pub(super) drift: Option<Drift>,
 }
 
-impl Paired {
+impl PairedSpeeds {
     /// The pairs of a recording of so many seconds, with their offset and their drift.
-    pub(super) fn of(samples: &Samples, segments: &[Segment], duration_s: f64) -> Self {
+    pub(super) fn of(samples: &AxisSamples, segments: &[Segment], duration_s: f64) -> Self {
         let groups = speeds_of(segments);
         let step = resolution(&samples.torques);
         let measure = Measure { samples, step };
@@ -131,7 +131,7 @@ pub(super) fn speeds_of(segments: &[Segment]) -> Vec<Vec<usize>> {
 }
 
 struct Measure<'a> {
-    samples: &'a Samples,
+    samples: &'a AxisSamples,
     /// Resolution of the drive.
     step: f64,
 }

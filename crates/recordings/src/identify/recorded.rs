@@ -21,12 +21,12 @@ pub struct AxisChannels {
     /// Whether friction compensation was on.
     state: Option<Pick>,
     /// The actual position beside the commanded one, or the following error itself.
-    followed: Option<(Followed, Pick)>,
+    followed: Option<(FollowingForm, Pick)>,
 }
 
 /// Form of the recorded following error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Followed {
+enum FollowingForm {
     /// As itself.
     Error,
     /// As the actual position.
@@ -144,8 +144,8 @@ impl AxisChannels {
         };
         let followed = column(self.followed.map(|it| it.1));
         let following_errors = match (self.followed, followed, &track.positions) {
-            (Some((Followed::Error, _)), Some(errors), _) => errors,
-            (Some((Followed::Actual, _)), Some(actual), Some(commanded)) => {
+            (Some((FollowingForm::Error, _)), Some(errors), _) => errors,
+            (Some((FollowingForm::Actual, _)), Some(actual), Some(commanded)) => {
                 commanded.iter().zip(&actual).map(|(x, y)| x - y).collect()
             }
             _ => Vec::new(),
@@ -240,10 +240,10 @@ impl AxisChannels {
 fn followed_of(
     selection: &ChannelSelection,
     channels: &[Channel],
-) -> Result<Option<(Followed, Pick)>, SelectError> {
+) -> Result<Option<(FollowingForm, Pick)>, SelectError> {
     for (followed, asked, taken) in [
-        (Followed::Error, &selection.following_error, "e"),
-        (Followed::Actual, &selection.actual_position, "x_act"),
+        (FollowingForm::Error, &selection.following_error, "e"),
+        (FollowingForm::Actual, &selection.actual_position, "x_act"),
     ] {
         let is_there = |name: &&str| channels.iter().any(|it| it.name.eq_ignore_ascii_case(name));
         if let Some(name) = asked.as_deref().or(Some(taken).filter(is_there)) {

@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::curve::solve_linear;
 use super::segment::Segment;
 use super::statistics::{count, trimmed_mean};
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// A torque that repeats with the position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ impl Wave {
 
     /// The wave of a frequency that fits best where every segment has a mean of its own: a segment
     /// that is shorter than a period says little of it.
-    fn fitted(samples: &Samples, segments: &[Segment], frequency: f64) -> Option<Self> {
+    fn fitted(samples: &AxisSamples, segments: &[Segment], frequency: f64) -> Option<Self> {
         let mut sums = [[0.0; 3]; 2];
         for segment in segments {
             let range = segment.samples.clone();
@@ -88,7 +88,7 @@ impl Wave {
 }
 
 /// The largest ripple of the segments, if it stands out of the noise.
-pub(super) fn wave(samples: &Samples, segments: &[Segment]) -> Option<Wave> {
+pub(super) fn wave(samples: &AxisSamples, segments: &[Segment]) -> Option<Wave> {
     let residuals = residuals(samples, segments);
     let positions = residuals.iter().map(|it| it[0]);
     let (low, high) = positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
@@ -133,7 +133,7 @@ fn amplitude(residuals: &[[f64; 2]], frequency: f64) -> f64 {
 }
 
 /// Pairs of position and of what the torque differs from the mean of its segment.
-pub(super) fn residuals(samples: &Samples, segments: &[Segment]) -> Vec<[f64; 2]> {
+pub(super) fn residuals(samples: &AxisSamples, segments: &[Segment]) -> Vec<[f64; 2]> {
     let all: usize = segments.iter().map(|segment| segment.samples.len()).sum();
     let block = (all / MOST).max(1);
     let of_segment = |range: &Range<usize>| -> Vec<[f64; 2]> {

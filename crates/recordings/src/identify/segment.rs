@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use super::statistics::{count, median, moving_average, noise_of, samples_in};
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// The moving average in s.
 const AVERAGED_S: f64 = 0.05;
@@ -64,8 +64,8 @@ impl Segment {
 }
 
 /// The segments of a recording in their order.
-pub(super) fn segments(samples: &Samples) -> Vec<Segment> {
-    let speeds = Speeds::of(samples);
+pub(super) fn segments(samples: &AxisSamples) -> Vec<Segment> {
+    let speeds = SteadySpeeds::of(samples);
     let mut found = Vec::new();
     for stretch in unbroken(samples) {
         let within = &speeds.averaged[stretch.clone()];
@@ -85,7 +85,7 @@ pub(super) fn segments(samples: &Samples) -> Vec<Segment> {
 }
 
 /// Speeds in which steady ones are looked for, from whatever was recorded with less noise.
-struct Speeds<'a> {
+struct SteadySpeeds<'a> {
     averaged: Vec<f64>,
     /// The standard deviation of the averaged noise.
     noise: f64,
@@ -97,8 +97,8 @@ struct Speeds<'a> {
     shortest: usize,
 }
 
-impl<'a> Speeds<'a> {
-    fn of(samples: &'a Samples) -> Self {
+impl<'a> SteadySpeeds<'a> {
+    fn of(samples: &'a AxisSamples) -> Self {
         let width = samples_in(AVERAGED_S, samples.step_s);
         let recorded = noise_of(&samples.velocities);
         let averaged_noise = recorded / count(width).sqrt();
@@ -127,7 +127,7 @@ impl<'a> Speeds<'a> {
     }
 
     /// A stretch without its ends, unless nothing is left of it or the axis hardly moves.
-    fn cut(&self, samples: &Samples, range: Range<usize>) -> Option<Segment> {
+    fn cut(&self, samples: &AxisSamples, range: Range<usize>) -> Option<Segment> {
         let length = count(range.len());
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // parts of a length
         let front = (CUT_FRONT * length)
@@ -139,7 +139,7 @@ impl<'a> Speeds<'a> {
         (kept.len() > 1).then(|| self.segment(samples, kept))?
     }
 
-    fn segment(&self, samples: &Samples, kept: Range<usize>) -> Option<Segment> {
+    fn segment(&self, samples: &AxisSamples, kept: Range<usize>) -> Option<Segment> {
         let velocities = &self.single[kept.clone()];
         let middle = median(velocities)?;
         let velocity = velocities.iter().sum::<f64>() / count(kept.len());
@@ -160,7 +160,7 @@ impl<'a> Speeds<'a> {
     }
 
     /// Appends a segment, or lets the last one go on where noise alone had ended it.
-    fn join(&self, samples: &Samples, found: &mut Vec<Segment>, next: Segment) {
+    fn join(&self, samples: &AxisSamples, found: &mut Vec<Segment>, next: Segment) {
         /// Longest cut between two pieces of one segment, in s.
         const APART_S: f64 = 1.0;
         if let Some(last) = found.last_mut()
@@ -210,7 +210,7 @@ impl<'a> Speeds<'a> {
 }
 
 /// Speeds from positions that are so many samples apart.
-fn slopes(samples: &Samples, width: usize) -> Vec<f64> {
+fn slopes(samples: &AxisSamples, width: usize) -> Vec<f64> {
     let last = samples.positions.len() - 1;
     (0..=last)
         .map(|at| {
@@ -224,7 +224,7 @@ fn slopes(samples: &Samples, width: usize) -> Vec<f64> {
 }
 
 /// Stretches without gaps.
-fn unbroken(samples: &Samples) -> Vec<Range<usize>> {
+fn unbroken(samples: &AxisSamples) -> Vec<Range<usize>> {
     let mut start = 0;
     let mut stretches = Vec::new();
     for at in 1..samples.times_s.len() {

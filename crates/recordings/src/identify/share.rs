@@ -5,7 +5,7 @@
 //! of the motion, and in the current of the list. Time constant, delay of the error and shift of the
 //! current are not known: each set of them is fitted, and counts as much as it is likely.
 
-use super::around::{Column, Instruments, Window, dot};
+use super::around::{Instruments, SignalAround, SignalWindow, dot};
 use super::curve::inverse;
 use super::statistics::{count, median, noise_of, samples_in};
 
@@ -100,7 +100,7 @@ impl Signals<'_> {
             let summed = filter.of(&integral, Hold::Line);
             let added = filter.of(&currents, Hold::Step);
             let rate = |at: usize| (errors[at] - lagging[at]) / constant_s;
-            let shifted: Vec<Column> = SHIFTS
+            let shifted: Vec<SignalAround> = SHIFTS
                 .map(|cycles| {
                     let shift = rounded(f64::from(cycles) * self.cycle);
                     column(&|at| {
@@ -117,18 +117,19 @@ impl Signals<'_> {
                     column(&|at| rate(at_part(at))),
                     column(&|at| summed[at_part(at)]),
                 ];
-                let rest: Vec<&Column> = motion.iter().chain(&error).collect();
+                let rest: Vec<&SignalAround> = motion.iter().chain(&error).collect();
                 fits.extend(shifted.iter().filter_map(|current| {
-                    let columns: Vec<&Column> = rest.iter().copied().chain([current]).collect();
-                    Fit::of(&instruments, &torque, &columns)
+                    let columns: Vec<&SignalAround> =
+                        rest.iter().copied().chain([current]).collect();
+                    TorqueFit::of(&instruments, &torque, &columns)
                 }));
             }
         }
-        Fit::together(&fits)
+        TorqueFit::together(&fits)
     }
 
     /// Windows around reversals, evenly chosen where there are many.
-    fn windows(&self) -> Vec<Window> {
+    fn windows(&self) -> Vec<SignalWindow> {
         let samples = |time_s: f64| samples_in(time_s, self.step_s);
         // The shifts of the current need samples, too.
         let margin = samples(f64::from(*SHIFTS.end() + 1) * self.cycle * self.step_s);
@@ -146,7 +147,7 @@ impl Signals<'_> {
             samples(AFTER_S.min(shortest_s)),
         );
         let of = |(number, &turn): (usize, &usize)| {
-            let window = Window {
+            let window = SignalWindow {
                 from: turn.checked_sub(before)?,
                 turn,
                 to: turn + after,
@@ -158,7 +159,7 @@ impl Signals<'_> {
                 && self.turns.get(number + 1).is_none_or(|&it| it >= window.to);
             (window.from >= margin && window.to <= end && is_alone).then_some(window)
         };
-        let all: Vec<Window> = self.turns.iter().enumerate().filter_map(of).collect();
+        let all: Vec<SignalWindow> = self.turns.iter().enumerate().filter_map(of).collect();
         let wanted = all.len().min(MOST_WINDOWS);
         (0..wanted).map(|it| all[it * all.len() / wanted]).collect()
     }
@@ -180,7 +181,7 @@ impl Signals<'_> {
 }
 
 /// One fit of the torque.
-struct Fit {
+struct TorqueFit {
     share: f64,
     error: f64,
     /// Signal of the instruments in the residual, as a multiple of the noise.
@@ -189,11 +190,15 @@ struct Fit {
     free: f64,
 }
 
-impl Fit {
+impl TorqueFit {
     /// The fit of a torque by signals, the last of which is the current.
-    fn of(instruments: &Instruments, torque: &Column, columns: &[&Column]) -> Option<Self> {
+    fn of(
+        instruments: &Instruments,
+        torque: &SignalAround,
+        columns: &[&SignalAround],
+    ) -> Option<Self> {
         let size = columns.len();
-        let with = |one: &Column| {
+        let with = |one: &SignalAround| {
             columns
                 .iter()
                 .map(|it| one.expected_with(it))
@@ -211,7 +216,7 @@ impl Fit {
             .flat_map(|i| (0..size).map(move |j| (i, j)))
             .map(|(i, j)| last[i] * last[j] * columns[i].both_expected(columns[j]))
             .sum();
-        let left = |of: &dyn Fn(&Column) -> &[f64]| {
+        let left = |of: &dyn Fn(&SignalAround) -> &[f64]| {
             let mut left = of(torque).to_vec();
             for (column, part) in columns.iter().zip(&parts) {
                 for (value, one) in left.iter_mut().zip(of(column)) {

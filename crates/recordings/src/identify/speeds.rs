@@ -4,12 +4,12 @@ use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
 use super::doubts;
 use super::finding::TraceFinding;
 use super::identified::{Identified, IdentifyError, IdentifyOptions};
-use super::pair::{Pair, Paired};
+use super::pair::{Pair, PairedSpeeds};
 use super::ripple::{residuals, wave};
 use super::segment::segments;
 use super::statistics::count;
-use super::support::{Speeds, support};
-use super::track::{Samples, Track};
+use super::support::{SpeedRange, support};
+use super::track::{AxisSamples, Track};
 use super::warnings;
 use frictcomp::lists::TablePoint;
 
@@ -18,7 +18,7 @@ use frictcomp::lists::TablePoint;
 /// # Errors
 /// The recording cannot be used for that.
 pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, IdentifyError> {
-    let mut samples = Samples::new(track)?;
+    let mut samples = AxisSamples::new(track)?;
     let mut segments = segments(&samples);
     if segments.is_empty() {
         return Err(IdentifyError::NoSegments);
@@ -37,11 +37,11 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
         // What repeats along the way is neither friction nor weight.
         samples.take_away(|position| wave.at(position));
     }
-    let Paired {
+    let PairedSpeeds {
         pairs,
         offset,
         drift,
-    } = Paired::of(&samples, &segments, duration_s);
+    } = PairedSpeeds::of(&samples, &segments, duration_s);
     if pairs.iter().all(|pair| pair.offset.is_none()) {
         return Err(IdentifyError::OneDirection);
     }
@@ -67,7 +67,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
                 .collect(),
         ),
     };
-    let speeds = Speeds {
+    let speeds = SpeedRange {
         slowest: pairs[0].speed,
         fastest: pairs[pairs.len() - 1].speed,
     };

@@ -5,7 +5,7 @@ use super::curve::FrictionCurve;
 /// Requested number of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum Wanted {
+pub enum RequestedPoints {
     /// At most this many.
     Points(usize),
     /// As few as keep the error below this part of the friction, but at most `most`.
@@ -19,7 +19,7 @@ pub enum Wanted {
 
 /// The range of speeds that a list is made for, in mm/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Speeds {
+pub(super) struct SpeedRange {
     /// The slowest measured one; below it the curve is held.
     pub(super) slowest: f64,
     pub(super) fastest: f64,
@@ -37,10 +37,16 @@ const PLACES: u32 = 200;
 
 /// The points, ascending, the first at standstill and the last at the fastest speed. The largest error
 /// of the lines is the smallest that so many points can have (dynamic programming).
-pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> Support {
-    let table = Table::new(curve, speeds);
+pub(super) fn support(
+    curve: &FrictionCurve,
+    speeds: SpeedRange,
+    wanted: RequestedPoints,
+) -> Support {
+    let table = CandidateTable::new(curve, speeds);
     let most = match wanted {
-        Wanted::Points(most) | Wanted::Error { most, .. } => most.clamp(2, table.speeds.len()),
+        RequestedPoints::Points(most) | RequestedPoints::Error { most, .. } => {
+            most.clamp(2, table.speeds.len())
+        }
     };
     let best = table.best(most);
     let level = curve
@@ -48,8 +54,8 @@ pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> 
         .abs()
         .min(curve.at(speeds.slowest).abs());
     let enough = |points: usize| match wanted {
-        Wanted::Error { part, .. } => best[points].0 <= part * level,
-        Wanted::Points(_) => false,
+        RequestedPoints::Error { part, .. } => best[points].0 <= part * level,
+        RequestedPoints::Points(_) => false,
     };
     let chosen = (1..most).find(|&lines| enough(lines)).unwrap_or(most - 1);
     let (error, places) = &best[chosen];
@@ -63,7 +69,7 @@ pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> 
     table.balanced(on_curve)
 }
 
-struct Table {
+struct CandidateTable {
     /// Candidates for points, in mm/s, whole µm/s.
     speeds: Vec<f64>,
     values: Vec<f64>,
@@ -71,8 +77,8 @@ struct Table {
     looked: Vec<[f64; 2]>,
 }
 
-impl Table {
-    fn new(curve: &FrictionCurve, Speeds { slowest, fastest }: Speeds) -> Self {
+impl CandidateTable {
+    fn new(curve: &FrictionCurve, SpeedRange { slowest, fastest }: SpeedRange) -> Self {
         let held = |speed: f64| curve.at(speed.max(slowest));
         let whole = |speed: f64| (speed * 1000.0).round() / 1000.0;
         let between = |steps: u32| {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::segment::Segment;
 use super::statistics::{count, median, samples_in};
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// Parts of the travel.
 const PARTS: f64 = 20.0;
@@ -57,7 +57,11 @@ impl Sums {
 }
 
 /// The tightest place of the travel, against a friction of `level` with its sign.
-pub(super) fn tight_spot(samples: &Samples, segments: &[Segment], level: f64) -> Option<TightSpot> {
+pub(super) fn tight_spot(
+    samples: &AxisSamples,
+    segments: &[Segment],
+    level: f64,
+) -> Option<TightSpot> {
     let places = segments
         .iter()
         .flat_map(|it| [it.samples.start, it.samples.end - 1])

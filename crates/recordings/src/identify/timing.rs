@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 
 use super::share::{Share, Signals};
 use super::statistics::{count, samples_in};
-use super::track::Samples;
+use super::track::AxisSamples;
 
 /// A list whose share is smaller did not act (R6.22).
 const NOT_ACTING: f64 = 0.2;
@@ -162,8 +162,8 @@ impl Timing {
 const UM: f64 = 1000.0;
 
 /// A recording with the current that a list adds.
-pub(super) struct Followed<'a> {
-    pub(super) samples: &'a Samples,
+pub(super) struct FollowedRecording<'a> {
+    pub(super) samples: &'a AxisSamples,
     /// Commanded less actual position in mm.
     pub(super) errors: &'a [f64],
     /// The current of the list at each sample.
@@ -178,7 +178,7 @@ pub(super) struct Followed<'a> {
     pub(super) cycle: f64,
 }
 
-impl Followed<'_> {
+impl FollowedRecording<'_> {
     /// Returns the verdict on the timing.
     pub(super) fn timing(&self) -> Timing {
         if self.turns.is_empty() {

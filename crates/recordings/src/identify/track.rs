@@ -101,7 +101,7 @@ impl TrackError {
 
 /// Motion and torque of one axis, complete and checked.
 #[derive(Debug, Clone)]
-pub(super) struct Samples {
+pub(super) struct AxisSamples {
     pub(super) times_s: Vec<f64>,
     /// In mm/s or °/s.
     pub(super) velocities: Vec<f64>,
@@ -122,7 +122,7 @@ const FEWEST: usize = 20;
 /// Samples that are further apart show no segments.
 const SLOWEST_S: f64 = 0.02;
 
-impl Samples {
+impl AxisSamples {
     pub(super) fn new(track: &Track) -> Result<Self, TrackError> {
         let samples = track.times_s.len();
         let step_s = track.step_s;

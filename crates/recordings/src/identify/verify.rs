@@ -3,8 +3,8 @@
 use super::curve::solve_linear;
 use super::identified::IdentifyError;
 use super::statistics::{count, moving_average, noise_of, samples_in};
-use super::timing::{Followed, Timing};
-use super::track::{Samples, Track};
+use super::timing::{FollowedRecording, Timing};
+use super::track::{AxisSamples, Track};
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
@@ -106,8 +106,8 @@ pub fn verify_followed(
     following_errors: &[f64],
     predictor: &Predictor<'_>,
 ) -> Result<Verified, IdentifyError> {
-    let samples = Samples::new(track)?;
-    let motion = Motion::of(&samples, predictor);
+    let samples = AxisSamples::new(track)?;
+    let motion = PredictedMotion::of(&samples, predictor);
     let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);
@@ -145,7 +145,7 @@ pub fn verify_followed(
         .map(|it| it / POSITION_UNITS_PER_MM)
         .collect();
     let cycle_s = predictor.cycle_s.unwrap_or(samples.step_s);
-    let followed = Followed {
+    let followed = FollowedRecording {
         samples: &samples,
         errors: &errors,
         predicted: &motion.predicted,
@@ -181,7 +181,7 @@ const MOST_CYCLES: f64 = 100.0;
 
 impl Predictor<'_> {
     /// The additive current at each sample, of an axis with these velocities in mm/s.
-    fn currents(&self, samples: &Samples, velocities: &[f64]) -> Vec<f64> {
+    fn currents(&self, samples: &AxisSamples, velocities: &[f64]) -> Vec<f64> {
         let mut current = AdditiveCurrent::new(self.list, self.reading);
         let cycle_s = self.cycle_s.unwrap_or(samples.step_s);
         let cycle_s = cycle_s.max(samples.step_s / MOST_CYCLES);
@@ -232,7 +232,7 @@ impl Predictor<'_> {
 }
 
 /// The motion of an axis, and the friction that the list predicts.
-struct Motion {
+struct PredictedMotion {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
     /// Slower than that in mm/s is no direction.
@@ -242,8 +242,8 @@ struct Motion {
     predicted: Vec<f64>,
 }
 
-impl Motion {
-    fn of(samples: &Samples, predictor: &Predictor<'_>) -> Self {
+impl PredictedMotion {
+    fn of(samples: &AxisSamples, predictor: &Predictor<'_>) -> Self {
         let velocities =
             moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
         let noise = noise_of(&samples.velocities);
@@ -314,7 +314,7 @@ impl Motion {
         (at.saturating_sub(LONGEST)..at).any(moving)
     }
 
-    fn reversal(&self, samples: &Samples, rest: &[f64], at: usize) -> Option<Reversal> {
+    fn reversal(&self, samples: &AxisSamples, rest: &[f64], at: usize) -> Option<Reversal> {
         let width = samples_in(0.02, samples.step_s);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / count(values.len());
         let [before, after] = [
@@ -348,8 +348,8 @@ struct Regression {
 /// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
 /// acceleration, and an offset.
 fn regress(
-    samples: &Samples,
-    motion: &Motion,
+    samples: &AxisSamples,
+    motion: &PredictedMotion,
     used: &[usize],
     range: impl Fn(f64) -> usize,
 ) -> Option<Regression> {

@@ -81,7 +81,7 @@ impl TraceRecording {
     /// The channels have no times in common, or none that rise.
     pub fn align(&self, picks: &[Pick], cycle_s: Option<f64>) -> Result<Aligned, NotAligned> {
         let mut aligned = Aligned::default();
-        let tracks: Vec<Track> = picks
+        let tracks: Vec<TimedChannel> = picks
             .iter()
             .map(|pick| self.track(pick, cycle_s, &mut aligned.remarks))
             .collect::<Result<_, _>>()?;
@@ -105,10 +105,11 @@ impl TraceRecording {
                 other: self.name(end.channel),
             });
         }
-        let from = begin.map_or(f64::NEG_INFINITY, Track::first);
-        let to = end.map_or(f64::INFINITY, Track::last);
-        let slower =
-            |track: &&Track| track.clock != base.clock || track.clock.is_none() && track.has_holes;
+        let from = begin.map_or(f64::NEG_INFINITY, TimedChannel::first);
+        let to = end.map_or(f64::INFINITY, TimedChannel::last);
+        let slower = |track: &&TimedChannel| {
+            track.clock != base.clock || track.clock.is_none() && track.has_holes
+        };
         for track in tracks
             .iter()
             .filter(slower)
@@ -148,7 +149,7 @@ impl TraceRecording {
         pick: &Pick,
         cycle_s: Option<f64>,
         remarks: &mut Vec<String>,
-    ) -> Result<Track<'_>, NotAligned> {
+    ) -> Result<TimedChannel<'_>, NotAligned> {
         let channel = pick.channel;
         let values = self.values(channel);
         #[allow(clippy::cast_precision_loss)] // rows of a file
@@ -190,7 +191,7 @@ impl TraceRecording {
                 samples: times_s.len(),
             });
         };
-        Ok(Track {
+        Ok(TimedChannel {
             channel,
             clock: self.clock(channel),
             has_holes: missing > 0,
@@ -206,7 +207,7 @@ fn milliseconds(seconds: f64) -> f64 {
 }
 
 /// A channel with its own times.
-struct Track<'a> {
+struct TimedChannel<'a> {
     channel: ChannelIndex,
     clock: Option<usize>,
     has_holes: bool,
@@ -216,7 +217,7 @@ struct Track<'a> {
     step_s: f64,
 }
 
-impl Track<'_> {
+impl TimedChannel<'_> {
     fn first(&self) -> f64 {
         self.times_s.first().copied().unwrap_or(f64::INFINITY)
     }

@@ -106,7 +106,7 @@ impl<'a> Iterator for Cells<'a> {
 
 /// Value of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Value {
+pub(super) enum CellValue {
     /// A number.
     Number(f64),
     /// Nothing, or the word of a computer for no number.
@@ -131,10 +131,10 @@ pub(super) enum Decimals {
 const MOST_DIGITS: usize = 64;
 
 /// Returns the value of a cell, and the decimal mark in it.
-pub(super) fn value(cell: &[u8]) -> (Value, Decimals) {
+pub(super) fn value(cell: &[u8]) -> (CellValue, Decimals) {
     let cell = cell.trim_ascii();
     if cell.is_empty() {
-        return (Value::Missing, Decimals::Unseen);
+        return (CellValue::Missing, Decimals::Unseen);
     }
     if !starts_number(cell) {
         return (word(cell), Decimals::Unseen);
@@ -142,7 +142,7 @@ pub(super) fn value(cell: &[u8]) -> (Value, Decimals) {
     let mut seen = Decimals::Unseen;
     let mut digits = [0; MOST_DIGITS];
     let Some(number) = digits.get_mut(..cell.len()) else {
-        return (Value::Other, seen);
+        return (CellValue::Other, seen);
     };
     for (digit, &byte) in number.iter_mut().zip(cell) {
         let mark = match byte {
@@ -152,7 +152,7 @@ pub(super) fn value(cell: &[u8]) -> (Value, Decimals) {
         };
         if mark != Decimals::Unseen {
             if seen != Decimals::Unseen {
-                return (Value::Other, Decimals::Unseen);
+                return (CellValue::Other, Decimals::Unseen);
             }
             seen = mark;
         }
@@ -161,9 +161,9 @@ pub(super) fn value(cell: &[u8]) -> (Value, Decimals) {
     let number = std::str::from_utf8(number).ok();
     let number = number.and_then(|text| text.parse::<f64>().ok());
     match number {
-        Some(number) if number.is_finite() => (Value::Number(number), seen),
-        _ if is_no_number(cell) => (Value::Missing, Decimals::Unseen),
-        _ => (Value::Other, Decimals::Unseen),
+        Some(number) if number.is_finite() => (CellValue::Number(number), seen),
+        _ if is_no_number(cell) => (CellValue::Missing, Decimals::Unseen),
+        _ => (CellValue::Other, Decimals::Unseen),
     }
 }
 
@@ -178,16 +178,16 @@ pub(super) fn starts_number(cell: &[u8]) -> bool {
 }
 
 /// Words that stand for numbers, and for none.
-fn word(cell: &[u8]) -> Value {
+fn word(cell: &[u8]) -> CellValue {
     let is = |word: &str| cell.eq_ignore_ascii_case(word.as_bytes());
     if is("true") {
-        Value::Number(1.0)
+        CellValue::Number(1.0)
     } else if is("false") {
-        Value::Number(0.0)
+        CellValue::Number(0.0)
     } else if is_no_number(cell) {
-        Value::Missing
+        CellValue::Missing
     } else {
-        Value::Other
+        CellValue::Other
     }
 }
 
@@ -227,7 +227,7 @@ pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
         let cell = cell.strip_suffix(b"\"").unwrap_or(cell);
         // `12:30:05` is the time of a clock in a column that is not read.
         let is_clock = starts_number(cell) && cell.contains(&b':');
-        value(cell).0 != Value::Other || switch(cell).is_some() || is_clock
+        value(cell).0 != CellValue::Other || switch(cell).is_some() || is_clock
     };
     let is_between: &dyn Fn(&u8) -> bool = match separator {
         Some(Separator::Byte(byte)) => &move |it| *it == byte,
@@ -276,15 +276,19 @@ mod tests {
             ("132959733843760000", 132_959_733_843_760_000.0),
             ("True", 1.0),
         ] {
-            assert_eq!(value(cell.as_bytes()).0, Value::Number(number), "{cell}");
+            assert_eq!(
+                value(cell.as_bytes()).0,
+                CellValue::Number(number),
+                "{cell}"
+            );
         }
         for cell in ["", "  ", "NaN", "-inf", "1.#QNAN"] {
-            assert_eq!(value(cell.as_bytes()).0, Value::Missing, "{cell}");
+            assert_eq!(value(cell.as_bytes()).0, CellValue::Missing, "{cell}");
         }
         for cell in ["1.234,5", "one", "1e999", "0x1F", "1 2", "-", "\u{0}1"] {
-            assert_eq!(value(cell.as_bytes()).0, Value::Other, "{cell}");
+            assert_eq!(value(cell.as_bytes()).0, CellValue::Other, "{cell}");
         }
-        assert_eq!(value(&[b'1'; 500]).0, Value::Other);
+        assert_eq!(value(&[b'1'; 500]).0, CellValue::Other);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::recording::Layout;
 
 /// A line of a file without its end.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(super) struct FileLine {
     pub(super) number: u64,
     pub(super) bytes: Vec<u8>,
 }
@@ -22,7 +22,7 @@ pub(super) enum TimeScale {
 
 /// Columns that share a column of times.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Group {
+pub(super) struct ColumnGroup {
     /// The column of the times, where there is one.
     pub(super) time: Option<usize>,
     pub(super) scale: TimeScale,
@@ -30,7 +30,7 @@ pub(super) struct Group {
 
 /// A channel with its place.
 #[derive(Debug, Clone)]
-pub(super) struct Column {
+pub(super) struct ChannelColumn {
     pub(super) channel: Channel,
     pub(super) at: usize,
     pub(super) group: usize,
@@ -38,13 +38,13 @@ pub(super) struct Column {
 
 /// Meaning of the columns of a table.
 #[derive(Debug, Clone)]
-pub(super) struct Columns {
+pub(super) struct TableColumns {
     pub(super) layout: Layout,
     pub(super) separator: Separator,
     /// Number of cells of a row.
     pub(super) count: usize,
-    pub(super) described: Vec<Column>,
-    pub(super) groups: Vec<Group>,
+    pub(super) described: Vec<ChannelColumn>,
+    pub(super) groups: Vec<ColumnGroup>,
     /// Remark on what is assumed of them.
     pub(super) remark: Option<&'static str>,
 }

@@ -1,39 +1,39 @@
 //! Tables on their way in: lines of bytes, the header, then rows.
 
 use super::choice::Demand;
-use super::columns::{Columns, Line};
+use super::columns::{FileLine, TableColumns};
 use super::error::TraceProblem;
 use super::head::Head;
 use super::recording::TraceRecording;
-use super::table::Table;
+use super::table::ChannelTable;
 
 /// A line is not longer.
 const MOST_LINE: usize = 4 << 20;
 
 /// A table of which some lines came.
 #[derive(Default)]
-pub(super) struct Csv {
+pub(super) struct CsvTable {
     /// The start of a line whose end is in the next piece.
     begun: Vec<u8>,
     lines: u64,
-    stage: Stage,
+    stage: CsvStage,
 }
 
 #[derive(Default)]
-enum Stage {
+enum CsvStage {
     /// Above the numbers.
     Head(Head),
     /// Among the numbers.
-    Rows(Box<Table>),
+    Rows(Box<ChannelTable>),
     /// Between the two, and after a problem.
     #[default]
     Empty,
 }
 
-impl Csv {
+impl CsvTable {
     pub(super) fn new() -> Self {
         Self {
-            stage: Stage::Head(Head::default()),
+            stage: CsvStage::Head(Head::default()),
             ..Self::default()
         }
     }
@@ -78,9 +78,9 @@ impl Csv {
             self.line(&last, demand)?;
         }
         match self.stage {
-            Stage::Head(head) => Ok(Self::table(head, demand)?.finish()),
-            Stage::Rows(table) => Ok(table.finish()),
-            Stage::Empty => Err(TraceProblem::NoRows),
+            CsvStage::Head(head) => Ok(Self::table(head, demand)?.finish()),
+            CsvStage::Rows(table) => Ok(table.finish()),
+            CsvStage::Empty => Err(TraceProblem::NoRows),
         }
     }
 
@@ -88,26 +88,26 @@ impl Csv {
         self.lines += 1;
         let line = line.strip_suffix(b"\r").unwrap_or(line);
         match &mut self.stage {
-            Stage::Rows(table) => table.row(self.lines, line),
-            Stage::Head(head) => {
+            CsvStage::Rows(table) => table.row(self.lines, line),
+            CsvStage::Head(head) => {
                 if memchr::memchr(0, line).is_some() {
                     return Err(TraceProblem::Binary);
                 }
-                let line = Line {
+                let line = FileLine {
                     number: self.lines,
                     bytes: line.to_vec(),
                 };
                 if let Some(columns) = head.line(line)? {
                     let head = std::mem::take(head);
-                    self.stage = Stage::Rows(Self::begun(head, columns, demand)?);
+                    self.stage = CsvStage::Rows(Self::begun(head, columns, demand)?);
                 }
                 Ok(())
             }
-            Stage::Empty => Ok(()),
+            CsvStage::Empty => Ok(()),
         }
     }
 
-    fn table(head: Head, demand: &mut Demand<'_>) -> Result<Box<Table>, TraceProblem> {
+    fn table(head: Head, demand: &mut Demand<'_>) -> Result<Box<ChannelTable>, TraceProblem> {
         let columns = head.end()?;
         Self::begun(head, columns, demand)
     }
@@ -115,10 +115,10 @@ impl Csv {
     /// A table with the rows that came while its columns were not known.
     fn begun(
         head: Head,
-        columns: Columns,
+        columns: TableColumns,
         demand: &mut Demand<'_>,
-    ) -> Result<Box<Table>, TraceProblem> {
-        let mut table = Box::new(Table::new(columns, demand)?);
+    ) -> Result<Box<ChannelTable>, TraceProblem> {
+        let mut table = Box::new(ChannelTable::new(columns, demand)?);
         for row in head.rows() {
             table.row(row.number, &row.bytes)?;
         }

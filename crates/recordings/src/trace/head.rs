@@ -1,7 +1,7 @@
 //! The text above the rows of numbers, gathered until the first of them.
 
 use super::cell::{Separator, is_data};
-use super::columns::{Columns, Line};
+use super::columns::{FileLine, TableColumns};
 use super::error::TraceProblem;
 use super::plain;
 use super::scope::{self, OpenRow};
@@ -9,9 +9,9 @@ use super::scope::{self, OpenRow};
 /// The lines above the numbers.
 #[derive(Debug, Default)]
 pub(super) struct Head {
-    above: Vec<Line>,
+    above: Vec<FileLine>,
     /// Rows of numbers below no header, from which the columns of times are found.
-    rows: Vec<Line>,
+    rows: Vec<FileLine>,
     bytes: usize,
     /// The separator, where the lines are those of Scope.
     separator: Option<Separator>,
@@ -32,12 +32,12 @@ pub(super) const MOST_COLUMNS: usize = 20_000;
 
 impl Head {
     /// Takes a line. The columns, once they are known.
-    pub(super) fn line(&mut self, line: Line) -> Result<Option<Columns>, TraceProblem> {
+    pub(super) fn line(&mut self, line: FileLine) -> Result<Option<TableColumns>, TraceProblem> {
         self.bytes += line.bytes.len();
         if self.bytes > MOST_HEADER {
             return Err(TraceProblem::NoRows);
         }
-        let is_filled = |line: &&mut Line| !line.bytes.trim_ascii().is_empty();
+        let is_filled = |line: &&mut FileLine| !line.bytes.trim_ascii().is_empty();
         let last = self.above.iter_mut().rfind(is_filled);
         if let (Some(open), Some(last)) = (&mut self.open, last)
             && open.continues(&line.bytes)
@@ -67,7 +67,7 @@ impl Head {
     }
 
     /// The file is over: the columns of the rows that came.
-    pub(super) fn end(&self) -> Result<Columns, TraceProblem> {
+    pub(super) fn end(&self) -> Result<TableColumns, TraceProblem> {
         if self.rows.is_empty() {
             return Err(TraceProblem::NoRows);
         }
@@ -75,7 +75,7 @@ impl Head {
     }
 
     /// The rows of numbers that came so far.
-    pub(super) fn rows(self) -> Vec<Line> {
+    pub(super) fn rows(self) -> Vec<FileLine> {
         self.rows
     }
 
@@ -88,7 +88,7 @@ impl Head {
                     .any(|line| !line.bytes.trim_ascii().is_empty())
     }
 
-    fn columns(&self) -> Result<Columns, TraceProblem> {
+    fn columns(&self) -> Result<TableColumns, TraceProblem> {
         let first = &self.rows[0];
         let columns = if scope::has_attributes(&self.above) {
             scope::columns(&self.above, first)?

@@ -1,17 +1,17 @@
 //! Tables with one row of names above the numbers, or with none.
 
-use super::cell::{Separator, Value, text, value};
+use super::cell::{CellValue, Separator, text, value};
 use super::channel::Channel;
-use super::columns::{Column, Columns, Group, Line, TimeScale};
+use super::columns::{ChannelColumn, ColumnGroup, FileLine, TableColumns, TimeScale};
 use super::error::TraceProblem;
-use super::recording::{Layout, Rows};
+use super::recording::{Layout, RowForm};
 use super::unit::{Unit, split_unit};
 
 /// A table with a header.
-const WITH_NAMES: Layout = Layout::new("CSV with a header", Rows::Whole);
+const WITH_NAMES: Layout = Layout::new("CSV with a header", RowForm::Whole);
 
 /// Numbers without any header, taken as an export of TwinCAT Scope.
-const WITHOUT_NAMES: Layout = Layout::new("CSV without a header", Rows::Ragged);
+const WITHOUT_NAMES: Layout = Layout::new("CSV without a header", RowForm::Ragged);
 
 /// The separators in the order in which they are tried.
 const SEPARATORS: [Separator; 5] = [
@@ -23,7 +23,7 @@ const SEPARATORS: [Separator; 5] = [
 ];
 
 /// The columns below a row of names.
-pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProblem> {
+pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColumns, TraceProblem> {
     let lines: Vec<&[u8]> = above
         .iter()
         .map(|line| line.bytes.trim_ascii().trim_start_matches_marks())
@@ -68,7 +68,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
 }
 
 /// The columns by the last of some rows, or by the one above it where the last holds units.
-fn named(lines: &[&[u8]], separator: Separator) -> Columns {
+fn named(lines: &[&[u8]], separator: Separator) -> TableColumns {
     let mut rows = lines.iter().rev().map(|line| cells_of(line, separator));
     let mut names = rows.next().unwrap_or_default();
     let mut units = Vec::new();
@@ -89,7 +89,7 @@ fn named(lines: &[&[u8]], separator: Separator) -> Columns {
             .get(at)
             .map(|unit| unit.trim_matches(['[', ']', '(', ')']).to_owned());
         let within = || split_unit(&name).1.map(str::to_owned);
-        Column {
+        ChannelColumn {
             channel: Channel {
                 unit: below.filter(|unit| !unit.is_empty()).or_else(within),
                 name,
@@ -99,12 +99,12 @@ fn named(lines: &[&[u8]], separator: Separator) -> Columns {
             group: 0,
         }
     };
-    Columns {
+    TableColumns {
         layout: WITH_NAMES,
         separator,
         count,
         described: names.into_iter().enumerate().map(column).collect(),
-        groups: vec![Group {
+        groups: vec![ColumnGroup {
             time: None,
             scale: TimeScale::Seconds(1.0),
         }],
@@ -119,7 +119,7 @@ fn is_unit(cell: &str) -> bool {
 }
 
 /// The columns of numbers without names: the first one is the time, and so is each that counts like it.
-pub(super) fn headless(rows: &[Line], separator: Option<Separator>) -> Columns {
+pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> TableColumns {
     let separator = separator.unwrap_or_else(|| separator_of(&rows[0].bytes));
     let table: Vec<Vec<String>> = rows
         .iter()
@@ -129,13 +129,13 @@ pub(super) fn headless(rows: &[Line], separator: Option<Separator>) -> Columns {
     let numbers = |at: usize| -> Vec<f64> {
         let cells = table.iter().filter_map(|row| row.get(at));
         let numbers = cells.filter_map(|cell| match value(cell.as_bytes()).0 {
-            Value::Number(number) => Some(number),
+            CellValue::Number(number) => Some(number),
             _ => None,
         });
         numbers.collect()
     };
     let first = numbers(0);
-    let mut columns = Columns {
+    let mut columns = TableColumns {
         layout: WITHOUT_NAMES,
         separator,
         count,
@@ -145,19 +145,19 @@ pub(super) fn headless(rows: &[Line], separator: Option<Separator>) -> Columns {
     };
     for at in 0..count {
         if count > 1 && (at == 0 || counts_like(&numbers(at), &first)) {
-            columns.groups.push(Group {
+            columns.groups.push(ColumnGroup {
                 time: Some(at),
                 scale: TimeScale::Scope,
             });
             continue;
         }
         if columns.groups.is_empty() {
-            columns.groups.push(Group {
+            columns.groups.push(ColumnGroup {
                 time: None,
                 scale: TimeScale::Scope,
             });
         }
-        columns.described.push(Column {
+        columns.described.push(ChannelColumn {
             channel: Channel {
                 name: format!("column {}", at + 1),
                 ..Channel::default()

@@ -2,7 +2,7 @@
 
 use super::channel::Channel;
 use super::choice::{Choice, Demand};
-use super::csv::Csv;
+use super::csv::CsvTable;
 use super::error::{SelectError, TraceProblem};
 use super::recording::TraceRecording;
 use super::wide::Letters;
@@ -27,12 +27,12 @@ pub struct TraceReader<'a> {
     letters: Letters,
     /// The first bytes, until there are enough to tell what the file is.
     first: Vec<u8>,
-    form: Form,
+    form: FileForm,
 }
 
-enum Form {
+enum FileForm {
     Unknown,
-    Csv(Csv),
+    Csv(CsvTable),
     Xml(Box<Xml>),
 }
 
@@ -55,7 +55,7 @@ impl<'a> TraceReader<'a> {
             },
             letters: Letters::default(),
             first: Vec::new(),
-            form: Form::Unknown,
+            form: FileForm::Unknown,
         }
     }
 
@@ -64,7 +64,7 @@ impl<'a> TraceReader<'a> {
     /// # Errors
     /// They belong to no trace, or not to one with the channels that are wanted.
     pub fn feed(&mut self, piece: &[u8]) -> Result<(), TraceProblem> {
-        if !matches!(self.form, Form::Unknown) {
+        if !matches!(self.form, FileForm::Unknown) {
             return self.give(piece);
         }
         self.first.extend(piece);
@@ -79,13 +79,13 @@ impl<'a> TraceReader<'a> {
     /// # Errors
     /// What came is no trace, or not one with the channels that are wanted.
     pub fn finish(mut self) -> Result<TraceRecording, TraceProblem> {
-        if matches!(self.form, Form::Unknown) {
+        if matches!(self.form, FileForm::Unknown) {
             self.begin()?;
         }
         match self.form {
-            Form::Csv(csv) => csv.finish(&mut self.demand),
-            Form::Xml(xml) => xml.finish(&mut self.demand),
-            Form::Unknown => Err(TraceProblem::NoRows),
+            FileForm::Csv(csv) => csv.finish(&mut self.demand),
+            FileForm::Xml(xml) => xml.finish(&mut self.demand),
+            FileForm::Unknown => Err(TraceProblem::NoRows),
         }
     }
 
@@ -104,11 +104,11 @@ impl<'a> TraceReader<'a> {
         self.give_narrow(&text)
     }
 
-    fn form(text: &[u8]) -> Form {
+    fn form(text: &[u8]) -> FileForm {
         match text.trim_ascii_start().first() {
-            Some(b'<') => Form::Xml(Box::default()),
+            Some(b'<') => FileForm::Xml(Box::default()),
             // Without the reader of XML, its text is a table without numbers.
-            _ => Form::Csv(Csv::new()),
+            _ => FileForm::Csv(CsvTable::new()),
         }
     }
 
@@ -121,9 +121,9 @@ impl<'a> TraceReader<'a> {
 
     fn give_narrow(&mut self, piece: &[u8]) -> Result<(), TraceProblem> {
         match &mut self.form {
-            Form::Csv(csv) => csv.feed(piece, &mut self.demand),
-            Form::Xml(xml) => xml.feed(piece, &self.demand),
-            Form::Unknown => Ok(()),
+            FileForm::Csv(csv) => csv.feed(piece, &mut self.demand),
+            FileForm::Xml(xml) => xml.feed(piece, &self.demand),
+            FileForm::Unknown => Ok(()),
         }
     }
 }

@@ -6,12 +6,12 @@ use super::channel::{Channel, ChannelIndex};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Layout {
     name: &'static str,
-    pub(super) rows: Rows,
+    pub(super) rows: RowForm,
 }
 
 /// Form of the rows of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Rows {
+pub(super) enum RowForm {
     /// Each has all numbers.
     Whole,
     /// As Scope writes them: shorter where channels have ended, repeated for slow ones, and followed
@@ -20,7 +20,7 @@ pub(super) enum Rows {
 }
 
 impl Layout {
-    pub(super) const fn new(name: &'static str, rows: Rows) -> Self {
+    pub(super) const fn new(name: &'static str, rows: RowForm) -> Self {
         Self { name, rows }
     }
 
@@ -44,7 +44,7 @@ pub struct Missing {
 
 /// The samples of a channel.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Samples {
+pub(super) struct ChannelSamples {
     pub(super) values: Vec<f64>,
     pub(super) missing: Missing,
     /// Index of its clock, where the file has times.
@@ -57,7 +57,7 @@ pub struct TraceRecording {
     pub(super) layout: Layout,
     pub(super) channels: Vec<Channel>,
     /// In the order of the channels; none for those that were not asked for.
-    pub(super) samples: Vec<Option<Samples>>,
+    pub(super) samples: Vec<Option<ChannelSamples>>,
     /// The times of the clocks in seconds.
     pub(super) clocks: Vec<Vec<f64>>,
     pub(super) remarks: Vec<String>,
@@ -110,7 +110,7 @@ impl TraceRecording {
         missing.unwrap_or_default()
     }
 
-    fn of(&self, channel: ChannelIndex) -> Option<&Samples> {
+    fn of(&self, channel: ChannelIndex) -> Option<&ChannelSamples> {
         self.samples.get(channel.0)?.as_ref()
     }
 

@@ -6,12 +6,12 @@
 
 use super::cell::{Separator, is_data, text};
 use super::channel::{Channel, CncObject, ScopeDrawing, parse_address};
-use super::columns::{Column, Columns, Group, Line, TimeScale};
+use super::columns::{ChannelColumn, ColumnGroup, FileLine, TableColumns, TimeScale};
 use super::error::TraceProblem;
-use super::recording::{Layout, Rows};
+use super::recording::{Layout, RowForm};
 
 /// An export of TwinCAT Scope with rows of attributes.
-const LAYOUT: Layout = Layout::new("TwinCAT Scope CSV", Rows::Ragged);
+const LAYOUT: Layout = Layout::new("TwinCAT Scope CSV", RowForm::Ragged);
 
 /// The attributes of channels. What begins another one stands before it.
 const ATTRIBUTES: [&str; 21] = [
@@ -74,7 +74,7 @@ fn is_of_file(key: &str) -> bool {
 }
 
 /// The separator, where the lines are those of Scope.
-pub(super) fn separator_of(above: &[Line]) -> Option<Separator> {
+pub(super) fn separator_of(above: &[FileLine]) -> Option<Separator> {
     let first = above
         .iter()
         .find(|line| !line.bytes.trim_ascii().is_empty())?;
@@ -90,8 +90,8 @@ pub(super) fn separator_of(above: &[Line]) -> Option<Separator> {
 }
 
 /// The rows of attributes, without those about the file.
-fn attributes(above: &[Line]) -> impl Iterator<Item = (&'static str, &Line)> {
-    let keyed = |line: &'_ Line| key_of(&line.bytes).map(|(key, _)| key);
+fn attributes(above: &[FileLine]) -> impl Iterator<Item = (&'static str, &FileLine)> {
+    let keyed = |line: &'_ FileLine| key_of(&line.bytes).map(|(key, _)| key);
     above.iter().enumerate().filter_map(move |(at, line)| {
         let key = keyed(line)?;
         let next = above.get(at + 1).and_then(keyed);
@@ -102,7 +102,7 @@ fn attributes(above: &[Line]) -> impl Iterator<Item = (&'static str, &Line)> {
 }
 
 /// Whether channels are described.
-pub(super) fn has_attributes(above: &[Line]) -> bool {
+pub(super) fn has_attributes(above: &[FileLine]) -> bool {
     separator_of(above).is_some() && attributes(above).next().is_some()
 }
 
@@ -122,7 +122,7 @@ pub(super) struct OpenRow {
 
 impl OpenRow {
     /// The last of some lines, where it is a row of attributes.
-    pub(super) fn last(above: &[Line]) -> Option<Self> {
+    pub(super) fn last(above: &[FileLine]) -> Option<Self> {
         let Separator::Byte(separator) = separator_of(above)? else {
             return None;
         };
@@ -194,12 +194,12 @@ impl OpenRow {
 }
 
 /// The columns of an export with rows of attributes.
-pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProblem> {
+pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColumns, TraceProblem> {
     let separator = separator_of(above).unwrap_or(Separator::Byte(b'\t'));
     let of_numbers = separator.of_numbers();
     let in_row = width(&of_numbers.quoted_cells(&first.bytes));
-    let rows: Vec<Row> = attributes(above)
-        .map(|(key, line)| Row {
+    let rows: Vec<AttributeRow> = attributes(above)
+        .map(|(key, line)| AttributeRow {
             key,
             cells: separator.quoted_cells(&line.bytes),
         })
@@ -217,7 +217,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
     let count = divided.count.max(divided.starts.len());
     // Without time columns a row of numbers is as much shorter as there are groups.
     let is_timed = in_row > count - divided.starts.len() || in_row == 0;
-    let mut columns = Columns {
+    let mut columns = TableColumns {
         layout: LAYOUT,
         separator: of_numbers,
         count: if is_timed {
@@ -233,7 +233,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
     let keys: Vec<&str> = attributes(above).map(|(key, _)| key).collect();
     let mut at = 0;
     for (group, width) in divided.widths().into_iter().enumerate() {
-        columns.groups.push(Group {
+        columns.groups.push(ColumnGroup {
             time: is_timed.then_some(at),
             scale: TimeScale::Scope,
         });
@@ -244,7 +244,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
                 let cell = rows[row].get(group)?.get(place)?.trim();
                 (!cell.is_empty()).then(|| cell.to_owned())
             };
-            columns.described.push(Column {
+            columns.described.push(ChannelColumn {
                 channel: channel(&cell, at),
                 at,
                 group,
@@ -301,12 +301,12 @@ fn is_whole(data_type: &str) -> bool {
 }
 
 /// A row of attributes.
-struct Row {
+struct AttributeRow {
     key: &'static str,
     cells: Vec<Vec<u8>>,
 }
 
-impl Row {
+impl AttributeRow {
     fn is_key(&self, at: usize) -> bool {
         self.cells
             .get(at)
@@ -337,8 +337,8 @@ const BLANK: Separator = Separator::Byte(b' ');
 impl Division {
     /// By the leading row, and by the others where they are as wide: a channel may be called `Name`.
     fn of(
-        lead: &Row,
-        rows: &[Row],
+        lead: &AttributeRow,
+        rows: &[AttributeRow],
         separator: Separator,
         in_row: usize,
     ) -> Result<Self, TraceProblem> {
@@ -389,7 +389,7 @@ impl Division {
     }
 
     /// The cells of a row, by group.
-    fn segments(&self, row: &Row) -> Vec<Vec<String>> {
+    fn segments(&self, row: &AttributeRow) -> Vec<Vec<String>> {
         let widths = self.widths();
         let filled = width(&row.cells);
         let is_aligned =

@@ -41,30 +41,30 @@ pub struct Pick {
 }
 
 /// The names by which channels are taken without being asked for, and words that hint at them.
-struct Names {
+struct ChannelNames {
     quantity: ChannelQuantity,
     taken: &'static [&'static str],
     hints: &'static [&'static str],
 }
 
 /// For each quantity; the first hint that is found in a name counts.
-const NAMES: [Names; 4] = [
-    Names {
+const NAMES: [ChannelNames; 4] = [
+    ChannelNames {
         quantity: ChannelQuantity::Time,
         taken: &["t", "time", "zeit"],
         hints: &["time", "zeit", "stamp"],
     },
-    Names {
+    ChannelNames {
         quantity: ChannelQuantity::Position,
         taken: &["x"],
         hints: &["cmdpos", "setpos", "pos", "weg", "lage"],
     },
-    Names {
+    ChannelNames {
         quantity: ChannelQuantity::Velocity,
         taken: &["v"],
         hints: &["cmdvel", "setvel", "vel", "speed", "geschw", "drehzahl"],
     },
-    Names {
+    ChannelNames {
         quantity: ChannelQuantity::Torque,
         taken: &["torque"],
         hints: &[
@@ -351,7 +351,7 @@ fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
 
 /// A CNC object as the user writes it.
 #[derive(Debug, Clone, Copy)]
-enum Wanted {
+enum WantedObject {
     /// `0x120300:0x10017`.
     Whole(CncObject),
     /// `0x10017`, an offset with its axis.
@@ -360,7 +360,7 @@ enum Wanted {
     Element(u32),
 }
 
-impl Wanted {
+impl WantedObject {
     fn fits(self, object: CncObject) -> bool {
         match self {
             Self::Whole(whole) => whole == object,
@@ -370,16 +370,16 @@ impl Wanted {
     }
 }
 
-fn parse_object(text: &str) -> Option<Wanted> {
+fn parse_object(text: &str) -> Option<WantedObject> {
     let is_hex = |text: &str| text.starts_with("0x") || text.starts_with("0X");
     match text.split_once([':', ',', '/']) {
-        Some((group, offset)) => Some(Wanted::Whole(CncObject {
+        Some((group, offset)) => Some(WantedObject::Whole(CncObject {
             group: parse_address(group)?,
             offset: parse_address(offset)?,
         })),
         None if is_hex(text) => match parse_address(text)? {
-            element @ 0..=0xffff => Some(Wanted::Element(element)),
-            offset => Some(Wanted::Offset(offset)),
+            element @ 0..=0xffff => Some(WantedObject::Element(element)),
+            offset => Some(WantedObject::Offset(offset)),
         },
         None => None,
     }

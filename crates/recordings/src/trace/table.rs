@@ -1,20 +1,20 @@
 //! Rows of numbers, of which only the columns that are wanted are read.
 
-use super::cell::{Decimals, Separator, Value, is_data, switch, text, value};
+use super::cell::{CellValue, Decimals, Separator, is_data, switch, text, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
-use super::columns::{Columns, Group, TimeScale};
+use super::columns::{ColumnGroup, TableColumns, TimeScale};
 use super::error::TraceProblem;
-use super::recording::{Layout, Rows, Samples, TraceRecording};
+use super::recording::{ChannelSamples, Layout, RowForm, TraceRecording};
 
 /// A table whose header is known.
-pub(super) struct Table {
+pub(super) struct ChannelTable {
     layout: Layout,
     separator: Separator,
     count: usize,
     channels: Vec<Channel>,
     groups: Vec<Times>,
-    wanted: Vec<Wanted>,
+    wanted: Vec<WantedChannel>,
     /// For each column that is read, its cell in the row at hand.
     read: Vec<usize>,
     rows: usize,
@@ -37,12 +37,12 @@ struct Times {
 }
 
 /// A channel that is wanted.
-struct Wanted {
+struct WantedChannel {
     channel: usize,
     column: usize,
     group: usize,
     holds: Holds,
-    samples: Samples,
+    samples: ChannelSamples,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,8 +51,11 @@ enum Holds {
     Switches,
 }
 
-impl Table {
-    pub(super) fn new(columns: Columns, demand: &mut Demand<'_>) -> Result<Self, TraceProblem> {
+impl ChannelTable {
+    pub(super) fn new(
+        columns: TableColumns,
+        demand: &mut Demand<'_>,
+    ) -> Result<Self, TraceProblem> {
         let channels: Vec<Channel> = columns
             .described
             .iter()
@@ -61,13 +64,13 @@ impl Table {
         let choice = (demand.choose)(&channels)?;
         let one_clock = match choice.time {
             TimeSource::Layout => None,
-            TimeSource::Channel(pick) => Some(Group {
+            TimeSource::Channel(pick) => Some(ColumnGroup {
                 time: columns
                     .described
                     .get(pick.channel.0)
                     .map(|column| column.at),
                 scale: match columns.layout.rows {
-                    Rows::Ragged if pick.is_unit_assumed => TimeScale::Scope,
+                    RowForm::Ragged if pick.is_unit_assumed => TimeScale::Scope,
                     _ => TimeScale::Seconds(pick.unit.factor),
                 },
             }),
@@ -79,19 +82,19 @@ impl Table {
             .iter()
             .map(|it| (it.0, Holds::Numbers))
             .chain(switches);
-        let wanted: Vec<Wanted> = chosen
+        let wanted: Vec<WantedChannel> = chosen
             .filter_map(|(channel, holds)| {
                 let column = columns.described.get(channel)?;
                 let group = if one_clock.is_some() { 0 } else { column.group };
                 let clock = groups.get(group).filter(|it| it.time.is_some());
-                Some(Wanted {
+                Some(WantedChannel {
                     channel,
                     column: column.at,
                     group,
                     holds,
-                    samples: Samples {
+                    samples: ChannelSamples {
                         clock: clock.map(|_| group),
-                        ..Samples::default()
+                        ..ChannelSamples::default()
                     },
                 })
             })
@@ -142,7 +145,7 @@ impl Table {
             self.is_over = true;
             return Ok(());
         }
-        let may_end = self.layout.rows == Rows::Ragged && self.is_after_blank && self.rows > 0;
+        let may_end = self.layout.rows == RowForm::Ragged && self.is_after_blank && self.rows > 0;
         if may_end && !is_data(row, Some(self.separator)) {
             self.is_over = true;
             self.remarks.push(format!(
@@ -212,17 +215,17 @@ impl Table {
             };
             let (time, mark) = time;
             match time {
-                Value::Number(time) => {
+                CellValue::Number(time) => {
                     note(&mut self.decimals, mark, line)?;
                     // Scope repeats the row of a slow channel until its next sample.
                     let is_repeated =
-                        self.layout.rows == Rows::Ragged && times.values.last() == Some(&time);
+                        self.layout.rows == RowForm::Ragged && times.values.last() == Some(&time);
                     sampled[at] = !is_repeated;
                     if !is_repeated {
                         times.values.push(time);
                     }
                 }
-                Value::Missing if self.layout.rows == Rows::Ragged => sampled[at] = false,
+                CellValue::Missing if self.layout.rows == RowForm::Ragged => sampled[at] = false,
                 _ => return Err(not_a_number(line, "time", cell)),
             }
         }
@@ -234,16 +237,16 @@ impl Table {
             let (found, mark) = match wanted.holds {
                 Holds::Numbers => value(cell),
                 Holds::Switches => (
-                    switch(cell).map_or(Value::Other, Value::Number),
+                    switch(cell).map_or(CellValue::Other, CellValue::Number),
                     Decimals::Unseen,
                 ),
             };
             match found {
-                Value::Number(number) => {
+                CellValue::Number(number) => {
                     note(&mut self.decimals, mark, line)?;
                     wanted.samples.values.push(number);
                 }
-                Value::Missing => {
+                CellValue::Missing => {
                     let missing = &mut wanted.samples.missing;
                     if missing.count == 0 {
                         missing.line = line;
@@ -252,7 +255,7 @@ impl Table {
                     missing.count += 1;
                     wanted.samples.values.push(f64::NAN);
                 }
-                Value::Other => {
+                CellValue::Other => {
                     let column = &self.channels[wanted.channel].name;
                     return Err(match (wanted.holds, not_a_number(line, column, cell)) {
                         (Holds::Switches, TraceProblem::Number { line, column, text }) => {
@@ -269,7 +272,7 @@ impl Table {
     /// Whether a row is as wide as the header. Rows of Scope may be short.
     fn check_width(&self, line: u64, cells: usize) -> Result<(), TraceProblem> {
         let columns = self.count;
-        let may_be_short = self.layout.rows == Rows::Ragged;
+        let may_be_short = self.layout.rows == RowForm::Ragged;
         if cells == columns || cells < columns && may_be_short {
             return Ok(());
         }
@@ -289,13 +292,13 @@ impl Table {
 
     /// The channels with their samples.
     pub(super) fn finish(mut self) -> TraceRecording {
-        let mut samples: Vec<Option<Samples>> = vec![None; self.channels.len()];
+        let mut samples: Vec<Option<ChannelSamples>> = vec![None; self.channels.len()];
         let mut clocks: Vec<Vec<f64>> = self.groups.into_iter().map(|it| it.values).collect();
         for mut wanted in self.wanted {
             let found = &mut wanted.samples;
             // A channel that is shorter than others ends; it is not without samples.
             while found.values.last().is_some_and(|value| value.is_nan())
-                && self.layout.rows == Rows::Ragged
+                && self.layout.rows == RowForm::Ragged
             {
                 found.values.pop();
                 found.missing.count -= 1;
@@ -325,7 +328,7 @@ impl Table {
 }
 
 /// A time as Scope writes it, in seconds.
-fn scope_time(cell: &[u8], origin: &mut Option<u64>) -> (Value, Decimals) {
+fn scope_time(cell: &[u8], origin: &mut Option<u64>) -> (CellValue, Decimals) {
     /// Fewer digits count milliseconds: a hundred thousand years of them.
     const FILETIME_DIGITS: usize = 15;
     /// Units of 100 ns in a second.
@@ -336,24 +339,24 @@ fn scope_time(cell: &[u8], origin: &mut Option<u64>) -> (Value, Decimals) {
             .ok()
             .and_then(|text| text.parse::<u64>().ok());
         let Some(ticks) = ticks else {
-            return (Value::Other, Decimals::Unseen);
+            return (CellValue::Other, Decimals::Unseen);
         };
         let origin = *origin.get_or_insert(ticks);
         let forward = ticks >= origin;
         #[allow(clippy::cast_precision_loss)] // recordings of some hours
         let apart = ticks.abs_diff(origin) as f64 / TICKS_PER_S;
         return (
-            Value::Number(if forward { apart } else { -apart }),
+            CellValue::Number(if forward { apart } else { -apart }),
             Decimals::Unseen,
         );
     }
     scaled(cell, 1e-3)
 }
 
-fn scaled(cell: &[u8], factor: f64) -> (Value, Decimals) {
+fn scaled(cell: &[u8], factor: f64) -> (CellValue, Decimals) {
     let (found, mark) = value(cell);
     match found {
-        Value::Number(number) => (Value::Number(number * factor), mark),
+        CellValue::Number(number) => (CellValue::Number(number * factor), mark),
         other => (other, mark),
     }
 }

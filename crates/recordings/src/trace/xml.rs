@@ -8,14 +8,14 @@ use quick_xml::Reader;
 use quick_xml::escape::unescape;
 use quick_xml::events::{BytesStart, Event};
 
-use super::cell::{Value, of_old_systems, value};
+use super::cell::{CellValue, of_old_systems, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::error::TraceProblem;
-use super::recording::{Layout, Rows, Samples, TraceRecording};
+use super::recording::{ChannelSamples, Layout, RowForm, TraceRecording};
 
 /// The XML of a SINUMERIK trace.
-const LAYOUT: Layout = Layout::new("SINUMERIK trace XML", Rows::Whole);
+const LAYOUT: Layout = Layout::new("SINUMERIK trace XML", RowForm::Whole);
 
 /// An element is not longer.
 const MOST_ELEMENT: usize = 1 << 20;
@@ -34,7 +34,7 @@ pub(super) struct Xml {
     lines: u64,
     /// Signals as they are described anywhere in the file.
     described: Vec<Signal>,
-    columns: Vec<Recorded>,
+    columns: Vec<RecordedSignal>,
     /// Index of the first column of the present frame.
     frame: usize,
     records: usize,
@@ -53,10 +53,10 @@ struct Signal {
 
 /// A signal that is recorded.
 #[derive(Debug, Default)]
-struct Recorded {
+struct RecordedSignal {
     signal: Signal,
     times: Vec<f64>,
-    samples: Samples,
+    samples: ChannelSamples,
 }
 
 impl Xml {
@@ -189,9 +189,9 @@ impl Xml {
             let reason = format!("there are more than {MOST_SIGNALS} signals");
             return Err(self.damaged(before, reason));
         }
-        self.columns.push(Recorded {
+        self.columns.push(RecordedSignal {
             signal,
-            ..Recorded::default()
+            ..RecordedSignal::default()
         });
         Ok(())
     }
@@ -230,9 +230,9 @@ impl Xml {
                 continue;
             }
             let number = match value(attribute.value.as_bytes()).0 {
-                Value::Number(number) if number.abs() < NO_VALUE => number,
-                Value::Number(_) | Value::Missing => f64::NAN,
-                Value::Other => {
+                CellValue::Number(number) if number.abs() < NO_VALUE => number,
+                CellValue::Number(_) | CellValue::Missing => f64::NAN,
+                CellValue::Other => {
                     return Err(TraceProblem::Number {
                         line: self.line(before),
                         column: key.as_ref().to_owned(),

@@ -2,7 +2,7 @@
 
 use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};
 use frictcomp::text::SourceFile;
-use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, Job};
+use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, LapRun};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, plant_list};
 use frictcomp_recordings::identify::{
@@ -168,7 +168,7 @@ fn eight_points_leave_the_glitch_of_the_true_curve() {
                 model: FrictionModel::Lugre,
                 reading: Reading::default(),
             };
-            let on = Job {
+            let on = LapRun {
                 compensation: Switched::On,
                 direction: Direction::Ccw,
             };

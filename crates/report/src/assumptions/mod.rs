@@ -9,5 +9,5 @@ mod table;
 pub use in_force::rests_on_text;
 pub use simulated::not_modelled;
 pub(crate) use simulated::not_modelled_line;
-pub(crate) use table::Met;
+pub(crate) use table::SessionFacts;
 pub use table::{Assumption, Chapter, Difference, When, chapters, differences};

@@ -76,7 +76,7 @@ pub struct Difference {
 
 /// Facts about a session that decide its assumptions.
 #[derive(Debug, Clone)]
-pub(crate) struct Met {
+pub(crate) struct SessionFacts {
     /// The codes of its messages.
     pub(crate) reported: BTreeSet<Code>,
     /// Set of axes.
@@ -132,7 +132,7 @@ impl TryFrom<String> for When {
 
 impl Assumption {
     /// Whether a session is known to depend on it.
-    pub(crate) fn is_met(&self, met: &Met) -> bool {
+    pub(crate) fn is_met(&self, met: &SessionFacts) -> bool {
         self.when.iter().any(|case| match case {
             When::Always => true,
             When::NoMachine => met.axis_set == AxisSet::AsTheyOccur,
@@ -147,8 +147,8 @@ impl Assumption {
 mod tests {
     use super::*;
 
-    fn met(reported: &[Code]) -> Met {
-        Met {
+    fn met(reported: &[Code]) -> SessionFacts {
+        SessionFacts {
             reported: reported.iter().copied().collect(),
             axis_set: AxisSet::Configured,
             passed_over: 0,
@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    fn rules(met: &Met) -> Vec<&'static str> {
+    fn rules(met: &SessionFacts) -> Vec<&'static str> {
         let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);
         let used = all.filter(|assumption| assumption.is_met(met));
         used.map(|assumption| assumption.rule.as_str()).collect()
@@ -176,17 +176,17 @@ mod tests {
         // R9.50, R1.37, R2.47, R9.20
         let plain = met(&[]);
         assert!(!rules(&plain).contains(&"R1.37") && !rules(&plain).contains(&"R2.47"));
-        let undescribed = Met {
+        let undescribed = SessionFacts {
             axis_set: AxisSet::AsTheyOccur,
             ..met(&[])
         };
         assert!(rules(&undescribed).contains(&"R1.37"));
-        let passed = Met {
+        let passed = SessionFacts {
             passed_over: 1,
             ..met(&[])
         };
         assert!(rules(&passed).contains(&"R2.47"));
-        let stopped = Met {
+        let stopped = SessionFacts {
             ended: Some(EndedBy::Error),
             ..met(&[])
         };

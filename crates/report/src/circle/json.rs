@@ -12,10 +12,10 @@ use frictcomp_physics::circle::{
 use frictcomp_physics::stiction::StictionParameters;
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct CircleDocument<'a> {
     schema: u32,
     #[serde(flatten)]
-    conditions: Conditions<'a>,
+    conditions: ConditionsRecord<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     off: Option<SideRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -25,7 +25,7 @@ struct Document<'a> {
 }
 
 #[derive(Serialize)]
-struct Conditions<'a> {
+struct ConditionsRecord<'a> {
     source: &'static str,
     diameter_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -229,7 +229,7 @@ pub fn render_json(report: &CircleReport) -> String {
             test,
             origin,
             saturated_cycles,
-        } => Conditions {
+        } => ConditionsRecord {
             source: "simulated",
             diameter_mm: Some(2.0 * test.circle.radius_mm),
             feed_mm_min: Some(test.circle.feed_mm_per_min),
@@ -246,7 +246,7 @@ pub fn render_json(report: &CircleReport) -> String {
             glitches_up_to: report.too_fast(),
             worse_turns: Vec::new(),
         },
-        Subject::Recorded(recording) => Conditions {
+        Subject::Recorded(recording) => ConditionsRecord {
             source: "recorded",
             diameter_mm: recording.commanded.radius_mm.map(|radius| 2.0 * radius),
             feed_mm_min: report.driven().1.map(round),
@@ -264,7 +264,7 @@ pub fn render_json(report: &CircleReport) -> String {
             worse_turns: worse_turns(recording),
         },
     };
-    let document = Document {
+    let document = CircleDocument {
         schema: 1,
         conditions,
         off: side("off"),

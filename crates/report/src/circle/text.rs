@@ -6,7 +6,7 @@ use super::super::assumptions::{not_modelled, not_modelled_line};
 use super::super::stiction::guideline;
 use super::super::table::Table;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
-use frictcomp::diagnostic::{Rounded, Shown};
+use frictcomp::diagnostic::{ReadableNumber, Rounded};
 use frictcomp_physics::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, DiagnosisGrounds, Direction, Figures, Finding,
     FoundAt, LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
@@ -23,7 +23,7 @@ pub fn render_text(report: &CircleReport) -> String {
     let columns = columns(report);
     let mut table = columns
         .iter()
-        .map(Column::name)
+        .map(PathColumn::name)
         .fold(Table::default().left("µm"), Table::right);
     for row in figure_rows(&columns) {
         table.cells(row.cells());
@@ -53,11 +53,11 @@ pub(crate) struct FigureTable {
     /// `off ccw`, `on cw`.
     pub(crate) columns: Vec<String>,
     /// The figures of ISO 230-4, then the glitches.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<FigureRow>,
 }
 
 /// One figure of all paths.
-pub(crate) struct Row {
+pub(crate) struct FigureRow {
     pub(crate) name: String,
     /// One a path; a figure of both directions stands in the first column of its side.
     pub(crate) values: Vec<Option<f64>>,
@@ -69,32 +69,32 @@ pub(crate) fn table(report: &CircleReport) -> FigureTable {
     let mut rows = figure_rows(&columns);
     rows.extend(shape_rows(&columns));
     FigureTable {
-        columns: columns.iter().map(Column::name).collect(),
+        columns: columns.iter().map(PathColumn::name).collect(),
         rows,
     }
 }
 
 /// One path of the table.
-struct Column<'a> {
+struct PathColumn<'a> {
     side: &'a NamedSide,
     direction: Direction,
     figures: &'a PathFigures,
 }
 
-impl Column<'_> {
+impl PathColumn<'_> {
     fn name(&self) -> String {
         format!("{} {}", self.side.name, self.direction)
     }
 }
 
-fn columns(report: &CircleReport) -> Vec<Column<'_>> {
+fn columns(report: &CircleReport) -> Vec<PathColumn<'_>> {
     let pairs = report.sides.iter().flat_map(|side| {
         Direction::ALL
             .into_iter()
             .map(move |direction| (side, direction))
     });
     let found = pairs.filter_map(|(side, direction)| {
-        Some(Column {
+        Some(PathColumn {
             side,
             direction,
             figures: side.side.figures.get(direction)?,
@@ -146,7 +146,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
             .shape
             .as_ref()
     });
-    let degrees = Shown((shape?.window_deg * 10.0).round() / 10.0);
+    let degrees = ReadableNumber((shape?.window_deg * 10.0).round() / 10.0);
     let time = match report.driven().1 {
         Some(_) => "the larger of 8\u{b0} and 0.3 s",
         None => "of an unknown feed, `--feed` or a column `t` tells it",
@@ -161,12 +161,12 @@ fn window_condition(report: &CircleReport) -> Option<String> {
 pub(crate) fn no_glitches(report: &CircleReport) -> Option<String> {
     let limit = report.too_fast()?;
     let radius = limit.radius_mm.map_or(String::new(), |radius| {
-        format!(" or a radius of {} mm and more", Shown(radius))
+        format!(" or a radius of {} mm and more", ReadableNumber(radius))
     });
     Some(format!(
         "no glitch and no advice: 0.3 s after a crossing the path is half-way to the next one; a \
          feed of {} mm/min or less{radius} gives figures",
-        Shown(limit.feed_mm_per_min)
+        ReadableNumber(limit.feed_mm_per_min)
     ))
 }
 
@@ -264,15 +264,15 @@ fn stiction_conditions(test: &CircularTest) -> Vec<String> {
 /// The parameters of stiction compensation in one line.
 pub(crate) fn stiction_line(stiction: &StictionParameters) -> String {
     let feed = stiction.mp1513_m_per_min.map_or(String::new(), |feed| {
-        format!(", MP1513 {} m/min", Shown(feed))
+        format!(", MP1513 {} m/min", ReadableNumber(feed))
     });
     format!(
         "MP1511 {} µs, MP1512 {} (Δs_a at most {} µm), GP {} µm, t_C {} µs{feed}",
-        Shown(stiction.mp1511_us),
-        Shown(stiction.mp1512),
-        Shown(round(stiction.limit_um())),
-        Shown(stiction.gp_um),
-        Shown(stiction.tc_us)
+        ReadableNumber(stiction.mp1511_us),
+        ReadableNumber(stiction.mp1512),
+        ReadableNumber(round(stiction.limit_um())),
+        ReadableNumber(stiction.gp_um),
+        ReadableNumber(stiction.tc_us)
     )
 }
 
@@ -339,20 +339,20 @@ fn other_turns(turns: WholeTurns) -> String {
 }
 
 /// A figure of one path by its name.
-type Figure = (&'static str, fn(&PathFigures) -> Option<f64>);
+type PathFigure = (&'static str, fn(&PathFigures) -> Option<f64>);
 
 /// A figure of both paths by its name.
 type SharedFigure = (&'static str, fn(&Figures) -> Option<f64>);
 
-fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
-    let own: [Figure; 5] = [
+fn figure_rows(columns: &[PathColumn<'_>]) -> Vec<FigureRow> {
+    let own: [PathFigure; 5] = [
         ("G     minimum zone", |it| Some(it.g_mz_um)),
         ("G     least-squares circle", |it| Some(it.g_lsc_um)),
         ("Fmax  largest radial deviation", |it| it.f_max_um),
         ("Fmin  smallest radial deviation", |it| it.f_min_um),
         ("D     mean radial deviation", |it| it.d_um),
     ];
-    let own = own.into_iter().map(|(name, figure)| Row {
+    let own = own.into_iter().map(|(name, figure)| FigureRow {
         name: name.to_owned(),
         values: columns
             .iter()
@@ -372,18 +372,20 @@ fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
                 .then(|| figure(&column.side.side.figures))
                 .flatten()
         });
-        Row {
+        FigureRow {
             name: name.to_owned(),
             values: values.collect(),
         }
     });
-    own.chain(shared).filter(Row::says_something).collect()
+    own.chain(shared)
+        .filter(FigureRow::says_something)
+        .collect()
 }
 
 /// Returns the shapes of the paths at the crossings: the glitches, and for each axis the permanent
 /// and the decaying part.
-fn shape_rows(columns: &[Column<'_>]) -> Vec<Row> {
-    let row = |name: String, value: &dyn Fn(&PathShape) -> Option<f64>| Row {
+fn shape_rows(columns: &[PathColumn<'_>]) -> Vec<FigureRow> {
+    let row = |name: String, value: &dyn Fn(&PathShape) -> Option<f64>| FigureRow {
         name,
         values: columns
             .iter()
@@ -407,10 +409,13 @@ fn shape_rows(columns: &[Column<'_>]) -> Vec<Row> {
             of_axis(axis, "step that stays", |it| it.step_um),
         ]
     });
-    glitches.chain(axes).filter(Row::says_something).collect()
+    glitches
+        .chain(axes)
+        .filter(FigureRow::says_something)
+        .collect()
 }
 
-impl Row {
+impl FigureRow {
     fn says_something(&self) -> bool {
         self.values.iter().any(Option::is_some)
     }

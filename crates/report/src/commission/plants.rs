@@ -37,7 +37,7 @@ pub struct PlantVerdict {
 }
 
 /// A fitted parameter in words.
-pub(crate) struct Parameter {
+pub(crate) struct FittedParameter {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
     /// The value; "at least" where only its lower end is known.
@@ -92,7 +92,7 @@ impl PlantVerdict {
 }
 
 /// The fitted parameters of an axis.
-pub(crate) fn parameters(axis: &PlantAxis) -> [Parameter; 5] {
+pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 5] {
     const UM_PER_M: f64 = 1e6;
     const MS_PER_S: f64 = 1e3;
     let scaled = |name, unit, extent: Extent, factor: f64, digits| {
@@ -104,7 +104,7 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [Parameter; 5] {
         } else {
             format!("at least {}", number(extent.low))
         };
-        Parameter {
+        FittedParameter {
             name,
             unit,
             value,
@@ -117,7 +117,7 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [Parameter; 5] {
         scaled("Kp", "kN·s/m", axis.speed_gain, 1.0 / MS_PER_S, 1),
         scaled("Fc", "N", axis.coulomb, 1.0, 0),
         // The delay is a range, however well it is known.
-        Parameter {
+        FittedParameter {
             value: delay.range.clone(),
             ..delay
         },

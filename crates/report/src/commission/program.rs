@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use super::summary::PlanReport;
 use super::words::{number, told};
 use frictcomp_recordings::commission::{
-    Installed, MeasuredAxis, PlanStep, Program, Stage, Turning,
+    Installed, MeasuredAxis, MeasuringProgram, PlanStep, Stage, Turning,
 };
 
 /// A program of a plan, with `\n` at the end of each line and ASCII letters only.
-pub fn render_program(report: &PlanReport, program: &Program) -> String {
+pub fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String {
     let plan = &report.plan;
-    let mut blocks = Blocks::default();
+    let mut blocks = NumberedBlocks::default();
     blocks.comment(&format!(
         "measuring program {}: {}",
         program.number,
@@ -76,12 +76,12 @@ fn plane_of(axes: &[MeasuredAxis]) -> u8 {
 
 /// Numbered blocks, one a line.
 #[derive(Default)]
-struct Blocks {
+struct NumberedBlocks {
     text: String,
     number: u32,
 }
 
-impl Blocks {
+impl NumberedBlocks {
     fn comment(&mut self, text: &str) {
         let plain: String = text.chars().filter(|it| !matches!(it, '(' | ')')).collect();
         let _ = writeln!(self.text, "({})", plain.replace('\u{b0}', "deg"));

@@ -12,7 +12,7 @@ use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{
-    BeforeAfter, Found, FrictionFound, Plan, PlantFound, RecordingResult, Stage,
+    BeforeAfter, FrictionFound, Plan, PlantFound, RecordingOutcome, RecordingResult, Stage,
 };
 
 /// The content of `results.json`.
@@ -184,7 +184,7 @@ impl ResultsReport {
     pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
         let from = axis.from.as_ref()?;
         self.results.iter().find_map(|it| match &it.found {
-            Found::Friction(found) if it.file == *from => Some(found),
+            RecordingOutcome::Friction(found) if it.file == *from => Some(found),
             _ => None,
         })
     }
@@ -258,14 +258,14 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
         visible_line(&what)
     );
     match &result.found {
-        Found::Circles(found) => {
+        RecordingOutcome::Circles(found) => {
             let _ = writeln!(
                 out,
                 "  recorded: v²/R {:.2} mm/s², glitch at most {:.1} µm",
                 found.acceleration, found.worst_um
             );
         }
-        Found::Strokes(found) => {
+        RecordingOutcome::Strokes(found) => {
             let _ = writeln!(
                 out,
                 "  recorded: following error of at most {:.1} {} after a reversal",
@@ -273,7 +273,7 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
                 found.unit
             );
         }
-        Found::Friction(_) | Found::Refused(_) => {}
+        RecordingOutcome::Friction(_) | RecordingOutcome::Refused(_) => {}
     }
     for reason in result.found.against() {
         let _ = writeln!(out, "  not used: {}", visible_line(reason));
@@ -327,7 +327,7 @@ fn push_round(out: &mut String, round: &Round) {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct ResultsDocument<'a> {
     schema: u32,
     complete: bool,
     recordings: &'a [RecordingResult],
@@ -342,7 +342,7 @@ struct Document<'a> {
 
 /// The same for machines.
 pub fn render_results_json(report: &ResultsReport) -> String {
-    to_pretty(&Document {
+    to_pretty(&ResultsDocument {
         schema: Results::SCHEMA,
         complete: report.is_complete(),
         recordings: &report.results,

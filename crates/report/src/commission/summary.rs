@@ -8,7 +8,7 @@ use super::words::{number, told};
 use crate::strings::to_pretty;
 use crate::table::Table;
 use crate::visible::visible_line;
-use frictcomp_recordings::commission::{Plan, Program, Stage};
+use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
 
 /// A plan with what it rests on.
 #[derive(Debug, Clone)]
@@ -112,7 +112,7 @@ pub fn render_text(report: &PlanReport) -> String {
             "{axis}: the ramps are those of the control's defaults; give `max_jerk` where they differ"
         );
     }
-    let circles = plan.programs.iter().filter_map(Program::feed);
+    let circles = plan.programs.iter().filter_map(MeasuringProgram::feed);
     let feeds: Vec<f64> = circles.collect();
     if let (Some(slowest), Some(fastest)) = (feeds.first(), feeds.last()) {
         if feeds.len() < 6 {

@@ -1,10 +1,10 @@
 //! Words and numbers of measuring programs.
 
 use frictcomp::diagnostic::Rounded;
-use frictcomp_recordings::commission::{MeasuredAxis, Measurement, Program};
+use frictcomp_recordings::commission::{MeasuredAxis, Measurement, MeasuringProgram};
 
 /// The measurement of a program in a few words.
-pub(super) fn told(program: &Program, axes: &[MeasuredAxis]) -> String {
+pub(super) fn told(program: &MeasuringProgram, axes: &[MeasuredAxis]) -> String {
     let name = |axis: usize| axes.get(axis).map_or("?", |it| it.name.as_str());
     match &program.role {
         Measurement::Friction { axis, speeds } => format!(

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::contour::places::{Block, record};
+use crate::contour::places::{ProgramBlock, record};
 use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourComparison, Which};
@@ -84,7 +84,7 @@ pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
     );
     for (which, deviations) in [(Which::Old, old), (Which::New, new)] {
         if let Some(at) = deviations.max_at() {
-            let (version, at) = (which.as_str(), Block::from(&**at).words());
+            let (version, at) = (which.as_str(), ProgramBlock::from(&**at).words());
             let _ = writeln!(out, "largest deviation of the {version} version at {at}");
         }
     }
@@ -125,22 +125,22 @@ pub(super) struct ContourRecord<'a> {
     plant: &'a str,
     verdict: &'static str,
     tolerance: f64,
-    old: Figures,
-    new: Figures,
-    more: Vec<Change<'a>>,
+    old: FiguresRecord,
+    new: FiguresRecord,
+    more: Vec<ChangeRecord<'a>>,
     less: usize,
-    obstacles: Vec<Hindrance>,
+    obstacles: Vec<ContourHindrance>,
 }
 
 #[derive(Serialize)]
-struct Figures {
+struct FiguresRecord {
     max: f64,
     max_at: Value,
     rms: f64,
 }
 
 #[derive(Serialize)]
-struct Change<'a> {
+struct ChangeRecord<'a> {
     file: &'a str,
     line: u32,
     old_line: Option<u32>,
@@ -152,7 +152,7 @@ struct Change<'a> {
 }
 
 #[derive(Serialize)]
-struct Hindrance {
+struct ContourHindrance {
     version: &'static str,
     message: String,
 }
@@ -162,7 +162,7 @@ fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0 + 0.0
 }
 
-impl<'a> Change<'a> {
+impl<'a> ChangeRecord<'a> {
     fn new(change: &'a BlockChange) -> Self {
         let BlockChange { block, old, new } = change;
         Self {
@@ -183,16 +183,18 @@ impl<'a> ContourRecord<'a> {
         let comparison = &report.comparison;
         let [old, new] = [Which::Old, Which::New].map(|which| {
             let deviations = comparison.deviations(which);
-            Figures {
+            FiguresRecord {
                 max: rounded(deviations.max_um()),
                 max_at: record(deviations.max_at().map(|at| &**at)),
                 rms: rounded(deviations.rms_um()),
             }
         });
-        let obstacles = comparison.obstacles().map(|(which, obstacle)| Hindrance {
-            version: which.as_str(),
-            message: obstacle.to_string(),
-        });
+        let obstacles = comparison
+            .obstacles()
+            .map(|(which, obstacle)| ContourHindrance {
+                version: which.as_str(),
+                message: obstacle.to_string(),
+            });
         Self {
             plane: &report.plane,
             plant: &report.plant,
@@ -200,7 +202,7 @@ impl<'a> ContourRecord<'a> {
             tolerance: comparison.tolerance_um(),
             old,
             new,
-            more: comparison.more().iter().map(Change::new).collect(),
+            more: comparison.more().iter().map(ChangeRecord::new).collect(),
             less: comparison.less(),
             obstacles: obstacles.collect(),
         }

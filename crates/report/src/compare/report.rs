@@ -85,21 +85,21 @@ pub fn render_text(report: &VersionsReport) -> String {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct ComparisonDocument<'a> {
     schema: u32,
     old: &'a str,
     new: &'a str,
     remark: Option<&'a str>,
     verdict: &'static str,
     common: usize,
-    differences: Vec<Difference<'a>>,
+    differences: Vec<DifferenceRecord<'a>>,
     obstacles: Vec<Hindrance<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     contour: Option<ContourRecord<'a>>,
 }
 
 #[derive(Serialize)]
-struct Difference<'a> {
+struct DifferenceRecord<'a> {
     version: &'static str,
     file: &'a str,
     line: u32,
@@ -123,7 +123,7 @@ struct Hindrance<'a> {
     message: String,
 }
 
-impl<'a> Difference<'a> {
+impl<'a> DifferenceRecord<'a> {
     fn new((which, switch): (Which, &'a Switch)) -> Self {
         Self {
             version: which.as_str(),
@@ -162,14 +162,17 @@ impl<'a> Hindrance<'a> {
 /// The same as a JSON document.
 pub fn render_json(report: &VersionsReport) -> String {
     let comparison = &report.comparison;
-    let document = Document {
+    let document = ComparisonDocument {
         schema: 1,
         old: &report.old,
         new: &report.new,
         remark: report.remark.as_deref(),
         verdict: comparison.agreement().as_str(),
         common: comparison.common(),
-        differences: comparison.differences().map(Difference::new).collect(),
+        differences: comparison
+            .differences()
+            .map(DifferenceRecord::new)
+            .collect(),
         obstacles: comparison.obstacles().map(Hindrance::new).collect(),
         contour: report.contours.as_ref().map(ContourRecord::new),
     };

@@ -10,11 +10,11 @@ const UNIT: &str = " µm";
 
 /// A contour as it is agreed on. Its [`Display`](fmt::Display) is the text of the file (R9.84).
 #[derive(Debug, Clone, Default)]
-pub struct AgreedContour(Vec<Line>);
+pub struct AgreedContour(Vec<AgreedLine>);
 
 /// A line with its figures.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Line {
+pub(super) struct AgreedLine {
     text: String,
     figures: Vec<Figure>,
 }
@@ -27,13 +27,13 @@ struct Figure {
 }
 
 impl AgreedContour {
-    pub(super) fn push(&mut self, line: Line) {
+    pub(super) fn push(&mut self, line: AgreedLine) {
         self.0.push(line);
     }
 
     /// Appends a line of words, whose figures are those that stand in the words.
     pub(super) fn say(&mut self, words: &str) {
-        self.push(Line::read(words));
+        self.push(AgreedLine::read(words));
     }
 
     /// The text of today where the text `before` was agreed on: a line with the same words, none of
@@ -43,8 +43,8 @@ impl AgreedContour {
         if tolerance_um <= 0.0 || before == now {
             return now;
         }
-        let before: Vec<Line> = before.lines().map(Line::read).collect();
-        let words = |lines: &[Line]| lines.iter().map(Line::words).collect::<Vec<_>>();
+        let before: Vec<AgreedLine> = before.lines().map(AgreedLine::read).collect();
+        let words = |lines: &[AgreedLine]| lines.iter().map(AgreedLine::words).collect::<Vec<_>>();
         let (old, new) = (words(&before), words(&self.0));
         let mut kept = self.0.clone();
         for operation in capture_diff_slices(Algorithm::Myers, &old, &new) {
@@ -69,7 +69,7 @@ impl fmt::Display for AgreedContour {
     }
 }
 
-impl Line {
+impl AgreedLine {
     pub(super) fn and(mut self, words: &str) -> Self {
         self.text.push_str(words);
         self
@@ -137,9 +137,9 @@ mod tests {
 
     fn contour(largest: f64, blocks: &[(f64, &str)]) -> AgreedContour {
         let mut contour = AgreedContour::default();
-        contour.push(Line::default().and("max ").figure(largest, 4));
+        contour.push(AgreedLine::default().and("max ").figure(largest, 4));
         for (um, text) in blocks {
-            contour.push(Line::default().figure(*um, 5).and("  ").and(text));
+            contour.push(AgreedLine::default().figure(*um, 5).and("  ").and(text));
         }
         contour
     }

@@ -1,7 +1,7 @@
 //! A contour as it is agreed on: figures with one decimal, and no line numbers, so that a change
 //! shows where it is and nowhere else.
 
-use super::agreed::{AgreedContour, Line};
+use super::agreed::{AgreedContour, AgreedLine};
 use crate::visible::visible_line;
 use frictcomp_physics::contour::{
     BlockDeviation, BlockDeviations, ContourObstacle, Deviations, GlitchFigure, PerRun,
@@ -84,7 +84,7 @@ fn push_figures(out: &mut AgreedContour, runs: &PerRun<Deviations>) {
         ("largest deviation", runs.map(Deviations::max_um)),
         ("root mean square", runs.map(Deviations::rms_um)),
     ] {
-        let line = Line::default().and(&format!("{name:<18} as programmed "));
+        let line = AgreedLine::default().and(&format!("{name:<18} as programmed "));
         let line = line.figure(programmed, 6).and(", all on ");
         let line = line.figure(all_on, 6).and(", all off ");
         out.push(line.figure(all_off, 6));
@@ -92,7 +92,7 @@ fn push_figures(out: &mut AgreedContour, runs: &PerRun<Deviations>) {
 }
 
 fn push_block(out: &mut AgreedContour, block: &BlockDeviation) {
-    let line = Line::default().figure(block.max_um(), 6).and("  ");
+    let line = AgreedLine::default().figure(block.max_um(), 6).and("  ");
     out.push(line.and(&visible_line(&block.text)));
     let reversals = block.reversals.iter().map(|reversal| {
         let figure = match reversal.figure {
@@ -106,7 +106,7 @@ fn push_block(out: &mut AgreedContour, block: &BlockDeviation) {
         (0, _) => None,
         (more, largest) => Some((format!("{more} more"), largest.ok_or("without a figure"))),
     };
-    let mut line = Line::default().and("           reversals: ");
+    let mut line = AgreedLine::default().and("           reversals: ");
     for (at, (what, figure)) in reversals.chain(more).enumerate() {
         line = line
             .and(if at == 0 { "" } else { ", " })

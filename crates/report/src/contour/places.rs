@@ -7,13 +7,13 @@ use frictcomp_physics::contour::ContourReversal;
 use frictcomp_physics::motion::Cause;
 
 /// A block of a program.
-pub(crate) struct Block<'a> {
+pub(crate) struct ProgramBlock<'a> {
     file: &'a str,
     line: u32,
     number: Option<i64>,
 }
 
-impl<'a> From<&'a Cause> for Block<'a> {
+impl<'a> From<&'a Cause> for ProgramBlock<'a> {
     fn from(cause: &'a Cause) -> Self {
         Self {
             file: &cause.file,
@@ -23,7 +23,7 @@ impl<'a> From<&'a Cause> for Block<'a> {
     }
 }
 
-impl<'a> From<&'a ContourReversal> for Block<'a> {
+impl<'a> From<&'a ContourReversal> for ProgramBlock<'a> {
     fn from(reversal: &'a ContourReversal) -> Self {
         Self {
             file: &reversal.file,
@@ -33,7 +33,7 @@ impl<'a> From<&'a ContourReversal> for Block<'a> {
     }
 }
 
-impl Block<'_> {
+impl ProgramBlock<'_> {
     /// "part.nc:165 N1640"
     pub(crate) fn words(&self) -> String {
         let number = self.number.map_or(String::new(), |n| format!(" N{n}"));
@@ -54,6 +54,6 @@ impl Block<'_> {
 }
 
 /// The record of a block, `null` without one.
-pub(crate) fn record<'a>(at: Option<impl Into<Block<'a>>>) -> Value {
+pub(crate) fn record<'a>(at: Option<impl Into<ProgramBlock<'a>>>) -> Value {
     at.map_or(Value::Null, |at| at.into().record())
 }

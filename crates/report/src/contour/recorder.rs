@@ -16,7 +16,7 @@ const WORST: usize = 10;
 const MOST_SWITCHES: usize = 100;
 
 /// Destination of the reversals.
-enum Reversals<'a> {
+enum ReversalSink<'a> {
     /// Only the worst are kept.
     Worst,
     /// All are kept, and the largest deviation of each block.
@@ -30,7 +30,7 @@ enum Reversals<'a> {
 /// Takes a contour and keeps or writes what is asked for.
 pub struct ContourRecorder<'a> {
     names: Vec<String>,
-    reversals: Reversals<'a>,
+    reversals: ReversalSink<'a>,
     all: Vec<ContourReversal>,
     worst: Vec<ContourReversal>,
     switches: Vec<ContourReversal>,
@@ -45,7 +45,7 @@ impl<'a> ContourRecorder<'a> {
     pub fn new(names: Vec<String>) -> Self {
         Self {
             names,
-            reversals: Reversals::Worst,
+            reversals: ReversalSink::Worst,
             all: Vec::new(),
             worst: Vec::new(),
             switches: Vec::new(),
@@ -59,7 +59,7 @@ impl<'a> ContourRecorder<'a> {
     /// The same, which keeps all reversals, and the largest deviation of each block.
     pub fn keeping_all(self) -> Self {
         Self {
-            reversals: Reversals::Kept,
+            reversals: ReversalSink::Kept,
             ..self
         }
     }
@@ -67,7 +67,7 @@ impl<'a> ContourRecorder<'a> {
     /// The same, which writes each reversal as a line of JSON.
     pub fn writing_ndjson(self, writer: &'a mut (dyn Write + Send)) -> Self {
         Self {
-            reversals: Reversals::Ndjson(writer),
+            reversals: ReversalSink::Ndjson(writer),
             ..self
         }
     }
@@ -76,7 +76,7 @@ impl<'a> ContourRecorder<'a> {
     pub fn writing_csv(mut self, writer: &'a mut (dyn Write + Send)) -> Self {
         self.error = writer.write_all(CSV_HEADER.as_bytes()).err();
         Self {
-            reversals: Reversals::Csv(writer),
+            reversals: ReversalSink::Csv(writer),
             ..self
         }
     }
@@ -137,7 +137,7 @@ impl ContourSink for ContourRecorder<'_> {
         if let Some(picture) = &mut self.picture {
             picture.point(point);
         }
-        if matches!(self.reversals, Reversals::Kept) && point.counts {
+        if matches!(self.reversals, ReversalSink::Kept) && point.counts {
             let deviation = point.space_um.programmed;
             let key = (Arc::clone(&point.cause.file), point.cause.line);
             let max = self.blocks.entry(key).or_default();
@@ -153,17 +153,19 @@ impl ContourSink for ContourRecorder<'_> {
             picture.reversal(reversal);
         }
         let written = match &mut self.reversals {
-            Reversals::Worst => Ok(()),
-            Reversals::Kept => {
+            ReversalSink::Worst => Ok(()),
+            ReversalSink::Kept => {
                 self.all.push(reversal.clone());
                 Ok(())
             }
-            Reversals::Ndjson(writer) => {
+            ReversalSink::Ndjson(writer) => {
                 let mut record = reversal_record(reversal, &self.names);
                 record["record"] = "reversal".into();
                 writeln!(writer, "{record}")
             }
-            Reversals::Csv(writer) => writer.write_all(csv_row(reversal, &self.names).as_bytes()),
+            ReversalSink::Csv(writer) => {
+                writer.write_all(csv_row(reversal, &self.names).as_bytes())
+            }
         };
         if let Err(error) = written {
             self.error.get_or_insert(error);

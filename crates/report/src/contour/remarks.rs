@@ -1,6 +1,6 @@
 //! The basis of the figures of a contour.
 
-use super::places::Block;
+use super::places::ProgramBlock;
 use crate::assumptions::rests_on_text;
 use crate::limits::assumed_limits;
 use crate::visible::visible_line;
@@ -40,7 +40,10 @@ fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
 fn transitions(transitions: &Transitions) -> Vec<String> {
     let mut lines = Vec::new();
     let at = |departure: &Departure| {
-        let at = departure.at.as_deref().map(|at| Block::from(at).words());
+        let at = departure
+            .at
+            .as_deref()
+            .map(|at| ProgramBlock::from(at).words());
         at.map_or(String::new(), |at| format!(", at {at}"))
     };
     let (joined, rounding) = (&transitions.sagitta, &transitions.rounding);
@@ -142,7 +145,7 @@ pub fn exceeded<S: ContourSink>(
         ),
     ] {
         if let (Some(limit), Some(at)) = (limit.filter(|limit| um > *limit), at) {
-            let at = Block::from(&**at).words();
+            let at = ProgramBlock::from(&**at).words();
             lines.push(format!("{what}, {um:.2} µm at {at}, is above {limit} µm"));
         }
     }

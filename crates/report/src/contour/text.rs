@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::places::Block;
+use super::places::ProgramBlock;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
 use crate::assumptions::{not_modelled, not_modelled_line};
@@ -132,7 +132,7 @@ fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
 fn places(at: [Option<&Cause>; 3]) -> Option<String> {
     let mut places: Vec<(String, Vec<&str>)> = Vec::new();
     for (at, run) in at.into_iter().zip(["programmed", "all on", "all off"]) {
-        let place = Block::from(at?).words();
+        let place = ProgramBlock::from(at?).words();
         match places.iter_mut().find(|(known, _)| *known == place) {
             Some((_, runs)) => runs.push(run),
             None => places.push((place, vec![run])),
@@ -153,7 +153,7 @@ fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
             out,
             "missing compensation costs up to {:.2} µm, at {}",
             due.um,
-            Block::from(&**at).words()
+            ProgramBlock::from(&**at).words()
         ),
         None => writeln!(out, "missing compensation costs 0 µm"),
     };
@@ -171,7 +171,7 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
             out,
             "{} is switched {way} while it moves on, before {}",
             switch.axis,
-            Block::from(switch).words()
+            ProgramBlock::from(switch).words()
         );
         let glitch = &switch.glitch_um;
         let _ = match switch.figure {
@@ -272,7 +272,7 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
                         ", {least}{} without compensation: {} at {}",
                         times(axis.uncompensated),
                         glitch_in_words(dearest),
-                        Block::from(dearest).words()
+                        ProgramBlock::from(dearest).words()
                     );
                 }
                 Some(dearest) => {
@@ -282,7 +282,7 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
                         times(axis.uncompensated),
                         dearest.glitch_um.programmed,
                         dearest.glitch_um.all_on,
-                        Block::from(dearest).words()
+                        ProgramBlock::from(dearest).words()
                     );
                 }
             }
@@ -292,7 +292,7 @@ fn sentence(axis: &ContourSummary, counted: Counted) -> String {
         let _ = write!(
             text,
             "; worst at {}, {}",
-            Block::from(worst).words(),
+            ProgramBlock::from(worst).words(),
             glitch_in_words(worst)
         );
     }
@@ -327,7 +327,7 @@ fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
                 "-".to_owned()
             }
         });
-        let block = Block::from(reversal).beside(program);
+        let block = ProgramBlock::from(reversal).beside(program);
         let why = if is_measured {
             String::new()
         } else {

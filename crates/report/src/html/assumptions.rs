@@ -2,20 +2,20 @@
 
 use maud::{Markup, html};
 
-use super::parts::{Caption, Column, Row, Table, with_code};
-use crate::assumptions::{Assumption, Met, chapters};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, with_code};
+use crate::assumptions::{Assumption, SessionFacts, chapters};
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Basis, Question, Readings};
 
-const COLUMNS: [Column<'_>; 4] = [
-    Column::Text("rule"),
-    Column::Text("assumption"),
-    Column::Text("what it changes"),
-    Column::Text("how it shows"),
+const COLUMNS: [ColumnHeading<'_>; 4] = [
+    ColumnHeading::Text("rule"),
+    ColumnHeading::Text("assumption"),
+    ColumnHeading::Text("what it changes"),
+    ColumnHeading::Text("how it shows"),
 ];
 
 /// The assumptions that this run made, and folded all others.
-pub(super) fn render(met: &Met, readings: &(Readings, Option<CncBuild>)) -> Markup {
+pub(super) fn render(met: &SessionFacts, readings: &(Readings, Option<CncBuild>)) -> Markup {
     let made = |assumption: &&Assumption| assumption.is_met(met);
     let all = chapters().iter().flat_map(|chapter| &chapter.assumptions);
     html! {
@@ -55,13 +55,13 @@ fn table(
     assumptions: impl Iterator<Item = &'static Assumption>,
     readings: &(Readings, Option<CncBuild>),
 ) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown(caption),
         columns: &COLUMNS,
     };
     table.render(assumptions.map(|it| {
         let sentence = it.sentence.clone() + &said_of(&it.rule, readings);
-        Row::new(
+        HtmlRow::new(
             &it.rule,
             [&*sentence, &it.changes, &it.shows].map(with_code),
         )

@@ -5,16 +5,16 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, counted, line_id};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, counted, line_id};
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
-const FINDINGS: Part = Part::new("findings", "Findings");
-const MATRIX: Part = Part::new("programs", "Programs and axes");
-const LINES: Part = Part::new("lines", "Lines");
+const FINDINGS: PagePart = PagePart::new("findings", "Findings");
+const MATRIX: PagePart = PagePart::new("programs", "Programs and axes");
+const LINES: PagePart = PagePart::new("lines", "Lines");
 
 /// Programs with a row of their own, the most dangerous ones first.
 const ROWS: usize = 2000;
@@ -149,18 +149,18 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
         if let (true, Some(origin)) = (report.machines.len() > 1, &machine.origin) {
             page.push(&html! { h3 { (origin) } })?;
         }
-        let table = Table {
+        let table = HtmlTable {
             caption: Caption::Heard("Findings by axis"),
             columns: &[
-                Column::Text("axis"),
-                Column::Number("leave it away"),
-                Column::Number("inherit it"),
-                Column::Number("may inherit it"),
-                Column::Number("both"),
-                Column::Number("not known"),
-                Column::Number("hazards"),
-                Column::Number("possible hazards"),
-                Column::Text("cure"),
+                ColumnHeading::Text("axis"),
+                ColumnHeading::Number("leave it away"),
+                ColumnHeading::Number("inherit it"),
+                ColumnHeading::Number("may inherit it"),
+                ColumnHeading::Number("both"),
+                ColumnHeading::Number("not known"),
+                ColumnHeading::Number("hazards"),
+                ColumnHeading::Number("possible hazards"),
+                ColumnHeading::Text("cure"),
             ],
         };
         let shown = machine.findings.iter().filter(|it| is_shown(machine, it));
@@ -175,7 +175,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
                 html! { (finding.possible_hazards()) },
                 html! { span class="wide" { (cure(finding)) } },
             ];
-            Row::new(&axis_name(&finding.axis, finding.kind), cells)
+            HtmlRow::new(&axis_name(&finding.axis, finding.kind), cells)
         });
         page.push(&table.render(rows))?;
         for finding in shown.filter(|finding| finding.cure() != Cure::None) {
@@ -253,8 +253,8 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
         .iter()
         .map(|it| axis_name(&it.axis, it.kind))
         .collect();
-    let columns: Vec<Column<'_>> = std::iter::once(Column::Text("program"))
-        .chain(heads.iter().map(|head| Column::Text(head)))
+    let columns: Vec<ColumnHeading<'_>> = std::iter::once(ColumnHeading::Text("program"))
+        .chain(heads.iter().map(|head| ColumnHeading::Text(head)))
         .collect();
     let mut programs: Vec<_> = machine.archive.programs().iter().collect();
     programs.sort_by_key(|program| {
@@ -267,9 +267,9 @@ fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
             .iter()
             .map(|finding| cell(&program.file, &program.axes[finding.at], marks))
             .collect();
-        Row::new(&program.file, cells)
+        HtmlRow::new(&program.file, cells)
     });
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Heard("What each program does to each axis"),
         columns: &columns,
     };

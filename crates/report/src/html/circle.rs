@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, figure};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::circle::{CircleReport, Subject, advice_lines, conditions, table};
 use crate::pictures::{circle, value_curve};
 use crate::svg::Frame;
@@ -14,11 +14,11 @@ use frictcomp::lists::{AxisType, FrictionList};
 use frictcomp::machine::AcceptedList;
 use frictcomp_physics::circle::Method;
 
-const PICTURE: Part = Part::new("picture", "Circle");
-const FIGURES: Part = Part::new("figures", "Figures");
-const ADVICE: Part = Part::new("advice", "What the shapes suggest");
-const CURVES: Part = Part::new("curves", "Value lists");
-const CONDITIONS: Part = Part::new("conditions", "Conditions");
+const PICTURE: PagePart = PagePart::new("picture", "Circle");
+const FIGURES: PagePart = PagePart::new("figures", "Figures");
+const ADVICE: PagePart = PagePart::new("advice", "What the shapes suggest");
+const CURVES: PagePart = PagePart::new("curves", "Value lists");
+const CONDITIONS: PagePart = PagePart::new("conditions", "Conditions");
 
 /// Writes the report of a circular test as one page.
 ///
@@ -47,9 +47,9 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
 fn figures(report: &CircleReport) -> Markup {
     let figures = table(report);
     let names = figures.columns.iter();
-    let mut columns = vec![Column::Text("figure")];
-    columns.extend(names.map(|name| Column::Number(name)));
-    let table = Table {
+    let mut columns = vec![ColumnHeading::Text("figure")];
+    columns.extend(names.map(|name| ColumnHeading::Number(name)));
+    let table = HtmlTable {
         caption: Caption::Shown("Figures of ISO 230-4 and glitches at reversals, in µm"),
         columns: &columns,
     };
@@ -59,7 +59,7 @@ fn figures(report: &CircleReport) -> Markup {
         let cells: Vec<Markup> = shown
             .map(|value| html! { @if let Some(it) = value { (it) } })
             .collect();
-        Row::new(&row.name, cells)
+        HtmlRow::new(&row.name, cells)
     }))
 }
 

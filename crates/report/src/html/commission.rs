@@ -4,21 +4,23 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, figure};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, list_on, parameters};
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
-use frictcomp_recordings::commission::{CirclesFound, Found, FrictionFound, MeasuredAxis};
+use frictcomp_recordings::commission::{
+    CirclesFound, FrictionFound, MeasuredAxis, RecordingOutcome,
+};
 
-const VERDICT: Part = Part::new("verdict", "Verdict");
-const CIRCLES: Part = Part::new("circles", "Before and after");
-const GROUNDS: Part = Part::new("grounds", "What it rests on");
-const FILES: Part = Part::new("files", "Files");
-const AXES: [Part; 2] = [
-    Part::new("axis-1", "First axis"),
-    Part::new("axis-2", "Second axis"),
+const VERDICT: PagePart = PagePart::new("verdict", "Verdict");
+const CIRCLES: PagePart = PagePart::new("circles", "Before and after");
+const GROUNDS: PagePart = PagePart::new("grounds", "What it rests on");
+const FILES: PagePart = PagePart::new("files", "Files");
+const AXES: [PagePart; 2] = [
+    PagePart::new("axis-1", "First axis"),
+    PagePart::new("axis-2", "Second axis"),
 ];
 
 /// Contents of the report beyond the results.
@@ -57,8 +59,8 @@ pub fn render_acceptance(
         "Recordings: {}. {figures}",
         given.date.as_deref().unwrap_or("date not stated")
     );
-    let axes: Vec<(Part, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
-    let parts: Vec<Part> = [VERDICT, CIRCLES]
+    let axes: Vec<(PagePart, &AxisVerdict)> = AXES.into_iter().zip(&report.axes).collect();
+    let parts: Vec<PagePart> = [VERDICT, CIRCLES]
         .into_iter()
         .chain(axes.iter().map(|it| it.0))
         .chain([GROUNDS, FILES])
@@ -118,7 +120,7 @@ fn circles(report: &ResultsReport) -> Markup {
 fn iso_figures(report: &ResultsReport) -> Markup {
     let used = report.results.iter().filter(|it| it.found.is_used());
     let circles = used.filter_map(|it| match &it.found {
-        Found::Circles(circles) => Some((it.program?, circles)),
+        RecordingOutcome::Circles(circles) => Some((it.program?, circles)),
         _ => None,
     });
     let mut circles: Vec<(u16, &CirclesFound)> = circles.collect();
@@ -126,18 +128,18 @@ fn iso_figures(report: &ResultsReport) -> Markup {
     if circles.is_empty() {
         return html! {};
     }
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown(
             "Figures of ISO 230-4 in µm, recorded; a row for each circle, with the feed in mm/min",
         ),
         columns: &[
-            Column::Text("program"),
-            Column::Text("list"),
-            Column::Number("feed"),
-            Column::Number("G ccw"),
-            Column::Number("G cw"),
-            Column::Number("G(b)"),
-            Column::Number("H"),
+            ColumnHeading::Text("program"),
+            ColumnHeading::Text("list"),
+            ColumnHeading::Number("feed"),
+            ColumnHeading::Number("G ccw"),
+            ColumnHeading::Number("G cw"),
+            ColumnHeading::Number("G(b)"),
+            ColumnHeading::Number("H"),
         ],
     };
     let rows = circles.into_iter().map(|(number, circles)| {
@@ -147,7 +149,7 @@ fn iso_figures(report: &ResultsReport) -> Markup {
         let cells = [report.compensation_of(number), feed.to_string()];
         let cells = cells.into_iter().chain(figures);
         let cells = cells.map(|text| html! { (text) });
-        Row::new(&number.to_string(), cells.collect::<Vec<_>>())
+        HtmlRow::new(&number.to_string(), cells.collect::<Vec<_>>())
     });
     html! {
         (table.render(rows))
@@ -162,21 +164,21 @@ fn number_or_dash(um: Option<f64>) -> String {
 fn round_circles(round: &Round) -> Markup {
     let caption = format!("Round {}: recorded {}", round.number, round.shows.figure());
     let [off, on] = ["off", "on"].map(|it| format!("{it} in {}", round.unit));
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown(&caption),
         columns: &[
-            Column::Text("feed /min"),
-            Column::Number("driven"),
-            Column::Number(&off),
-            Column::Number(&on),
-            Column::Number("left in %"),
+            ColumnHeading::Text("feed /min"),
+            ColumnHeading::Number("driven"),
+            ColumnHeading::Number(&off),
+            ColumnHeading::Number(&on),
+            ColumnHeading::Number("left in %"),
         ],
     };
     let rows = round.recorded.iter().map(|it| {
         let cells = [it.off, it.on, 100.0 * it.on / it.off].map(|number| Rounded(number, 1));
         let cells = [Rounded(it.driven, 0)].into_iter().chain(cells);
         let cells = cells.map(|number| html! { (number.to_string()) });
-        Row::new(&Rounded(it.feed, 0).to_string(), cells.collect::<Vec<_>>())
+        HtmlRow::new(&Rounded(it.feed, 0).to_string(), cells.collect::<Vec<_>>())
     });
     let id = format!("round-{}", round.number);
     html! {
@@ -223,17 +225,17 @@ fn described(axis: &MeasuredAxis) -> Markup {
 }
 
 fn friction_part(verdict: &AxisVerdict, friction: &FrictionFound) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Friction at each speed, recorded"),
         columns: &[
-            Column::Text("speed per s"),
-            Column::Number("friction in drive units"),
-            Column::Number("standard error"),
+            ColumnHeading::Text("speed per s"),
+            ColumnHeading::Number("friction in drive units"),
+            ColumnHeading::Number("standard error"),
         ],
     };
     let rows = friction.speeds.iter().map(|[speed, value, error]| {
         let cells = [value, error].map(|number| html! { (Rounded(*number, 2).to_string()) });
-        Row::new(&Rounded(*speed, 3).to_string(), cells.to_vec())
+        HtmlRow::new(&Rounded(*speed, 3).to_string(), cells.to_vec())
     });
     let id = format!("friction-{}", verdict.axis);
     html! {
@@ -252,26 +254,26 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
     let Some(axis) = found.axes.iter().find(|it| it.axis == name) else {
         return html! {};
     };
-    let fitted = Table {
+    let fitted = HtmlTable {
         caption: Caption::Shown("Plant, predicted from circles off and on"),
         columns: &[
-            Column::Text("parameter"),
-            Column::Number("value"),
-            Column::Number("95 % range"),
-            Column::Text("unit"),
+            ColumnHeading::Text("parameter"),
+            ColumnHeading::Number("value"),
+            ColumnHeading::Number("95 % range"),
+            ColumnHeading::Text("unit"),
         ],
     };
     let rows = parameters(axis).map(|it| {
         let cells = [it.value, it.range, it.unit.to_owned()].map(|text| html! { (text) });
-        Row::new(it.name, cells.to_vec())
+        HtmlRow::new(it.name, cells.to_vec())
     });
-    let glitches = Table {
+    let glitches = HtmlTable {
         caption: Caption::Shown("Predicted glitch"),
         columns: &[
-            Column::Text("feed in mm/min"),
-            Column::Number("off in µm"),
-            Column::Number("tuned list in µm"),
-            Column::Text("held out"),
+            ColumnHeading::Text("feed in mm/min"),
+            ColumnHeading::Number("off in µm"),
+            ColumnHeading::Number("tuned list in µm"),
+            ColumnHeading::Text("held out"),
         ],
     };
     let tuned = plant.lists().iter().find(|it| it.axis == name);
@@ -281,7 +283,7 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
         let held_out = if found.is_held_out(feed) { "yes" } else { "" };
         let cells = [number_or_dash(off), number_or_dash(on), held_out.to_owned()];
         let cells = cells.map(|text| html! { (text) });
-        Row::new(&Rounded(feed, 0).to_string(), cells.to_vec())
+        HtmlRow::new(&Rounded(feed, 0).to_string(), cells.to_vec())
     });
     html! {
         (fitted.render(rows))
@@ -303,15 +305,15 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
 
 /// The recorded glitches of an axis beside what was predicted for them.
 fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown(
             "Glitches that the plant was not fitted to, recorded beside predicted; each a mean over 8 ms",
         ),
         columns: &[
-            Column::Text("feed in mm/min"),
-            Column::Text("list"),
-            Column::Number("predicted in µm"),
-            Column::Number("recorded in µm"),
+            ColumnHeading::Text("feed in mm/min"),
+            ColumnHeading::Text("list"),
+            ColumnHeading::Number("predicted in µm"),
+            ColumnHeading::Number("recorded in µm"),
         ],
     };
     let compared = plant.compared.iter();
@@ -321,7 +323,7 @@ fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
             [it.predicted_um, it.recorded.um].map(|um| Rounded(um, 1).to_string());
         let cells = [list_on(it).to_owned(), predicted, recorded];
         let cells = cells.map(|text| html! { (text) });
-        Row::new(&Rounded(it.recorded.feed, 0).to_string(), cells.to_vec())
+        HtmlRow::new(&Rounded(it.recorded.feed, 0).to_string(), cells.to_vec())
     });
     html! { @if !plant.compared.is_empty() { (table.render(rows)) } }
 }
@@ -349,29 +351,29 @@ fn files(report: &ResultsReport) -> Markup {
 }
 
 fn inputs(report: &ResultsReport) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Plans, lists and plants with their SHA-256"),
         columns: &[
-            Column::Text("file"),
-            Column::Text("is the"),
-            Column::Text("SHA-256"),
+            ColumnHeading::Text("file"),
+            ColumnHeading::Text("is the"),
+            ColumnHeading::Text("SHA-256"),
         ],
     };
     let rows = report.inputs.iter().map(|it| {
         let cells = [html! { (it.what) }, html! { code { (it.sha256) } }];
-        Row::new(&it.file, cells.to_vec())
+        HtmlRow::new(&it.file, cells.to_vec())
     });
     table.render(rows)
 }
 
 fn recordings(report: &ResultsReport) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Recordings with their SHA-256"),
         columns: &[
-            Column::Text("file"),
-            Column::Text("program"),
-            Column::Text("used"),
-            Column::Text("SHA-256"),
+            ColumnHeading::Text("file"),
+            ColumnHeading::Text("program"),
+            ColumnHeading::Text("used"),
+            ColumnHeading::Text("SHA-256"),
         ],
     };
     let rows = report.results.iter().map(|result| {
@@ -389,7 +391,7 @@ fn recordings(report: &ResultsReport) -> Markup {
             html! { (used) },
             html! { code { (result.sha256) } },
         ];
-        Row::new(&result.file, cells.to_vec())
+        HtmlRow::new(&result.file, cells.to_vec())
     });
     table.render(rows)
 }

@@ -4,15 +4,15 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, with_code};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, with_code};
 use crate::compare::{ContoursReport, VersionsReport, sign};
-use crate::contour::places::Block;
-use frictcomp_physics::compare::{Agreement, BlockChange, Paired, Which};
+use crate::contour::places::ProgramBlock;
+use frictcomp_physics::compare::{Agreement, BlockChange, PairedSwitch, Which};
 
-const RESULT: Part = Part::new("result", "Result");
-const CHANGES: Part = Part::new("changes", "Changes of state in both versions");
-const CONTOURS: Part = Part::new("contours", "Where the new version deviates more");
+const RESULT: PagePart = PagePart::new("result", "Result");
+const CHANGES: PagePart = PagePart::new("changes", "Changes of state in both versions");
+const CONTOURS: PagePart = PagePart::new("contours", "Where the new version deviates more");
 
 /// Changes of state that a page shows at most (R9.52).
 const MAX_CHANGES: usize = 4000;
@@ -40,32 +40,34 @@ fn contours_part(report: &ContoursReport) -> Markup {
     let comparison = &report.comparison;
     let figures = [Which::Old, Which::New].map(|which| {
         let deviations = comparison.deviations(which);
-        let at = deviations.max_at().map(|at| Block::from(&**at).words());
+        let at = deviations
+            .max_at()
+            .map(|at| ProgramBlock::from(&**at).words());
         let cells = [
             html! { (format!("{:.2}", deviations.max_um())) },
             html! { (at.as_deref().unwrap_or("\u{2013}")) },
             html! { (format!("{:.2}", deviations.rms_um())) },
         ];
-        Row::new(which.as_str(), cells)
+        HtmlRow::new(which.as_str(), cells)
     });
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("While cutting, in \u{b5}m"),
         columns: &[
-            Column::Text("version"),
-            Column::Number("largest deviation"),
-            Column::Text("at"),
-            Column::Number("root mean square"),
+            ColumnHeading::Text("version"),
+            ColumnHeading::Number("largest deviation"),
+            ColumnHeading::Text("at"),
+            ColumnHeading::Number("root mean square"),
         ],
     };
-    let changes = Table {
+    let changes = HtmlTable {
         caption: Caption::Shown("Blocks that deviate more, in \u{b5}m"),
         columns: &[
-            Column::Text("line"),
-            Column::Number("old"),
-            Column::Number("new"),
-            Column::Number("more"),
-            Column::Text("at"),
-            Column::Text("block"),
+            ColumnHeading::Text("line"),
+            ColumnHeading::Number("old"),
+            ColumnHeading::Number("new"),
+            ColumnHeading::Number("more"),
+            ColumnHeading::Text("at"),
+            ColumnHeading::Text("block"),
         ],
     };
     let more = comparison.more();
@@ -85,7 +87,7 @@ fn contours_part(report: &ContoursReport) -> Markup {
     }
 }
 
-fn change_row(report: &ContoursReport, change: &BlockChange) -> Row {
+fn change_row(report: &ContoursReport, change: &BlockChange) -> HtmlRow {
     let old = change.old.map(|(_, um)| format!("{um:.2}"));
     let cells = [
         html! { (old.as_deref().unwrap_or("\u{2013}")) },
@@ -94,7 +96,7 @@ fn change_row(report: &ContoursReport, change: &BlockChange) -> Row {
         html! { (report.place(change)) },
         html! { code { (change.block.text) } },
     ];
-    Row::new(
+    HtmlRow::new(
         &format!("{}:{}", change.block.file, change.block.line),
         cells,
     )
@@ -131,14 +133,14 @@ fn result(report: &VersionsReport) -> Markup {
 
 /// A table of all changes, those of one version marked by their sign.
 fn changes(report: &VersionsReport) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Heard("Changes of state"),
         columns: &[
-            Column::Text("version"),
-            Column::Number("old line"),
-            Column::Number("new line"),
-            Column::Text("change"),
-            Column::Text("block"),
+            ColumnHeading::Text("version"),
+            ColumnHeading::Number("old line"),
+            ColumnHeading::Number("new line"),
+            ColumnHeading::Text("change"),
+            ColumnHeading::Text("block"),
         ],
     };
     let pairs = report.comparison.pairs();
@@ -153,14 +155,14 @@ fn changes(report: &VersionsReport) -> Markup {
     }
 }
 
-fn row(pair: &Paired) -> Row {
+fn row(pair: &PairedSwitch) -> HtmlRow {
     let (heading, lines, switch) = match pair {
-        Paired::Both { old, new } => (
+        PairedSwitch::Both { old, new } => (
             "both".to_owned(),
             [Some(old.place()), Some(new.place())],
             new,
         ),
-        Paired::One(which, switch) => {
+        PairedSwitch::One(which, switch) => {
             let line = |of| (of == *which).then(|| switch.place());
             let heading = format!("{} {} only", sign(*which), which.as_str());
             (heading, [line(Which::Old), line(Which::New)], switch)
@@ -173,5 +175,5 @@ fn row(pair: &Paired) -> Row {
         html! { (switch.to_string()) },
         html! { code { (switch.first_line()) } },
     ];
-    Row::new(&heading, cells)
+    HtmlRow::new(&heading, cells)
 }

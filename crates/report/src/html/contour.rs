@@ -5,8 +5,8 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, figure};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use super::reversed::ReversedFiles;
 use super::source::Sources;
 use crate::contour::{ContourRecorder, ContourSubject, render_text};
@@ -15,10 +15,10 @@ use crate::svg::Frame;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{ContourReversal, ProgramContour};
 
-const PICTURE: Part = Part::new("picture", "Path and deviation");
-const FIGURES: Part = Part::new("figures", "Figures");
-const REVERSALS: Part = Part::new("reversals", "Reversals by line");
-const SOURCE: Part = Part::new("source", "Source with its reversals");
+const PICTURE: PagePart = PagePart::new("picture", "Path and deviation");
+const FIGURES: PagePart = PagePart::new("figures", "Figures");
+const REVERSALS: PagePart = PagePart::new("reversals", "Reversals by line");
+const SOURCE: PagePart = PagePart::new("source", "Source with its reversals");
 
 /// Lines with a row of their own, those with the worst reversals first.
 const LINES: usize = 500;
@@ -93,22 +93,22 @@ fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
         ];
         let name = format!("{file}:{line}");
         match files.link(file, *line) {
-            Some(link) => Row::leading(&name, &link, cells),
-            None => Row::new(&name, cells),
+            Some(link) => HtmlRow::leading(&name, &link, cells),
+            None => HtmlRow::new(&name, cells),
         }
     });
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Reversals by line and axis; glitches in µm, feeds in mm/min"),
         columns: &[
-            Column::Text("line"),
-            Column::Text("axis"),
-            Column::Number("reversals"),
-            Column::Number("without compensation"),
-            Column::Number("F"),
-            Column::Number("slowest"),
-            Column::Number("programmed"),
-            Column::Number("all on"),
-            Column::Number("all off"),
+            ColumnHeading::Text("line"),
+            ColumnHeading::Text("axis"),
+            ColumnHeading::Number("reversals"),
+            ColumnHeading::Number("without compensation"),
+            ColumnHeading::Number("F"),
+            ColumnHeading::Number("slowest"),
+            ColumnHeading::Number("programmed"),
+            ColumnHeading::Number("all on"),
+            ColumnHeading::Number("all off"),
         ],
     };
     html! {

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::track::{Spot, Track};
+use super::track::{SpanStart, StateTrack};
 use super::ways::{Ways, WaysIndex};
-use crate::svg::Standing;
+use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, CncBuild, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::lists::AxisType;
@@ -58,7 +58,7 @@ pub struct RunDigest {
     pub(super) summary: Option<SummaryDigest>,
     pub(super) ways: Ways,
     /// Place where ways joined after the last block, and the differences there.
-    met: Option<(SourceLine, Vec<Met>)>,
+    met: Option<(SourceLine, Vec<JoinedStates>)>,
     by_name: HashMap<String, usize>,
     by_place: HashMap<(Code, Arc<str>, Position, String), usize>,
     /// The file of the last block.
@@ -93,7 +93,7 @@ pub(super) struct ProgramDigest {
     pub(super) number: u32,
     pub(super) file: usize,
     pub(super) name: Option<String>,
-    pub(super) tracks: Vec<Track>,
+    pub(super) tracks: Vec<StateTrack>,
     pub(super) blocks: u64,
     pub(super) by: Option<EndedBy>,
 }
@@ -124,7 +124,7 @@ pub(super) struct LineDigest {
     pub(super) text: String,
     pub(super) changes: Vec<(Change, u64)>,
     /// Differences where ways join before it.
-    pub(super) met: Vec<Met>,
+    pub(super) met: Vec<JoinedStates>,
     /// Different changes beyond [`MAX_CHANGES`].
     pub(super) more_changes: u64,
     /// By their numbers in the report.
@@ -133,7 +133,7 @@ pub(super) struct LineDigest {
 
 /// Possible states of an axis where ways join.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Met {
+pub(super) struct JoinedStates {
     pub(super) axis: AxisIndex,
     pub(super) kind: Kind,
     pub(super) ways: WaysIndex,
@@ -191,11 +191,11 @@ impl RunDigest {
     }
 
     /// Compares a state of a kind on an axis with the start-up state.
-    pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> Standing {
+    pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> StartUpRelation {
         let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
         let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
-        track.map_or(Standing::StartUp, |track| {
-            Standing::of(state, track.start_up)
+        track.map_or(StartUpRelation::StartUp, |track| {
+            StartUpRelation::of(state, track.start_up)
         })
     }
 
@@ -235,7 +235,7 @@ impl RunDigest {
             for kind in kinds.filter(|&kind| self.kinds.contains(kind)) {
                 let start_up = start.state(axis, kind);
                 let now = self.ways.find(state, (axis, kind), path);
-                tracks.push(Track::new(axis, kind, now, start_up));
+                tracks.push(StateTrack::new(axis, kind, now, start_up));
             }
         }
         self.version = Some(state.version);
@@ -278,7 +278,7 @@ impl RunDigest {
         self.show_met(row.text);
         if self.version != Some(row.state.version) {
             self.version = Some(row.state.version);
-            let spot = Spot {
+            let spot = SpanStart {
                 file,
                 line: row.line,
                 number: row.number,
@@ -323,7 +323,7 @@ impl RunDigest {
                 && let Some(ways) = self.ways.find(join.state, place, join.file).ways
             {
                 let (axis, kind) = place;
-                met.push(Met { axis, kind, ways });
+                met.push(JoinedStates { axis, kind, ways });
             }
         }
         if !met.is_empty() {

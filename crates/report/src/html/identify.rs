@@ -4,22 +4,22 @@ use std::io::{self, Write};
 
 use maud::html;
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, figure};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::identify::{IdentifyReport, render_text};
 use crate::pictures::{channels, friction_curve, residuals_over_position, segments_on_trace};
 use crate::svg::Frame;
 use crate::trace::{TraceReport, render_text as render_channels};
 use frictcomp::diagnostic::Rounded;
 
-const CURVE: Part = Part::new("curve", "Friction over speed");
-const SPEEDS: Part = Part::new("speeds", "Speeds");
-const POSITION: Part = Part::new("position", "Residuals over the position");
-const SEGMENTS: Part = Part::new("segments", "Segments on the trace");
-const FINDINGS: Part = Part::new("findings", "What to look at");
-const REPORT: Part = Part::new("report", "Report");
-const PICTURE: Part = Part::new("picture", "Channels over time");
-const CHANNELS: Part = Part::new("channels", "Channels");
+const CURVE: PagePart = PagePart::new("curve", "Friction over speed");
+const SPEEDS: PagePart = PagePart::new("speeds", "Speeds");
+const POSITION: PagePart = PagePart::new("position", "Residuals over the position");
+const SEGMENTS: PagePart = PagePart::new("segments", "Segments on the trace");
+const FINDINGS: PagePart = PagePart::new("findings", "What to look at");
+const REPORT: PagePart = PagePart::new("report", "Report");
+const PICTURE: PagePart = PagePart::new("picture", "Channels over time");
+const CHANNELS: PagePart = PagePart::new("channels", "Channels");
 
 /// Writes the report of an identification as one page.
 ///
@@ -47,14 +47,14 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
     )?;
     page.part(CURVE, &figure(chart.render(Frame::Inside("curve"))))?;
     let found = &report.identified;
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Friction at each speed"),
         columns: &[
-            Column::Text("speed in mm/s"),
-            Column::Number("friction"),
-            Column::Number("error"),
-            Column::Number("offset"),
-            Column::Number("residual"),
+            ColumnHeading::Text("speed in mm/s"),
+            ColumnHeading::Number("friction"),
+            ColumnHeading::Number("error"),
+            ColumnHeading::Number("offset"),
+            ColumnHeading::Number("residual"),
         ],
     };
     let rows = found.pairs.iter().map(|pair| {
@@ -68,7 +68,7 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
             number.map_or("one-sided".to_owned(), |it| Rounded(it, 3).to_string())
         };
         let cells = numbers.map(|number| html! { (shown(number)) });
-        Row::new(&format!("{:.3}", pair.speed), cells.to_vec())
+        HtmlRow::new(&format!("{:.3}", pair.speed), cells.to_vec())
     });
     page.part(SPEEDS, &table.render(rows))?;
     let positions = residuals_over_position(report).render(Frame::Inside("position"));

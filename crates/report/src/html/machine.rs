@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::digest::RunDigest;
 use super::given::RunInputs;
-use super::parts::{Caption, Column, Row, Table, figure};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::lists::cells;
 use crate::pictures::value_curve;
 use crate::svg::Frame;
@@ -43,23 +43,23 @@ pub(super) fn render_curves(digest: &RunDigest) -> Markup {
 }
 
 fn settings(settings: &[(&str, String)]) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Given for this run"),
-        columns: &[Column::Text("setting"), Column::Text("value")],
+        columns: &[ColumnHeading::Text("setting"), ColumnHeading::Text("value")],
     };
     let rows = settings.iter();
-    table.render(rows.map(|(name, value)| Row::new(name, [html! { (value) }])))
+    table.render(rows.map(|(name, value)| HtmlRow::new(name, [html! { (value) }])))
 }
 
 fn axes(digest: &RunDigest) -> Markup {
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown("Axes"),
         columns: &[
-            Column::Text("axis"),
-            Column::Text("type"),
-            Column::Text("FRICT configured (P-AXIS-00522)"),
-            Column::Text("origin"),
-            Column::Text("value list"),
+            ColumnHeading::Text("axis"),
+            ColumnHeading::Text("type"),
+            ColumnHeading::Text("FRICT configured (P-AXIS-00522)"),
+            ColumnHeading::Text("origin"),
+            ColumnHeading::Text("value list"),
         ],
     };
     let listed = digest.axes.iter().filter(|axis| axis.listed);
@@ -71,7 +71,7 @@ fn axes(digest: &RunDigest) -> Markup {
             html! { (origin(&axis.origin)) },
             html! { (value_list(&axis.friction)) },
         ];
-        Row::new(&axis.name, cells)
+        HtmlRow::new(&axis.name, cells)
     }))
 }
 
@@ -79,13 +79,13 @@ fn parameters(caption: &str, parameters: &[Parameter]) -> Markup {
     if parameters.is_empty() {
         return html! {};
     }
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Shown(caption),
         columns: &[
-            Column::Text("number"),
-            Column::Text("key"),
-            Column::Number("value"),
-            Column::Text("origin"),
+            ColumnHeading::Text("number"),
+            ColumnHeading::Text("key"),
+            ColumnHeading::Number("value"),
+            ColumnHeading::Text("origin"),
         ],
     };
     table.render(parameters.iter().map(|parameter| {
@@ -95,7 +95,7 @@ fn parameters(caption: &str, parameters: &[Parameter]) -> Markup {
             html! { (value) },
             html! { (origin) },
         ];
-        Row::new(&number, cells)
+        HtmlRow::new(&number, cells)
     }))
 }
 

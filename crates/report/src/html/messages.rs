@@ -3,20 +3,20 @@
 use maud::{Markup, html};
 
 use super::digest::{Message, RunDigest};
-use super::parts::{Caption, Column, Row, Table, line_id, times, with_code};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, times, with_code};
 
 /// The table of all messages, in the order in which they were given.
 pub(super) fn render(digest: &RunDigest) -> Markup {
     if digest.messages.is_empty() {
         return html! { p { "There are no messages about these programs." } };
     }
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Heard("Messages"),
         columns: &[
-            Column::Text("code"),
-            Column::Text("severity"),
-            Column::Text("where"),
-            Column::Text("what"),
+            ColumnHeading::Text("code"),
+            ColumnHeading::Text("severity"),
+            ColumnHeading::Text("where"),
+            ColumnHeading::Text("what"),
         ],
     };
     html! {
@@ -30,7 +30,7 @@ pub(super) fn render(digest: &RunDigest) -> Markup {
     }
 }
 
-fn row(message: &Message) -> Row {
+fn row(message: &Message) -> HtmlRow {
     let diagnostic = &message.diagnostic;
     let severity = diagnostic.severity.as_str();
     let place = format!("{}:{}", diagnostic.place.file, diagnostic.place.start());
@@ -47,7 +47,7 @@ fn row(message: &Message) -> Row {
             @if message.shown.is_none() { (help(message)) }
         },
     ];
-    Row::new(diagnostic.code.as_str(), cells)
+    HtmlRow::new(diagnostic.code.as_str(), cells)
 }
 
 /// A message as an item of the list below its line.

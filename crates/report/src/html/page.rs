@@ -34,12 +34,12 @@ pub(super) struct Page<'a> {
 
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct PagePart {
     id: &'static str,
     pub(super) title: &'static str,
 }
 
-impl Part {
+impl PagePart {
     pub(super) const fn new(id: &'static str, title: &'static str) -> Self {
         Self { id, title }
     }
@@ -51,7 +51,7 @@ impl<'a> Page<'a> {
         out: &'a mut dyn Write,
         title: &str,
         lead: &str,
-        parts: &[Part],
+        parts: &[PagePart],
     ) -> io::Result<Self> {
         let mut page = Self {
             out,
@@ -92,17 +92,17 @@ impl<'a> Page<'a> {
     }
 
     /// Writes a part whose content is made at once.
-    pub(super) fn part(&mut self, part: Part, content: &Markup) -> io::Result<()> {
+    pub(super) fn part(&mut self, part: PagePart, content: &Markup) -> io::Result<()> {
         self.long_part(part, |page| page.push(content))
     }
 
     /// Writes a part whose content comes piece by piece.
     pub(super) fn long_part(
         &mut self,
-        part: Part,
+        part: PagePart,
         content: impl FnOnce(&mut Self) -> io::Result<()>,
     ) -> io::Result<()> {
-        let Part { id, title } = part;
+        let PagePart { id, title } = part;
         self.raw(&format!("<section id=\"{id}\" aria-labelledby=\"{id}-h\">"));
         self.push(&html! { h2 id={ (id) "-h" } { (title) } "\n" })?;
         content(self)?;

@@ -2,15 +2,15 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::svg::Standing;
+use crate::svg::StartUpRelation;
 use frictcomp::comp::State;
 
 /// A table with a heading in each row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Table<'a> {
+pub(super) struct HtmlTable<'a> {
     pub(super) caption: Caption<'a>,
     /// The columns, of which the first is that of the headings.
-    pub(super) columns: &'a [Column<'a>],
+    pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
 /// Caption of a table.
@@ -24,14 +24,14 @@ pub(super) enum Caption<'a> {
 
 /// The name of a column.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Column<'a> {
+pub(super) enum ColumnHeading<'a> {
     /// Of texts.
     Text(&'a str),
     /// Of numbers.
     Number(&'a str),
 }
 
-impl Column<'_> {
+impl ColumnHeading<'_> {
     fn class(self) -> Option<&'static str> {
         match self {
             Self::Text(_) => None,
@@ -42,12 +42,12 @@ impl Column<'_> {
 
 /// A row of a table.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
+pub(super) struct HtmlRow {
     heading: Markup,
     cells: Vec<Markup>,
 }
 
-impl Row {
+impl HtmlRow {
     pub(super) fn new(heading: &str, cells: impl Into<Vec<Markup>>) -> Self {
         Self {
             heading: html! { (heading) },
@@ -64,9 +64,9 @@ impl Row {
     }
 }
 
-impl Table<'_> {
+impl HtmlTable<'_> {
     /// The table, in a frame that scrolls by itself on narrow screens.
-    pub(super) fn render(&self, rows: impl IntoIterator<Item = Row>) -> Markup {
+    pub(super) fn render(&self, rows: impl IntoIterator<Item = HtmlRow>) -> Markup {
         let (caption, class) = match self.caption {
             Caption::Shown(caption) => (caption, None),
             Caption::Heard(caption) => (caption, Some("unseen")),
@@ -78,7 +78,7 @@ impl Table<'_> {
                     thead {
                         tr {
                             @for column in self.columns {
-                                @let (Column::Text(name) | Column::Number(name)) = column;
+                                @let (ColumnHeading::Text(name) | ColumnHeading::Number(name)) = column;
                                 th class=[column.class()] scope="col" { (name) }
                             }
                         }
@@ -108,9 +108,9 @@ pub(super) fn figure(svg: String) -> Markup {
 }
 
 /// A state, told apart by more than colour, above all where it is away from its start-up state.
-pub(super) fn state_word(state: State, standing: Standing) -> Markup {
+pub(super) fn state_word(state: State, standing: StartUpRelation) -> Markup {
     let word = state.as_str();
-    html! { span.state.(word).away[standing == Standing::Away] { (word) } }
+    html! { span.state.(word).away[standing == StartUpRelation::Away] { (word) } }
 }
 
 /// A sentence whose words in backquotes become code.
@@ -149,11 +149,15 @@ mod tests {
 
     #[test]
     fn numbers_stand_on_the_right() {
-        let table = Table {
+        let table = HtmlTable {
             caption: Caption::Heard("C"),
-            columns: &[Column::Text("a"), Column::Text("b"), Column::Number("c")],
+            columns: &[
+                ColumnHeading::Text("a"),
+                ColumnHeading::Text("b"),
+                ColumnHeading::Number("c"),
+            ],
         };
-        let row = Row::new("<1>", [html! { "x" }, html! { "2" }]);
+        let row = HtmlRow::new("<1>", [html! { "x" }, html! { "2" }]);
         let markup = table.render([row]).0;
         assert!(
             markup.contains("<th scope=\"row\">&lt;1&gt;</th><td>x</td><td class=\"num\">2</td>")

@@ -4,15 +4,15 @@ use std::io::{self, Write};
 
 use maud::{Markup, html};
 
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, figure};
-use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, Standing};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
+use crate::svg::{Band, BandChart, BandRow, BandState, ChartAxis, Frame, StartUpRelation};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Rounded;
 
-const VERDICT: Part = Part::new("verdict", "Verdict");
-const STATES: Part = Part::new("states", "Recorded states");
-const CHANGES: Part = Part::new("changes", "Changes");
+const VERDICT: PagePart = PagePart::new("verdict", "Verdict");
+const STATES: PagePart = PagePart::new("states", "Recorded states");
+const CHANGES: PagePart = PagePart::new("changes", "Changes");
 
 /// A recording of states beside the dry run.
 #[derive(Debug, Clone, Default)]
@@ -97,7 +97,7 @@ fn row(axis: &ReplayReportAxis) -> BandRow {
             from,
             to,
             state: BandState::One(state),
-            standing: Standing::default(),
+            standing: StartUpRelation::default(),
             title: format!(
                 "{} from {} s to {} s",
                 state.as_str(),
@@ -115,13 +115,13 @@ fn row(axis: &ReplayReportAxis) -> BandRow {
 
 fn changes(axis: &ReplayReportAxis) -> Markup {
     let caption = format!("Changes of {} in which both agree", axis.name);
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Heard(&caption),
         columns: &[
-            Column::Text("time in s"),
-            Column::Text("block of the dry run"),
-            Column::Text("state"),
-            Column::Text("compared by"),
+            ColumnHeading::Text("time in s"),
+            ColumnHeading::Text("block of the dry run"),
+            ColumnHeading::Text("state"),
+            ColumnHeading::Text("compared by"),
         ],
     };
     html! {
@@ -130,7 +130,7 @@ fn changes(axis: &ReplayReportAxis) -> Markup {
             p { "No change agrees." }
         } @else {
             (table.render(axis.changes.iter().map(|[time, rest @ ..]| {
-                Row::new(time, rest.each_ref().map(|cell| html! { (cell) }))
+                HtmlRow::new(time, rest.each_ref().map(|cell| html! { (cell) }))
             })))
         }
         @if !axis.against.is_empty() {

@@ -29,19 +29,19 @@ struct OfAxis {
 }
 
 /// The reversals of each line of a file, by axis.
-type Lines<'a> = BTreeMap<u32, BTreeMap<&'a str, OfAxis>>;
+type LineReversals<'a> = BTreeMap<u32, BTreeMap<&'a str, OfAxis>>;
 
 /// The files with reversals, in the order in which they come.
 #[derive(Debug, Default)]
-pub(super) struct ReversedFiles<'a>(Vec<(&'a str, Lines<'a>)>);
+pub(super) struct ReversedFiles<'a>(Vec<(&'a str, LineReversals<'a>)>);
 
 impl<'a> ReversedFiles<'a> {
     pub(super) fn of(reversals: &'a [ContourReversal]) -> Self {
-        let mut files: Vec<(&str, Lines<'_>)> = Vec::new();
+        let mut files: Vec<(&str, LineReversals<'_>)> = Vec::new();
         for reversal in reversals {
             let at = files.iter().position(|(name, _)| *name == &*reversal.file);
             let at = at.unwrap_or_else(|| {
-                files.push((&reversal.file, Lines::new()));
+                files.push((&reversal.file, LineReversals::new()));
                 files.len() - 1
             });
             let axes = files[at].1.entry(reversal.line).or_default();
@@ -76,7 +76,7 @@ type Source<'s> = Option<Box<dyn frictcomp::text::LineSource + 's>>;
 
 fn render_file(
     page: &mut Page<'_>,
-    (file, lines): (usize, &Lines<'_>),
+    (file, lines): (usize, &LineReversals<'_>),
     (source, room): (Source<'_>, &mut usize),
 ) -> io::Result<()> {
     let mut rest = lines.iter().peekable();

@@ -7,25 +7,25 @@ use maud::{Markup, html};
 
 use super::digest::{RunDigest, SummaryDigest};
 use super::given::RunInputs;
-use super::page::{Page, Part};
-use super::parts::{Caption, Column, Row, Table, counted, line_id, state_word};
+use super::page::{Page, PagePart};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, counted, line_id, state_word};
 use super::source::{self, Sources};
 use super::{assumptions, machine, messages, states};
 use crate::advice::{all_home, axis_advice, error_advice, is_home};
-use crate::assumptions::Met;
+use crate::assumptions::SessionFacts;
 use crate::feed_moves::feed_moves_text;
 use crate::visible::last_part;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::Severity;
 use frictcomp::timeline::ChangedBy;
 
-const LEFT: Part = Part::new("left", "What is left");
-const STATES: Part = Part::new("states", "States over the blocks");
-const MESSAGES: Part = Part::new("messages", "Messages");
-const SOURCE: Part = Part::new("source", "Source");
-const MACHINE: Part = Part::new("machine", "Machine and parameters");
-const CURVES: Part = Part::new("curves", "Value lists");
-const READING: Part = Part::new("reading", "Assumptions");
+const LEFT: PagePart = PagePart::new("left", "What is left");
+const STATES: PagePart = PagePart::new("states", "States over the blocks");
+const MESSAGES: PagePart = PagePart::new("messages", "Messages");
+const SOURCE: PagePart = PagePart::new("source", "Source");
+const MACHINE: PagePart = PagePart::new("machine", "Machine and parameters");
+const CURVES: PagePart = PagePart::new("curves", "Value lists");
+const READING: PagePart = PagePart::new("reading", "Assumptions");
 
 /// Writes the report of a session as one page. The sources are read once more, line by line.
 ///
@@ -53,14 +53,14 @@ pub fn render_run(
 }
 
 /// Returns the facts of the session that decide its assumptions.
-fn met(digest: &RunDigest) -> Met {
+fn met(digest: &RunDigest) -> SessionFacts {
     let codes = digest.messages.iter().map(|it| it.diagnostic.code);
     let passed_over = digest
         .summary
         .iter()
         .flat_map(|it| it.opaque.values())
         .sum();
-    Met {
+    SessionFacts {
         reported: codes.collect(),
         axis_set: digest.axis_set,
         passed_over,
@@ -114,13 +114,13 @@ fn left(digest: &RunDigest) -> Markup {
     let Some(summary) = &digest.summary else {
         return html! { p { (NOT_ENDED) } };
     };
-    let table = Table {
+    let table = HtmlTable {
         caption: Caption::Heard(LEFT.title),
         columns: &[
-            Column::Text("axis"),
-            Column::Text("at start"),
-            Column::Text("at end"),
-            Column::Text("changed by"),
+            ColumnHeading::Text("axis"),
+            ColumnHeading::Text("at start"),
+            ColumnHeading::Text("at end"),
+            ColumnHeading::Text("changed by"),
         ],
     };
     let rows = summary.axes.iter().map(|axis| {
@@ -133,7 +133,7 @@ fn left(digest: &RunDigest) -> Markup {
             @if let Some((_, ways)) = ways { ": " (digest.ways.text(*ways)) }
         };
         let cells = [state(axis.start), end, changed];
-        Row::new(digest.axis_name(axis.axis), cells)
+        HtmlRow::new(digest.axis_name(axis.axis), cells)
     });
     html! {
         p {

@@ -6,11 +6,11 @@ use std::{io, iter};
 
 use maud::{Escaper, Markup, Render, html};
 
-use super::digest::{FileDigest, LINE_ROOM, LineDigest, Met, RunDigest};
+use super::digest::{FileDigest, JoinedStates, LINE_ROOM, LineDigest, RunDigest};
 use super::messages::item;
 use super::page::Page;
 use super::parts::{line_id, state_word, times};
-use crate::svg::Standing;
+use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, Kind, State};
 use frictcomp::text::LineSource;
 
@@ -36,7 +36,7 @@ const FOLD: usize = 1000;
 const MARKED_BYTES: usize = 400;
 
 /// Lines on their way to the page.
-struct Listing<'a, 'p> {
+struct SourceLines<'a, 'p> {
     page: &'a mut Page<'p>,
     digest: &'a RunDigest,
     file: usize,
@@ -58,7 +58,7 @@ struct QuietLine {
 
 /// Line below those that wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Below {
+enum LineBelow {
     /// A line with something to say.
     Event,
     /// Nothing any more.
@@ -81,7 +81,7 @@ pub(super) fn render(
     let mut room = MAX_LINES;
     for (number, file) in digest.files.iter().enumerate() {
         page.push(&html! { h3 id={ "f" (number) } { (file.name) } "\n" })?;
-        let listing = Listing {
+        let listing = SourceLines {
             page,
             digest,
             file: number,
@@ -103,7 +103,7 @@ pub(super) fn render(
     Ok(())
 }
 
-impl Listing<'_, '_> {
+impl SourceLines<'_, '_> {
     fn render(mut self, file: &FileDigest, sources: &mut dyn Sources) -> io::Result<()> {
         let mut again = sources.open(&file.name);
         if again.is_none() {
@@ -146,7 +146,7 @@ impl Listing<'_, '_> {
                 let text = lines.line().text;
                 if let Some((_, event)) = events.next_if(|(line, _)| **line == number) {
                     let text = text.to_owned();
-                    self.release(Below::Event)?;
+                    self.release(LineBelow::Event)?;
                     self.event(number, &text, event)?;
                     self.below_event = true;
                 } else if *self.room > 0 {
@@ -163,7 +163,7 @@ impl Listing<'_, '_> {
                     self.left_out += 1;
                 }
             }
-            self.release(Below::End)?;
+            self.release(LineBelow::End)?;
         }
         // A source that cannot be read again, or that became shorter since it ran.
         for (&line, event) in events {
@@ -173,10 +173,10 @@ impl Listing<'_, '_> {
     }
 
     /// Writes the lines that wait.
-    fn release(&mut self, below: Below) -> io::Result<()> {
+    fn release(&mut self, below: LineBelow) -> io::Result<()> {
         let keep = match below {
-            Below::Event => CONTEXT,
-            Below::End => 0,
+            LineBelow::Event => CONTEXT,
+            LineBelow::End => 0,
         };
         let fold = self.quiet.len().saturating_sub(keep);
         self.release_some(fold)?;
@@ -258,9 +258,9 @@ impl Listing<'_, '_> {
     }
 
     /// Renders the possible states where ways join before the line (R14.2).
-    fn met(&self, met: Met) -> Markup {
+    fn met(&self, met: JoinedStates) -> Markup {
         html! {
-            (self.named(met.axis, met.kind)) " " (state_word(State::Unknown, Standing::StartUp)) ": "
+            (self.named(met.axis, met.kind)) " " (state_word(State::Unknown, StartUpRelation::StartUp)) ": "
             (self.digest.ways.text(met.ways))
         }
     }

@@ -7,7 +7,7 @@ use maud::html;
 use super::digest::{ProgramDigest, RunDigest};
 use super::page::Page;
 use super::parts::{counted, figure, line_id};
-use super::track::{Stretch, Track};
+use super::track::{StateSpan, StateTrack};
 use crate::svg::{Band, BandChart, BandRow, ChartAxis, Frame};
 use frictcomp::comp::Kind;
 
@@ -82,7 +82,7 @@ fn describe(row: &BandRow) -> String {
     format!("{}: {}{more}.", row.label, states.join(", then "))
 }
 
-fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
+fn row(digest: &RunDigest, program: &ProgramDigest, track: &StateTrack) -> BandRow {
     let axis = digest.axis_name(track.axis);
     let label = match track.kind {
         Kind::Frict => axis.to_owned(),
@@ -105,7 +105,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
 }
 
 /// A bar in words.
-fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
+fn told(digest: &RunDigest, label: &str, stretch: &StateSpan) -> String {
     let word = stretch.state.as_str();
     let ways = stretch
         .ways
@@ -125,7 +125,7 @@ fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
 }
 
 /// The line that made it so, if the source shows it by itself, or else its file.
-fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &Stretch) -> String {
+fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &StateSpan) -> String {
     match stretch.spot {
         Some(spot) if digest.files[spot.file].events.contains_key(&spot.line) => {
             format!("#{}", line_id(spot.file, spot.line))

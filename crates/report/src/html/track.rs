@@ -1,12 +1,12 @@
 //! The states of one kind on one axis over the blocks of a program, in bounded memory.
 
-use super::ways::{Found, WaysIndex};
-use crate::svg::{BandState, Standing};
+use super::ways::{StateOnWays, WaysIndex};
+use crate::svg::{BandState, StartUpRelation};
 use frictcomp::comp::{AxisIndex, Kind, State};
 
 /// Beginning of a stretch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Spot {
+pub(super) struct SpanStart {
     /// The file, by its number in the report.
     pub(super) file: usize,
     /// The line, from 1.
@@ -17,7 +17,7 @@ pub(super) struct Spot {
 
 /// A state from one executed block on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Stretch {
+pub(super) struct StateSpan {
     /// The executed block after which the state holds, 0 at program start.
     pub(super) from: u64,
     /// The state that the band shows.
@@ -25,19 +25,19 @@ pub(super) struct Stretch {
     /// Possible states where ways differ.
     pub(super) ways: Option<WaysIndex>,
     /// The block that made it so; `None` at program start.
-    pub(super) spot: Option<Spot>,
+    pub(super) spot: Option<SpanStart>,
 }
 
 /// The states of one kind on one axis.
 #[derive(Debug, Clone)]
-pub(super) struct Track {
+pub(super) struct StateTrack {
     pub(super) axis: AxisIndex,
     pub(super) kind: Kind,
     /// The state after a start of the control.
     pub(super) start_up: State,
-    pub(super) stretches: Vec<Stretch>,
+    pub(super) stretches: Vec<StateSpan>,
     /// The state of the moment.
-    pub(super) now: Found,
+    pub(super) now: StateOnWays,
     /// Shorter stretches have been joined.
     grain: u64,
 }
@@ -45,14 +45,14 @@ pub(super) struct Track {
 /// More stretches are not kept apart.
 const MAX_STRETCHES: usize = 2048;
 
-impl Track {
+impl StateTrack {
     /// A track that begins with a state.
-    pub(super) fn new(axis: AxisIndex, kind: Kind, now: Found, start_up: State) -> Self {
+    pub(super) fn new(axis: AxisIndex, kind: Kind, now: StateOnWays, start_up: State) -> Self {
         Self {
             axis,
             kind,
             start_up,
-            stretches: vec![Stretch {
+            stretches: vec![StateSpan {
                 from: 0,
                 state: BandState::One(now.state),
                 ways: now.ways,
@@ -64,12 +64,12 @@ impl Track {
     }
 
     /// Takes the state after a block.
-    pub(super) fn push(&mut self, seq: u64, now: Found, spot: Spot) {
+    pub(super) fn push(&mut self, seq: u64, now: StateOnWays, spot: SpanStart) {
         if now == self.now {
             return;
         }
         self.now = now;
-        self.stretches.push(Stretch {
+        self.stretches.push(StateSpan {
             from: seq,
             state: BandState::One(now.state),
             ways: now.ways,
@@ -90,10 +90,10 @@ impl Track {
     }
 
     /// Compares a state of this kind on this axis with the start-up state.
-    pub(super) fn standing(&self, state: BandState) -> Standing {
+    pub(super) fn standing(&self, state: BandState) -> StartUpRelation {
         match state {
-            BandState::One(state) => Standing::of(state, self.start_up),
-            BandState::Changing => Standing::StartUp,
+            BandState::One(state) => StartUpRelation::of(state, self.start_up),
+            BandState::Changing => StartUpRelation::StartUp,
         }
     }
 
@@ -109,7 +109,7 @@ impl Track {
                     if short
                         && last.state == BandState::Changing
                         && end.saturating_sub(last.from) <= self.grain.saturating_mul(64) => {}
-                _ => self.stretches.push(Stretch {
+                _ => self.stretches.push(StateSpan {
                     state: if short {
                         BandState::Changing
                     } else {
@@ -127,16 +127,16 @@ impl Track {
 mod tests {
     use super::*;
 
-    const SPOT: Spot = Spot {
+    const SPOT: SpanStart = SpanStart {
         file: 0,
         line: 1,
         number: None,
     };
 
-    fn track(blocks: u64) -> Track {
-        let found = |state| Found { state, ways: None };
+    fn track(blocks: u64) -> StateTrack {
+        let found = |state| StateOnWays { state, ways: None };
         let now = found(State::Active);
-        let mut track = Track::new(AxisIndex::new(0), Kind::Frict, now, State::Active);
+        let mut track = StateTrack::new(AxisIndex::new(0), Kind::Frict, now, State::Active);
         for seq in 1..=blocks {
             let state = if seq % 2 == 0 {
                 State::Active

@@ -15,7 +15,7 @@ pub(super) struct WaysIndex(usize);
 
 /// A state, and when it is which where ways differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Found {
+pub(super) struct StateOnWays {
     /// The state.
     pub(super) state: State,
     /// Possible states in place of `unknown`, in words.
@@ -36,9 +36,9 @@ impl Ways {
         view: StateView<'_>,
         (axis, kind): (AxisIndex, Kind),
         file: &str,
-    ) -> Found {
+    ) -> StateOnWays {
         let possible = view.possible_of(axis, kind);
-        Found {
+        StateOnWays {
             state: view.state(axis, kind),
             ways: possible.and_then(|it| self.number(it.in_words(file))),
         }

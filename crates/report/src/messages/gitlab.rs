@@ -25,11 +25,11 @@ struct Issue<'a> {
 #[derive(Serialize)]
 struct Location {
     path: String,
-    lines: Lines,
+    lines: LineRange,
 }
 
 #[derive(Serialize)]
-struct Lines {
+struct LineRange {
     begin: u32,
     end: u32,
 }
@@ -55,7 +55,7 @@ impl MessageFormat for GitLab {
             fingerprint: self.fingerprint(&path, diagnostic),
             severity: severity(diagnostic.severity),
             location: Location {
-                lines: Lines {
+                lines: LineRange {
                     begin: diagnostic.place.start().line,
                     end: diagnostic.place.end().line,
                 },

@@ -71,14 +71,14 @@ impl MessageFormat for Objects {
     }
 
     fn close(&mut self, out: &mut Vec<u8>, tally: &Tally) {
-        self.object(out, |out| append_json(out, &Summary::of(tally)));
+        self.object(out, |out| append_json(out, &SummaryObject::of(tally)));
         out.extend_from_slice(self.closing);
     }
 }
 
 /// The counts, and the readings on which the results rest (R15.3).
 #[derive(Serialize)]
-struct Summary<'a> {
+struct SummaryObject<'a> {
     record: &'static str,
     files: u64,
     errors: u64,
@@ -88,7 +88,7 @@ struct Summary<'a> {
     rests_on: &'a ReadingsInForce,
 }
 
-impl<'a> Summary<'a> {
+impl<'a> SummaryObject<'a> {
     fn of(tally: &'a Tally) -> Self {
         Self {
             record: "summary",

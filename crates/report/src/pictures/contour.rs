@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::glitch::glitch_in_words;
 use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PlaneChart, PlaneMark,
-    PlanePoint, Series, Standing, Stroke,
+    PlanePoint, Series, StartUpRelation, Stroke,
 };
 use frictcomp::comp::State;
 use frictcomp::interpreter::PositionFrame;
@@ -29,7 +29,7 @@ const LISTED: usize = 10;
 
 /// The block of a reversal, of the largest deviation, or of a stretch of the path.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-struct Spot {
+struct MarkedSpot {
     file: Arc<str>,
     line: u32,
 }
@@ -74,16 +74,16 @@ pub struct WorstReversal {
 #[derive(Debug, Clone)]
 pub struct ContourPicture {
     axes: [String; 2],
-    points: Vec<(PlanePoint, Spot)>,
+    points: Vec<(PlanePoint, MarkedSpot)>,
     /// Cycles that are drawn as one point.
     every: u64,
     filled: u64,
     curves: [Curve; 3],
     bands: [Vec<Band>; 2],
-    marks: Vec<(PlaneMark, Spot)>,
+    marks: Vec<(PlaneMark, MarkedSpot)>,
     more_marks: u64,
     largest_um: f64,
-    largest_at: Spot,
+    largest_at: MarkedSpot,
 }
 
 impl ContourPicture {
@@ -99,7 +99,7 @@ impl ContourPicture {
             marks: Vec::new(),
             more_marks: 0,
             largest_um: 0.0,
-            largest_at: Spot::default(),
+            largest_at: MarkedSpot::default(),
         }
     }
 
@@ -113,7 +113,7 @@ impl ContourPicture {
             (PositionFrame::Machine, true, true) => Stroke::Compensated,
             (PositionFrame::Machine, true, false) => Stroke::Uncompensated,
         };
-        let spot = Spot {
+        let spot = MarkedSpot {
             file: Arc::clone(&point.cause.file),
             line: point.cause.line,
         };
@@ -143,7 +143,7 @@ impl ContourPicture {
     }
 
     /// Of the cycles that make a point the one with the largest deviation is kept.
-    fn keep(&mut self, point: PlanePoint, spot: Spot) {
+    fn keep(&mut self, point: PlanePoint, spot: MarkedSpot) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;
         match self.points.last_mut() {
@@ -194,7 +194,7 @@ impl ContourPicture {
             ),
             href: None,
         };
-        let spot = Spot {
+        let spot = MarkedSpot {
             file: Arc::clone(&reversal.file),
             line: reversal.line,
         };
@@ -214,7 +214,7 @@ impl ContourPicture {
 
     /// The path alone, on which an editor finds the block of a place and the place of a block.
     pub fn followed(mut self, program: &str) -> FollowedContour {
-        let spots: Vec<Spot> = self.points.iter().map(|(_, spot)| spot.clone()).collect();
+        let spots: Vec<MarkedSpot> = self.points.iter().map(|(_, spot)| spot.clone()).collect();
         self.rank();
         let worst = self
             .marks
@@ -334,7 +334,7 @@ fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
         Some(last) if last.state == BandState::One(state) => last.to = time_s,
         Some(last) if is_full => {
             last.state = BandState::Changing;
-            last.standing = Standing::StartUp;
+            last.standing = StartUpRelation::StartUp;
             last.to = time_s;
         }
         last => {
@@ -345,7 +345,7 @@ fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
                 from: time_s,
                 to: time_s,
                 state: BandState::One(state),
-                standing: Standing::of(state, State::Active),
+                standing: StartUpRelation::of(state, State::Active),
                 title: format!("{name} {} from {time_s} s", state.as_str()),
                 href: None,
             });

@@ -2,7 +2,7 @@
 
 use crate::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, Series,
-    Standing, XMark,
+    StartUpRelation, XMark,
 };
 use frictcomp::comp::State;
 use frictcomp::lists::AxisType;
@@ -95,7 +95,7 @@ impl AxisPlot {
             Some(last) if last.state == BandState::One(state) || full => {
                 if last.state != BandState::One(state) {
                     last.state = BandState::Changing;
-                    last.standing = Standing::StartUp;
+                    last.standing = StartUpRelation::StartUp;
                 }
                 last.to = time;
             }
@@ -109,7 +109,7 @@ impl AxisPlot {
                     to: time,
                     state: BandState::One(state),
                     // Friction compensation that can be switched is on after a start.
-                    standing: Standing::of(state, State::Active),
+                    standing: StartUpRelation::of(state, State::Active),
                     title: format!("{name} {} from {time} s", state.as_str()),
                     href: None,
                 });

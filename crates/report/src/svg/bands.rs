@@ -1,6 +1,6 @@
 //! States along an axis as rows of bars, in shapes that need no colour.
 
-use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width, widest_text};
+use super::canvas::{Anchor, Area, Canvas, Head, PictureRole, WIDTH, text_width, widest_text};
 use super::frame::Frame;
 use super::scale::{ChartAxis, Ends, Scale, Spacing};
 use frictcomp::comp::State;
@@ -38,7 +38,7 @@ impl BandState {
 /// How a state stands to the one after a start of the control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum Standing {
+pub enum StartUpRelation {
     /// It is that state, or nobody can say.
     #[default]
     StartUp,
@@ -46,7 +46,7 @@ pub enum Standing {
     Away,
 }
 
-impl Standing {
+impl StartUpRelation {
     /// The standing of a state. Only what a command switches can be away from its start-up state.
     pub fn of(state: State, start_up: State) -> Self {
         let switched = matches!(state, State::Active | State::Inactive);
@@ -68,7 +68,7 @@ pub struct Band {
     /// What it says.
     pub state: BandState,
     /// How the state stands to that after a start of the control.
-    pub standing: Standing,
+    pub standing: StartUpRelation,
     /// What a pointer and a screen reader say.
     pub title: String,
     /// Where it leads, `#id` of the page.
@@ -122,7 +122,7 @@ impl BandChart {
             width: WIDTH - 24.0 - left,
             height: height(&self.rows),
         };
-        let rows = Rows {
+        let rows = BandRows {
             bars: &self.rows,
             scale: &scale,
             area,
@@ -146,7 +146,7 @@ impl BandChart {
                 },
                 description: &self.description,
                 height,
-                role: Role::Group,
+                role: PictureRole::Group,
             },
         )
     }
@@ -186,16 +186,16 @@ pub(super) fn label_width(rows: &[BandRow]) -> f64 {
 }
 
 /// Rows on their way into a picture.
-pub(super) struct Rows<'a> {
+pub(super) struct BandRows<'a> {
     pub(super) bars: &'a [BandRow],
     pub(super) scale: &'a Scale,
     pub(super) area: Area,
 }
 
-impl Rows<'_> {
+impl BandRows<'_> {
     /// Draws the rows one below the other, their labels left of the area; gives the states that
     /// are to be seen.
-    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<(BandState, Standing)> {
+    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<(BandState, StartUpRelation)> {
         let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
         let mut top = y;
@@ -212,7 +212,7 @@ impl Rows<'_> {
                     && let Some(next) = bands.next_if(|next| narrow(next))
                 {
                     shown.state = BandState::Changing;
-                    shown.standing = Standing::StartUp;
+                    shown.standing = StartUpRelation::StartUp;
                     shown.to = next.to;
                 }
                 if shown.state != first.state {
@@ -243,8 +243,8 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     let word = band.state.as_str();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
         let class = match band.standing {
-            Standing::Away => "fc-on-away",
-            Standing::StartUp => "",
+            StartUpRelation::Away => "fc-on-away",
+            StartUpRelation::StartUp => "",
         };
         let place = (area.x + 6.0, area.y + BAR / 2.0 + 4.0);
         canvas.text(class, place, Anchor::Start, word);
@@ -254,8 +254,8 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
 
 /// The shape of a state: full, hollow, half full, a line, dashed; striped where it is not the
 /// start-up state.
-fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, Standing), area: Area) {
-    if standing == Standing::Away {
+fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, StartUpRelation), area: Area) {
+    if standing == StartUpRelation::Away {
         canvas.rect("fc-away", area);
         let middle = area.y + area.height / 2.0;
         let class = if area.height < BAR {
@@ -292,17 +292,22 @@ fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, Standing), are
 /// Draws each of the states with its word; gives the height that this takes.
 pub(super) fn draw_legend(
     canvas: &mut Canvas,
-    drawn: &[(BandState, Standing)],
+    drawn: &[(BandState, StartUpRelation)],
     (left, y): (f64, f64),
 ) -> f64 {
-    let both = |state| [(state, Standing::StartUp), (state, Standing::Away)];
+    let both = |state| {
+        [
+            (state, StartUpRelation::StartUp),
+            (state, StartUpRelation::Away),
+        ]
+    };
     let mut states: Vec<_> = BandState::ALL.into_iter().flat_map(both).collect();
     states.retain(|state| drawn.contains(state));
     let mut x = left;
     for state in &states {
         let word = match *state {
-            (state, Standing::Away) => format!("{}, not start-up", state.as_str()),
-            (state, Standing::StartUp) => state.as_str().to_owned(),
+            (state, StartUpRelation::Away) => format!("{}, not start-up", state.as_str()),
+            (state, StartUpRelation::StartUp) => state.as_str().to_owned(),
         };
         let swatch = Area {
             x,

@@ -166,8 +166,8 @@ impl Canvas {
         };
         let (width, height) = (px(WIDTH), px(head.height));
         let role = match head.role {
-            Role::Image => "img",
-            Role::Group => "group",
+            PictureRole::Image => "img",
+            PictureRole::Group => "group",
         };
         let mut out = String::with_capacity(self.body.len() + 4096);
         out.push_str("<svg ");
@@ -207,12 +207,12 @@ pub(super) struct Head<'a> {
     pub(super) title: &'a str,
     pub(super) description: &'a str,
     pub(super) height: f64,
-    pub(super) role: Role,
+    pub(super) role: PictureRole,
 }
 
 /// What a picture is for a screen reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum PictureRole {
     /// One image, told by title and description.
     Image,
     /// Parts that can be reached one by one.

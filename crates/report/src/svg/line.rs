@@ -1,8 +1,9 @@
 //! Curves over a common axis, in panels one below the other.
 
-use super::bands::{self, BandRow, Rows, TICK_ROOM, draw_legend, draw_ticks};
+use super::bands::{self, BandRow, BandRows, TICK_ROOM, draw_legend, draw_ticks};
 use super::canvas::{
-    Anchor, Area, Canvas, Head, Legend, LegendItem, LegendLook, Role, SERIES, WIDTH, text_width,
+    Anchor, Area, Canvas, Head, Legend, LegendItem, LegendLook, PictureRole, SERIES, WIDTH,
+    text_width,
 };
 use super::frame::Frame;
 use super::reduce::reduce;
@@ -150,7 +151,7 @@ impl LineChart {
             width: WIDTH - 24.0 - left,
             height: bands::height(&self.bands),
         };
-        let rows = Rows {
+        let rows = BandRows {
             bars: &self.bands,
             scale: &x,
             area,
@@ -171,7 +172,7 @@ impl LineChart {
                 draw_second(&mut canvas, &x, second, area);
             }
             above = true;
-            let axes = Axes {
+            let axes = PanelAxes {
                 x: &x,
                 y: scale,
                 area,
@@ -194,7 +195,7 @@ impl LineChart {
                 title: &self.title,
                 description: &self.description,
                 height: floor + 10.0,
-                role: Role::Image,
+                role: PictureRole::Image,
             },
         )
     }
@@ -296,7 +297,7 @@ impl Panel {
         })
     }
 
-    fn draw(&self, canvas: &mut Canvas, axes: &Axes<'_>) {
+    fn draw(&self, canvas: &mut Canvas, axes: &PanelAxes<'_>) {
         for (number, series) in self.numbered() {
             let number = number % SERIES;
             let class = match series.drawn {
@@ -389,13 +390,13 @@ fn draw_second(canvas: &mut Canvas, x: &Scale, second: &SecondUnit, area: Area) 
 }
 
 /// The axes of one panel.
-struct Axes<'a> {
+struct PanelAxes<'a> {
     x: &'a Scale,
     y: &'a Scale,
     area: Area,
 }
 
-impl Axes<'_> {
+impl PanelAxes<'_> {
     fn place(&self, [x, y]: [f64; 2]) -> (f64, f64) {
         (
             self.area.x + self.x.share(x) * self.area.width,

@@ -20,7 +20,7 @@ mod polar;
 mod reduce;
 mod scale;
 
-pub use bands::{Band, BandChart, BandRow, BandState, Standing};
+pub use bands::{Band, BandChart, BandRow, BandState, StartUpRelation};
 pub use frame::{Frame, STYLE};
 pub use line::{CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
 pub use plane::{PlaneChart, PlaneMark, PlanePoint, Stroke};

@@ -1,6 +1,6 @@
 //! A path in a plane with a magnified deviation, and marks on it.
 
-use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width, widest_text};
+use super::canvas::{Anchor, Area, Canvas, Head, PictureRole, WIDTH, text_width, widest_text};
 use super::frame::Frame;
 use super::line::LineChart;
 use super::scale::{label, round_step};
@@ -95,14 +95,14 @@ pub struct PlaneChart {
 
 /// From mm to the picture.
 #[derive(Debug, Clone, Copy)]
-struct Fit {
+struct PlaneFit {
     from: [f64; 2],
     scale: f64,
     origin: (f64, f64),
     magnification: f64,
 }
 
-impl Fit {
+impl PlaneFit {
     fn of(points: &[PlanePoint]) -> Self {
         let mut least = [f64::INFINITY; 2];
         let mut most = [f64::NEG_INFINITY; 2];
@@ -156,7 +156,7 @@ impl PlaneChart {
     /// Where the path is drawn: a line through points of the picture for each stretch of the points, in
     /// its units. A stretch begins where the one before it ends.
     pub fn drawn(&self, ends: &[usize]) -> Vec<Vec<[f64; 2]>> {
-        let fit = Fit::of(&self.points);
+        let fit = PlaneFit::of(&self.points);
         let begins = std::iter::once(0).chain(ends.iter().map(|end| end.saturating_sub(1)));
         let stretches = begins.zip(ends).map(|(begin, end)| {
             let points = self.points.get(begin..*end).unwrap_or_default();
@@ -170,7 +170,7 @@ impl PlaneChart {
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
         canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
-        let fit = Fit::of(&self.points);
+        let fit = PlaneFit::of(&self.points);
         self.draw_axes(&mut canvas);
         self.draw_path(&mut canvas, &fit);
         self.draw_marks(&mut canvas, &fit);
@@ -192,9 +192,9 @@ impl PlaneChart {
                 description: &self.description,
                 height,
                 role: if self.marks.iter().any(|mark| mark.href.is_some()) {
-                    Role::Group
+                    PictureRole::Group
                 } else {
-                    Role::Image
+                    PictureRole::Image
                 },
             },
         )
@@ -209,7 +209,7 @@ impl PlaneChart {
     }
 
     /// The commanded path thin, and the magnified one over it, by stretches of one kind.
-    fn draw_path(&self, canvas: &mut Canvas, fit: &Fit) {
+    fn draw_path(&self, canvas: &mut Canvas, fit: &PlaneFit) {
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
                 Stroke::Unjudged => "fc-curve fc-grid",
@@ -234,7 +234,7 @@ impl PlaneChart {
         }
     }
 
-    fn draw_marks(&self, canvas: &mut Canvas, fit: &Fit) {
+    fn draw_marks(&self, canvas: &mut Canvas, fit: &PlaneFit) {
         let mut cells: std::collections::BTreeMap<(i64, i64), (&PlaneMark, u32)> =
             std::collections::BTreeMap::new();
         for mark in &self.marks {
@@ -270,13 +270,13 @@ impl PlaneChart {
 
     /// The words beside the worst marks, where neither the path nor another mark is in their way (R11.5); a
     /// thin line leads to a mark that is farther off. Where there is no room, the mark keeps its title.
-    fn draw_labels(&self, canvas: &mut Canvas, fit: &Fit) {
+    fn draw_labels(&self, canvas: &mut Canvas, fit: &PlaneFit) {
         const LINE: f64 = 16.0;
         let mut ground = Ground::default();
         for pair in self.points.windows(2) {
             for of in [
-                |fit: &Fit, it: &PlanePoint| fit.place(it.place),
-                Fit::magnified,
+                |fit: &PlaneFit, it: &PlanePoint| fit.place(it.place),
+                PlaneFit::magnified,
             ] {
                 ground.take_line(of(fit, &pair[0]), of(fit, &pair[1]));
             }
@@ -330,7 +330,7 @@ impl PlaneChart {
     }
 
     /// The legend in rows with room for larger letters of narrow windows, and the scales below it.
-    fn draw_legend(&self, canvas: &mut Canvas, fit: &Fit) -> f64 {
+    fn draw_legend(&self, canvas: &mut Canvas, fit: &PlaneFit) -> f64 {
         let mut y = ROOM.bottom() + 20.0;
         let mut x = 16.0;
         let lines = [

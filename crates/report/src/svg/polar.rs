@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::canvas::{
-    Anchor, Canvas, Head, Legend, LegendItem, LegendLook, Role, SERIES, WIDTH, text_width,
+    Anchor, Canvas, Head, Legend, LegendItem, LegendLook, PictureRole, SERIES, WIDTH, text_width,
 };
 use super::frame::Frame;
 use super::reduce::reduce;
@@ -60,7 +60,7 @@ pub struct PolarChart {
 
 /// Where a panel is, and how large.
 #[derive(Debug, Clone, Copy)]
-struct Layout {
+struct PanelLayout {
     centre: (f64, f64),
     /// The commanded circle.
     circle: f64,
@@ -77,7 +77,7 @@ const SMALL: f64 = 100.0;
 /// The names of the quadrants around the rings.
 const NAMES: f64 = 34.0;
 
-impl Layout {
+impl PanelLayout {
     /// The panel with a number out of so many.
     fn of(number: usize, count: usize) -> Self {
         let (circle, reach) = match (number, count) {
@@ -114,7 +114,7 @@ impl PolarChart {
         canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
         let count = self.panels.len();
         for (number, panel) in self.panels.iter().enumerate() {
-            let layout = Layout::of(number, count);
+            let layout = PanelLayout::of(number, count);
             let magnified = Magnified::of(panel, layout);
             canvas.text("", (layout.left(), 54.0), Anchor::Start, &panel.label);
             magnified.draw_rings(&mut canvas);
@@ -130,7 +130,7 @@ impl PolarChart {
             }
             magnified.draw_bar(&mut canvas, self.radius);
         }
-        let bottom = Layout::of(0, count).bottom();
+        let bottom = PanelLayout::of(0, count).bottom();
         let mut items: Vec<LegendItem<'_>> = Vec::new();
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
             let item = LegendItem {
@@ -150,12 +150,12 @@ impl PolarChart {
                 title: &self.title,
                 description: &self.description,
                 height,
-                role: Role::Image,
+                role: PictureRole::Image,
             },
         )
     }
 
-    fn draw_directions(&self, canvas: &mut Canvas, layout: Layout) {
+    fn draw_directions(&self, canvas: &mut Canvas, layout: PanelLayout) {
         let (x, y) = layout.centre;
         let reach = layout.circle + layout.reach + 8.0;
         canvas.line("fc-axis", (x - reach, y), (x + reach, y));
@@ -178,7 +178,7 @@ impl PolarChart {
 
 /// How deviations become lengths.
 struct Magnified {
-    layout: Layout,
+    layout: PanelLayout,
     /// Units of the picture for a µm.
     factor: f64,
     /// The deviation between two rings in µm.
@@ -188,7 +188,7 @@ struct Magnified {
 }
 
 impl Magnified {
-    fn of(panel: &PolarPanel, layout: Layout) -> Self {
+    fn of(panel: &PolarPanel, layout: PanelLayout) -> Self {
         let values = panel.series.iter().flat_map(|series| &series.points);
         let largest = values
             .map(|point| point[1].abs())
@@ -206,7 +206,7 @@ impl Magnified {
     }
 
     fn place(&self, [angle, deviation]: [f64; 2]) -> (f64, f64) {
-        let Layout { centre, circle, .. } = self.layout;
+        let PanelLayout { centre, circle, .. } = self.layout;
         let radius = circle + deviation * self.factor;
         (
             centre.0 + radius * angle.cos(),
@@ -215,7 +215,7 @@ impl Magnified {
     }
 
     fn draw_rings(&self, canvas: &mut Canvas) {
-        let Layout { centre, circle, .. } = self.layout;
+        let PanelLayout { centre, circle, .. } = self.layout;
         let rings = (-8..=8).map(f64::from);
         for ring in rings.filter(|ring| ring.abs() <= self.rings) {
             let class = if ring == 0.0 { "fc-axis" } else { "fc-grid" };

@@ -4,7 +4,7 @@
 /// kept as the first, the least, the greatest and the last of them, in bounded memory.
 #[derive(Debug, Clone, Default)]
 pub struct Curve {
-    groups: Vec<Group>,
+    groups: Vec<Neighbours>,
     /// How many times groups have been joined by two: each holds 2 to that power of points.
     joined: u32,
     /// How many points the last group holds.
@@ -16,29 +16,29 @@ const MAX_GROUPS: usize = 8192;
 
 /// Neighbours of a curve.
 #[derive(Debug, Clone, Copy)]
-struct Group {
+struct Neighbours {
     first: [f64; 2],
     least: [f64; 2],
     greatest: [f64; 2],
     last: [f64; 2],
     /// Whether the curve is interrupted after it.
-    end: End,
+    end: CurveEnd,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
+enum CurveEnd {
     Open,
     Interrupted,
 }
 
-impl Group {
+impl Neighbours {
     fn of(point: [f64; 2]) -> Self {
         Self {
             first: point,
             least: point,
             greatest: point,
             last: point,
-            end: End::Open,
+            end: CurveEnd::Open,
         }
     }
 
@@ -57,9 +57,9 @@ impl Group {
 impl Curve {
     /// Takes the next point.
     pub fn push(&mut self, point: [f64; 2]) {
-        let group = Group::of(point);
+        let group = Neighbours::of(point);
         match self.groups.last_mut() {
-            Some(last) if last.end == End::Open && self.filled < 1 << self.joined => {
+            Some(last) if last.end == CurveEnd::Open && self.filled < 1 << self.joined => {
                 last.join(&group);
                 self.filled += 1;
             }
@@ -76,7 +76,7 @@ impl Curve {
     /// Interrupts the curve after the last point.
     pub fn interrupt(&mut self) {
         if let Some(last) = self.groups.last_mut() {
-            last.end = End::Interrupted;
+            last.end = CurveEnd::Interrupted;
         }
     }
 
@@ -88,7 +88,7 @@ impl Curve {
             kept.sort_by(|one, other| one[0].total_cmp(&other[0]));
             kept.dedup();
             points.extend(kept);
-            if group.end == End::Interrupted {
+            if group.end == CurveEnd::Interrupted {
                 points.push([f64::NAN, f64::NAN]);
             }
         }

@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 use frictcomp::comp::{AxisIndex, Change, Kind, State};
 use frictcomp::timeline::{Row, StateView};
 
-use super::line::{BOLD, GUTTER, Line, MARK, style};
+use super::line::{BOLD, GUTTER, MARK, TextLine, style};
 
 /// The column after the line number.
 const LINE_END: usize = 6;
@@ -41,7 +41,7 @@ enum Words {
 
 /// One axis.
 #[derive(Debug)]
-struct Column {
+struct AxisColumn {
     axis: AxisIndex,
     name: String,
     start: usize,
@@ -49,14 +49,14 @@ struct Column {
 
 /// The columns of the listed axes.
 #[derive(Debug, Default)]
-pub(super) struct Columns {
+pub(super) struct AxisColumns {
     words: Words,
     text: usize,
     width: usize,
-    axes: Vec<Column>,
+    axes: Vec<AxisColumn>,
 }
 
-impl Columns {
+impl AxisColumns {
     /// Columns for the axes that are listed now, within a width.
     pub(super) fn new(state: StateView<'_>, width: usize) -> Self {
         let room = width.saturating_sub(GUTTER);
@@ -91,7 +91,7 @@ impl Columns {
         let mut start = GUTTER + text + 2;
         let mut columns = Vec::with_capacity(widths.len());
         for ((axis, name), width) in state.axes().zip(widths) {
-            columns.push(Column {
+            columns.push(AxisColumn {
                 axis,
                 name: name.to_owned(),
                 start,
@@ -119,7 +119,7 @@ impl Columns {
     }
 
     /// Appends the names of the axes.
-    pub(super) fn names(&self, line: &mut Line<'_>) {
+    pub(super) fn names(&self, line: &mut TextLine<'_>) {
         if self.words == Words::Below {
             return;
         }
@@ -130,7 +130,7 @@ impl Columns {
     }
 
     /// Appends the states.
-    pub(super) fn states(&self, line: &mut Line<'_>, state: StateView<'_>, changes: &[Change]) {
+    pub(super) fn states(&self, line: &mut TextLine<'_>, state: StateView<'_>, changes: &[Change]) {
         if self.words == Words::Below {
             line.next(GUTTER);
         }
@@ -158,7 +158,7 @@ impl Columns {
     }
 
     /// Goes to the place of a state; one below its block is led by its axis.
-    fn go_to(&self, column: &Column, line: &mut Line<'_>) {
+    fn go_to(&self, column: &AxisColumn, line: &mut TextLine<'_>) {
         if self.words != Words::Below {
             line.go_to(column.start);
             return;
@@ -177,7 +177,7 @@ impl Columns {
     }
 
     /// Appends the line of a block.
-    pub(super) fn block(&self, mut line: Line<'_>, row: &Row<'_>) {
+    pub(super) fn block(&self, mut line: TextLine<'_>, row: &Row<'_>) {
         let mut digits = itoa::Buffer::new();
         let number = digits.format(row.line);
         line.go_to(LINE_END.saturating_sub(number.len()));

@@ -19,13 +19,13 @@ pub(super) const BOLD: Style = Style::new().bold();
 pub(super) const DIM: Style = Style::new().dimmed();
 
 /// A line that is being written.
-pub(super) struct Line<'a> {
+pub(super) struct TextLine<'a> {
     out: &'a mut Vec<u8>,
     paint: Paint,
     column: usize,
 }
 
-impl<'a> Line<'a> {
+impl<'a> TextLine<'a> {
     pub(super) fn new(out: &'a mut Vec<u8>, paint: Paint) -> Self {
         Self {
             out,
@@ -168,7 +168,7 @@ impl<'a> Paragraph<'a> {
         }
         lines.push(line);
         for text in lines {
-            let mut line = Line::new(out, look.paint);
+            let mut line = TextLine::new(out, look.paint);
             if self.indent > 0 {
                 line.go_to(self.indent);
             }
@@ -195,7 +195,7 @@ mod tests {
 
     fn source(text: &str, width: usize) -> String {
         let mut out = Vec::new();
-        Line::new(&mut out, Paint::Plain).source(text, width);
+        TextLine::new(&mut out, Paint::Plain).source(text, width);
         String::from_utf8(out).expect("whole characters")
     }
 

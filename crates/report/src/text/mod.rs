@@ -17,8 +17,8 @@ use super::output::{Gathered, Output};
 use super::strings::grouped;
 use super::view::{Blocks, View};
 use super::visible::leading;
-use columns::Columns;
-use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph};
+use columns::AxisColumns;
+use line::{BOLD, DIM, GUTTER, MARK, Paragraph, TextLine};
 
 /// Below so many columns diagnostics stand further left.
 const NARROW: usize = 60;
@@ -81,7 +81,7 @@ struct Quiet {
 pub struct Text<W> {
     output: Output<W>,
     options: TextOptions,
-    columns: Columns,
+    columns: AxisColumns,
     version: Option<u64>,
     quiet: Quiet,
     /// The file of the block that was printed last.
@@ -108,7 +108,7 @@ impl<W: Write> Text<W> {
         Self {
             output: Output::new(writer),
             options,
-            columns: Columns::default(),
+            columns: AxisColumns::default(),
             version: None,
             quiet: Quiet::default(),
             file: String::new(),
@@ -117,8 +117,8 @@ impl<W: Write> Text<W> {
         }
     }
 
-    fn line(&mut self) -> Line<'_> {
-        Line::new(&mut self.output.bytes, self.options.look.paint)
+    fn line(&mut self) -> TextLine<'_> {
+        TextLine::new(&mut self.output.bytes, self.options.look.paint)
     }
 
     fn program(&mut self, file: &str, name: Option<&str>, state: StateView<'_>) {
@@ -131,7 +131,7 @@ impl<W: Write> Text<W> {
         line.end();
         self.line().end();
         self.version = Some(state.version);
-        self.columns = Columns::new(state, self.options.look.width);
+        self.columns = AxisColumns::new(state, self.options.look.width);
         self.header();
         self.state_line("at start", state);
         file.clone_into(&mut self.file);
@@ -148,7 +148,7 @@ impl<W: Write> Text<W> {
     }
 
     fn header(&mut self) {
-        let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+        let mut line = TextLine::new(&mut self.output.bytes, self.options.look.paint);
         line.plain("  ");
         line.styled(BOLD, "line");
         line.go_to(GUTTER);
@@ -163,7 +163,7 @@ impl<W: Write> Text<W> {
 
     /// A line that is no block, with the states.
     fn state_line(&mut self, label: &str, state: StateView<'_>) {
-        let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+        let mut line = TextLine::new(&mut self.output.bytes, self.options.look.paint);
         line.go_to(GUTTER);
         line.styled(DIM, label);
         self.columns.states(&mut line, state, &[]);
@@ -181,7 +181,7 @@ impl<W: Write> Text<W> {
         }
         self.release();
         if grown {
-            self.columns = Columns::new(row.state, self.options.look.width);
+            self.columns = AxisColumns::new(row.state, self.options.look.width);
             self.header();
         }
         if !eventful && self.options.view.blocks == Blocks::Changed {
@@ -191,7 +191,7 @@ impl<W: Write> Text<W> {
             self.announce(row.file);
         }
         self.columns.block(
-            Line::new(&mut self.output.bytes, self.options.look.paint),
+            TextLine::new(&mut self.output.bytes, self.options.look.paint),
             row,
         );
         self.other_kinds(row.changes, row.state);
@@ -217,7 +217,7 @@ impl<W: Write> Text<W> {
         }
         row.file.clone_into(&mut self.quiet.file);
         self.quiet.first.clear();
-        let line = Line::new(&mut self.quiet.first, self.options.look.paint);
+        let line = TextLine::new(&mut self.quiet.first, self.options.look.paint);
         self.columns.block(line, row);
     }
 
@@ -257,7 +257,7 @@ impl<W: Write> Text<W> {
             if change.kind == Kind::Frict || !self.options.view.kinds.contains(change.kind) {
                 continue;
             }
-            let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+            let mut line = TextLine::new(&mut self.output.bytes, self.options.look.paint);
             line.go_to(GUTTER);
             line.styled(
                 BOLD,
@@ -332,7 +332,7 @@ impl<W: Write> Text<W> {
             EndedBy::Budget => "stopped by a budget",
         };
         if self.take_version(end.state) {
-            self.columns = Columns::new(end.state, self.options.look.width);
+            self.columns = AxisColumns::new(end.state, self.options.look.width);
             self.header();
         }
         self.state_line(label, end.state);

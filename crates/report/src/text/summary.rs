@@ -13,7 +13,7 @@ use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
 use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summary};
 
-use super::line::{BOLD, DIM, Line, Paragraph, style};
+use super::line::{BOLD, DIM, Paragraph, TextLine, style};
 
 /// Columns that what changed an axis must have beside its states, or it stands below them.
 const CHANGED_BY: usize = 24;
@@ -47,7 +47,7 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     let name = |axis: &AxisSummary| summary.state.name(axis.axis);
     let names = summary.axes.iter().map(|axis| name(axis).width());
     let first = 4 + names.max().unwrap_or_default().max("axis".len());
-    let mut line = Line::new(out, look.paint);
+    let mut line = TextLine::new(out, look.paint);
     line.go_to(2);
     line.styled(BOLD, "axis");
     let column = first + 2 * STATE;
@@ -59,7 +59,7 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     }
     line.end();
     for axis in &summary.axes {
-        let mut line = Line::new(out, look.paint);
+        let mut line = TextLine::new(out, look.paint);
         line.go_to(2);
         line.plain(name(axis));
         line.go_to(first);
@@ -150,7 +150,7 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     }
     out.push(b'\n');
     let lead = "Passed over without effect on the states:";
-    let mut line = Line::new(out, look.paint);
+    let mut line = TextLine::new(out, look.paint);
     line.plain(lead);
     let mut column = lead.width();
     for (at, (word, count)) in summary.opaque.iter().enumerate() {
@@ -162,7 +162,7 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         let item = format!(" {word} ×{}{comma}", grouped(*count));
         if column + item.width() > look.width {
             line.end();
-            line = Line::new(out, look.paint);
+            line = TextLine::new(out, look.paint);
             line.plain(" ");
             column = 1;
         }

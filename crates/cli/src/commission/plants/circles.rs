@@ -1,6 +1,8 @@
 //! The recorded circles of a plan that can be used.
 
-use frictcomp_recordings::commission::{CirclesFound, Found, Measurement, Plan, RecordingResult};
+use frictcomp_recordings::commission::{
+    CirclesFound, Measurement, Plan, RecordingOutcome, RecordingResult,
+};
 use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 /// A recorded circle.
@@ -48,7 +50,9 @@ pub(super) fn driven_in<'a>(plan: &'a PlanFile, results: &'a [RecordingResult]) 
         let recorded = results.iter().rev();
         let used = recorded.filter(|it| it.program == Some(program.number) && it.found.is_used());
         let circles = used.filter_map(|result| match &result.found {
-            Found::Circles(circles) if circles.heights_um.is_some() => Some((result, circles)),
+            RecordingOutcome::Circles(circles) if circles.heights_um.is_some() => {
+                Some((result, circles))
+            }
             _ => None,
         });
         let (result, circles) =

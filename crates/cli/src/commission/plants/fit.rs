@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::circles::{Driven, RoundCircles, has};
-use super::fitting::{Axis, Fitting, NoPlant};
+use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
 use frictcomp::text::SourceFile;
@@ -17,7 +17,7 @@ impl Fitting<'_> {
     /// The plant of rounds: as an earlier run found it, or fitted now.
     pub(super) fn fitted(
         &self,
-        (axes, feeds): (&[Axis<'_>], &[f64]),
+        (axes, feeds): (&[FittedAxis<'_>], &[f64]),
         off: &[Driven<'_>],
         rounds: &[RoundCircles<'_>],
         outputs: &mut Outputs,
@@ -62,7 +62,12 @@ impl Fitting<'_> {
     }
 
     /// The SHA-256 of all that a plant is fitted to.
-    fn key(&self, axes: &[Axis<'_>], off: &[Driven<'_>], rounds: &[RoundCircles<'_>]) -> String {
+    fn key(
+        &self,
+        axes: &[FittedAxis<'_>],
+        off: &[Driven<'_>],
+        rounds: &[RoundCircles<'_>],
+    ) -> String {
         let frictions: Vec<_> = axes.iter().map(|it| &it.drive).collect();
         let sums = |circles: &[Driven<'_>]| {
             let sums = circles.iter().map(|it| it.result.sha256.clone());

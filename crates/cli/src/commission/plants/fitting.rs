@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::circles::Driven;
-use crate::commission::run_args::RunArgs;
+use crate::commission::run_args::CommissionRunArgs;
 use crate::commission::sources::source_of;
 use crate::failure::Failure;
 use crate::machine::value_list;
@@ -18,7 +18,7 @@ use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
 /// All from which plants are fitted.
 pub(in crate::commission) struct Fitting<'a> {
-    pub(in crate::commission) args: &'a RunArgs,
+    pub(in crate::commission) args: &'a CommissionRunArgs,
     /// The plant as it is known before.
     pub(in crate::commission) base: &'a Plant,
     pub(in crate::commission) plans: &'a [PlanFile],
@@ -49,7 +49,7 @@ impl From<Failure> for NoPlant {
 }
 
 /// An axis with its measured friction.
-pub(super) struct Axis<'a> {
+pub(super) struct FittedAxis<'a> {
     pub(super) name: &'a str,
     pub(super) plane: PlaneAxis,
     pub(super) friction: &'a FrictionFound,
@@ -59,7 +59,7 @@ pub(super) struct Axis<'a> {
 
 impl Fitting<'_> {
     /// Both axes of the circles with their measured friction, or the reason against a plant.
-    pub(super) fn axes(&self) -> Result<Vec<Axis<'_>>, String> {
+    pub(super) fn axes(&self) -> Result<Vec<FittedAxis<'_>>, String> {
         let first = self.plans.iter().find(|it| it.plan.stage == Stage::Off);
         let Some([x, y]) = first.map(|it| &it.plan.axes[..]) else {
             return Err("circles of two axes are planned in stage 1".to_owned());
@@ -85,7 +85,7 @@ impl Fitting<'_> {
                 PlaneAxis::X => &self.base.x,
                 _ => &self.base.y,
             };
-            Ok(Axis {
+            Ok(FittedAxis {
                 name: &axis.name,
                 plane,
                 friction,

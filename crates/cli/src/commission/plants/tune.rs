@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use super::circles::{Driven, RoundCircles, has};
 use super::fit::plant_of;
-use super::fitting::{Axis, Fitting, NoPlant};
+use super::fitting::{FittedAxis, Fitting, NoPlant};
 use crate::commission::sources::write_list;
 use crate::failure::{Failure, shown};
 use crate::outputs::Outputs;
 use crate::progress;
 use frictcomp::lists::{FrictionList, Points};
 use frictcomp_host::{read_text, sha256_of_text, tune};
-use frictcomp_physics::circle::{Aim, PlaneAxis, Ranges, Shaping, Task, predicted_height_um};
+use frictcomp_physics::circle::{PlaneAxis, Ranges, Shaping, Task, TuningAim, predicted_height_um};
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::FrictionModel;
 use frictcomp_recordings::commission::{MOST_CURRENT, PlantFound, PredictedGlitch, TunedList};
@@ -19,15 +19,15 @@ use frictcomp_report::commission::ValueListUsed;
 use frictcomp_report::value_lists::{TunedFrom, render_tuned_on_plant};
 
 /// The circles that were recorded off, and the feeds that were recorded off and on.
-pub(super) type Recorded<'a> = (&'a [Driven<'a>], &'a [f64]);
+pub(super) type RecordedFeeds<'a> = (&'a [Driven<'a>], &'a [f64]);
 
 impl Fitting<'_> {
     /// Adds the glitches that are predicted at recorded feeds with the lists of both axes, or without.
     pub(super) fn predict(
         &self,
         found: &mut PlantFound,
-        axes: &[Axis<'_>],
-        recorded: Recorded<'_>,
+        axes: &[FittedAxis<'_>],
+        recorded: RecordedFeeds<'_>,
         lists: [Option<&ValueListUsed>; 2],
     ) -> Result<(), NoPlant> {
         for (axis, used) in axes.iter().zip(lists) {
@@ -46,8 +46,8 @@ impl Fitting<'_> {
     fn predict_axis(
         &self,
         found: &mut PlantFound,
-        axis: &Axis<'_>,
-        (off, feeds): Recorded<'_>,
+        axis: &FittedAxis<'_>,
+        (off, feeds): RecordedFeeds<'_>,
         (sha256, list): (Option<&str>, Option<&FrictionList>),
     ) -> Result<f64, NoPlant> {
         let plant = plant_of(found)?;
@@ -76,8 +76,8 @@ impl Fitting<'_> {
     pub(super) fn tuned(
         &self,
         found: &mut PlantFound,
-        axes: &[Axis<'_>],
-        recorded: Recorded<'_>,
+        axes: &[FittedAxis<'_>],
+        recorded: RecordedFeeds<'_>,
         round: &RoundCircles<'_>,
         outputs: &mut Outputs,
     ) -> Result<(), NoPlant> {
@@ -159,9 +159,9 @@ impl Fitting<'_> {
             points: Points::of_build(self.args.cnc_build),
             shaping: self.shaping(),
             aim: if found.is_determined() {
-                Aim::Plant
+                TuningAim::Plant
             } else {
-                Aim::Robust
+                TuningAim::Robust
             },
         })
     }

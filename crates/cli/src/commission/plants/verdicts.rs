@@ -1,7 +1,7 @@
 //! The plant of each round, and what the recordings say about it.
 
 use super::circles::{Driven, RoundCircles, common_feeds, driven_in, has};
-use super::fitting::{Axis, Fitting, NoPlant, recorded_list};
+use super::fitting::{FittedAxis, Fitting, NoPlant, recorded_list};
 use crate::failure::Failure;
 use crate::outputs::Outputs;
 use frictcomp_host::read_text;
@@ -46,7 +46,7 @@ impl Fitting<'_> {
     /// The plant of the last one of some rounds, judged by them and by later ones whose lists were tuned on it.
     fn plant_of_round(
         &self,
-        axes: &[Axis<'_>],
+        axes: &[FittedAxis<'_>],
         off: &[Driven<'_>],
         (fitted_to, later): (&[RoundCircles<'_>], &[RoundCircles<'_>]),
         outputs: &mut Outputs,
@@ -123,7 +123,7 @@ fn is_tuned_on(round: &RoundCircles<'_>, found: &PlantFound) -> Result<bool, NoP
 
 /// The recorded glitches of each axis at feeds.
 fn glitches(
-    axes: &[Axis<'_>],
+    axes: &[FittedAxis<'_>],
     circles: &[Driven<'_>],
     lists: [Option<&str>; 2],
     feeds: &[f64],

@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::observed::DriveFit;
-use super::squares::Setting;
+use super::squares::ModelSetting;
 use super::unknowns::{CONTACT, DAMPING, DELAY, FRICTION, SPEED_GAIN, Unknowns};
 use crate::circle::reference::CircleError;
 use crate::circle::tune::cma_es::XorShift;
@@ -53,17 +53,17 @@ impl DriveFit {
     /// # Errors
     /// A circle that cannot be simulated, or a drive that is unstable on it.
     pub fn fit(&self) -> Result<FittedDrive, CircleError> {
-        let free = Setting {
+        let free = ModelSetting {
             model: FrictionModel::Lugre,
             held: None,
         };
         let (first, mut simulations) = self.first(free.model)?;
         let best = self.solve(free, first)?;
-        let slipping = Setting {
+        let slipping = ModelSetting {
             model: FrictionModel::Gms,
             held: None,
         };
-        let damped = Setting {
+        let damped = ModelSetting {
             model: FrictionModel::Lugre,
             held: Some(DAMPING),
         };

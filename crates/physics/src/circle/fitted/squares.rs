@@ -31,14 +31,14 @@ const SHORTENED: usize = 4;
 
 /// A friction model, and the unknowns that are not searched.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Setting {
+pub(super) struct ModelSetting {
     pub(super) model: FrictionModel,
     pub(super) held: Option<usize>,
 }
 
 /// The best unknowns of a setting.
 #[derive(Debug, Clone)]
-pub(super) struct Solved {
+pub(super) struct SolvedUnknowns {
     pub(super) unknowns: Unknowns,
     /// The mean square in µm² that is left.
     pub(super) power: f64,
@@ -63,7 +63,11 @@ impl Left {
 
 impl DriveFit {
     /// Returns the best unknowns of a setting, from first ones on.
-    pub(super) fn solve(&self, setting: Setting, first: Unknowns) -> Result<Solved, CircleError> {
+    pub(super) fn solve(
+        &self,
+        setting: ModelSetting,
+        first: Unknowns,
+    ) -> Result<SolvedUnknowns, CircleError> {
         let mut simulations = self.circles.len();
         let mut at = first;
         let mut left = self.left(setting.model, at)?;
@@ -97,7 +101,7 @@ impl DriveFit {
                 break;
             }
         }
-        Ok(Solved {
+        Ok(SolvedUnknowns {
             unknowns: at,
             power: left.power(),
             reversals,
@@ -218,7 +222,7 @@ fn solution<'a>(
     all.solve()
 }
 
-impl Solved {
+impl SolvedUnknowns {
     /// The unknowns of another selection of as many reversals, by the equations at the best ones.
     pub(super) fn again(&self, random: &mut XorShift) -> Option<Unknowns> {
         let mut times = vec![0.0; self.reversals.len()];

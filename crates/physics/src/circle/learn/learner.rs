@@ -67,7 +67,7 @@ pub struct Proposal {
 }
 
 /// The best round, and what the plant makes of its list.
-struct Start<'a> {
+struct BestRound<'a> {
     circles: &'a [LearnedCircle],
     /// The mean of both recordings on each circle.
     recorded: Vec<[Waveform; 2]>,
@@ -139,7 +139,7 @@ impl Learner {
         let recorded: Vec<[Waveform; 2]> =
             best.circles.iter().map(|it| it.recorded.mean()).collect();
         let simulated = self.all_simulated(&drive, best)?;
-        let start = Start {
+        let start = BestRound {
             circles: &best.circles,
             between: Between::all(&best.circles, &recorded, &simulated),
             recorded,
@@ -220,7 +220,7 @@ impl Learner {
         &self,
         steps: &Steps,
         drive: &DriveParameters,
-        (start, simulations): (&Start<'_>, &dyn Simulations),
+        (start, simulations): (&BestRound<'_>, &dyn Simulations),
     ) -> Result<(Vec<f64>, f64), CircleError> {
         let mut search = CmaEs::new(vec![0.0; VARIABLES], STEP, 0);
         let mut best: Option<(f64, Vec<f64>, f64)> = None;
@@ -266,7 +266,7 @@ impl Learner {
     fn predicted(
         &self,
         drive: &DriveParameters,
-        start: &Start<'_>,
+        start: &BestRound<'_>,
         list: &Method,
     ) -> Result<Heights, CircleError> {
         let mut heights = Vec::new();

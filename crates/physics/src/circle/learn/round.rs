@@ -10,7 +10,7 @@ use crate::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::FrictionList;
 
 /// Both reversals of an axis on a circle: where it is largest, where it is smallest.
-type Reversals = [Waveform; 2];
+type OppositeReversals = [Waveform; 2];
 
 /// One axis on one circle, recorded twice with the same list.
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ pub struct LearnedCircle {
 
 /// The reversals of an axis in two recordings, each the mean over the directions of travel.
 #[derive(Debug, Clone)]
-pub struct RecordedTwice([Reversals; 2]);
+pub struct RecordedTwice([OppositeReversals; 2]);
 
 /// An axis in one round: a list, and the circles that were recorded with it.
 #[derive(Debug, Clone)]
@@ -98,14 +98,14 @@ impl RecordedTwice {
     }
 
     /// The mean of both recordings at each reversal.
-    pub(super) fn mean(&self) -> Reversals {
+    pub(super) fn mean(&self) -> OppositeReversals {
         let [first, second] = &self.0;
         [0, 1].map(|at: usize| Waveform::mean(&[&first[at], &second[at]]))
     }
 }
 
 /// The mean over turns at both reversals of an axis.
-fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<Reversals> {
+fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<OppositeReversals> {
     let mut found: [Vec<Waveform>; 2] = [Vec::new(), Vec::new()];
     for turn in turns {
         let reversals = Waveform::reversals(axis, &turn.profile, turn.direction)?;

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::cut::{Run, runs};
+use super::cut::{PathRun, runs};
 use super::drift::drift;
 use super::error::RecordedError;
-use super::fit::Fit;
+use super::fit::FittedCircle;
 use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use super::search::search;
 use super::trace::RecordedTrace;
@@ -101,15 +101,15 @@ impl RecordedCircle {
     /// The circle of a run from one turn on it.
     fn of(
         trace: &RecordedTrace,
-        run: &Run,
+        run: &PathRun,
         mut turn: Range<usize>,
         commanded_mm: Option<f64>,
     ) -> Result<Self, RecordedError> {
         let points = &trace.points_mm;
-        let mut fit = Fit::of(&points[turn.clone()])?;
+        let mut fit = FittedCircle::of(&points[turn.clone()])?;
         for _ in 0..ROUNDS {
             turn = run.turn(&fit, points).unwrap_or(turn);
-            fit = Fit::of(&points[turn.clone()])?;
+            fit = FittedCircle::of(&points[turn.clone()])?;
         }
         if turn.len() < MIN_POINTS {
             return Err(RecordedError::TooFew(turn.len()));
@@ -129,7 +129,7 @@ impl RecordedCircle {
         };
         let turned = still(&turn);
         if drift.is_some() {
-            fit = Fit::of(&turned)?;
+            fit = FittedCircle::of(&turned)?;
         }
         let duration_s = trace.duration_s(turn.start, turn.end - 1);
         let turn_s = duration_s.map(|duration| duration * TAU / run.between(&turn));
@@ -202,7 +202,7 @@ impl RecordedCircle {
 
 /// Points in mm about their own centre, in m.
 fn centred(mut points: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, RecordedError> {
-    let Fit { centre, .. } = Fit::of(&points)?;
+    let FittedCircle { centre, .. } = FittedCircle::of(&points)?;
     for point in &mut points {
         *point = [0, 1].map(|at| (point[at] - centre[at]) / MM_PER_M);
     }
@@ -210,7 +210,7 @@ fn centred(mut points: Vec<[f64; 2]>) -> Result<Vec<[f64; 2]>, RecordedError> {
 }
 
 /// Why no direction has a full turn.
-fn refusal(fit: &Fit, points: &[[f64; 2]], runs: &[Run]) -> RecordedError {
+fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> RecordedError {
     let longest = runs
         .iter()
         .max_by(|one, other| one.covered().total_cmp(&other.covered()));
@@ -221,19 +221,19 @@ fn refusal(fit: &Fit, points: &[[f64; 2]], runs: &[Run]) -> RecordedError {
     }
     // All around, but not on the circle: an ellipse, a square.
     if fit.goes_round(points)
-        && let Ok(all) = Fit::of(points)
+        && let Ok(all) = FittedCircle::of(points)
         && let Some(refusal) = all.not_round(points)
     {
         return refusal;
     }
     RecordedError::NotATurn {
-        covered_deg: longest.map_or(0.0, Run::covered).to_degrees(),
+        covered_deg: longest.map_or(0.0, PathRun::covered).to_degrees(),
         radius_mm: fit.radius,
         centre_mm: fit.centre,
     }
 }
 
-impl Fit {
+impl FittedCircle {
     /// Refuses points around the circle that are too far from it to be one.
     fn not_round(&self, points: &[[f64; 2]]) -> Option<RecordedError> {
         let outside = points.iter().map(|&point| self.outside(point));

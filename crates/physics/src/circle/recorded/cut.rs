@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::fit::Fit;
+use super::fit::FittedCircle;
 use super::limits::WIDEST_GAP_DEG;
 use crate::circle::direction::Direction;
 
@@ -25,7 +25,7 @@ const ROUND_MM: f64 = 1e-6;
 
 /// A path along the circle without turning round.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
+pub(super) struct PathRun {
     pub(super) direction: Direction,
     /// Its points.
     pub(super) points: Range<usize>,
@@ -34,7 +34,7 @@ pub(super) struct Run {
 }
 
 /// Everything on the circle that does not leave it and does not turn round, in the order of time.
-pub(super) fn runs(fit: &Fit, points: &[[f64; 2]]) -> Vec<Run> {
+pub(super) fn runs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<PathRun> {
     let mut runs = Vec::new();
     let tolerance = fit.tolerance();
     let is_on = |point: &[f64; 2]| fit.outside(*point).abs() <= tolerance;
@@ -54,7 +54,7 @@ pub(super) fn runs(fit: &Fit, points: &[[f64; 2]]) -> Vec<Run> {
 }
 
 /// Splits a stretch of points where it turns round.
-fn split(fit: &Fit, points: &[[f64; 2]], stretch: Range<usize>, runs: &mut Vec<Run>) {
+fn split(fit: &FittedCircle, points: &[[f64; 2]], stretch: Range<usize>, runs: &mut Vec<PathRun>) {
     let offset = stretch.start;
     let angles = unwrapped(fit, &points[stretch]);
     let mut from = 0;
@@ -64,7 +64,7 @@ fn split(fit: &Fit, points: &[[f64; 2]], stretch: Range<usize>, runs: &mut Vec<R
     let mut push = |way: Option<Direction>, from: usize, to: usize| {
         let Some(direction) = way else { return };
         let sign = direction.sign();
-        runs.push(Run {
+        runs.push(PathRun {
             direction,
             points: offset + from..offset + to + 1,
             angles: (from..=to)
@@ -101,7 +101,7 @@ fn split(fit: &Fit, points: &[[f64; 2]], stretch: Range<usize>, runs: &mut Vec<R
 }
 
 /// The angle of each point since the first, turns counted, in radians.
-fn unwrapped(fit: &Fit, points: &[[f64; 2]]) -> Vec<f64> {
+fn unwrapped(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
     let mut turned = 0.0;
     let mut last = None;
     let angle = |&point: &[f64; 2]| {
@@ -115,7 +115,7 @@ fn unwrapped(fit: &Fit, points: &[[f64; 2]]) -> Vec<f64> {
     points.iter().map(angle).collect()
 }
 
-impl Run {
+impl PathRun {
     /// The angle that the run covers, in radians.
     pub(super) fn covered(&self) -> f64 {
         self.angles.last().copied().unwrap_or_default()
@@ -139,7 +139,7 @@ impl Run {
 
     /// The points of one full turn: of all turns that deviate least from the circle the one next
     /// to the middle of the run. `None` if there is no full turn without a gap.
-    pub(super) fn turn(&self, fit: &Fit, points: &[[f64; 2]]) -> Option<Range<usize>> {
+    pub(super) fn turn(&self, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<Range<usize>> {
         let costs = costs(fit, &points[self.points.clone()]);
         let cost = |turn: &Range<usize>| costs[turn.end - 1] - costs[turn.start];
         let mut least = f64::INFINITY;
@@ -234,7 +234,7 @@ impl Run {
 
 /// The fourth powers of the deviations along the way up to each point: what lies beside the circle
 /// costs by its length, however many points it has, and costs more than glitches do.
-fn costs(fit: &Fit, points: &[[f64; 2]]) -> Vec<f64> {
+fn costs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut last: Option<([f64; 2], f64)> = None;
     let cost = |&point: &[f64; 2]| {

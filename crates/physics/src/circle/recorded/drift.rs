@@ -2,22 +2,22 @@
 
 use std::f64::consts::TAU;
 
-use super::cut::Run;
-use super::fit::Fit;
-use crate::circle::drift::Drift;
+use super::cut::PathRun;
+use super::fit::FittedCircle;
+use crate::circle::drift::CircleDrift;
 
 /// Parts of a turn in which two turns are compared.
 const PARTS: u16 = 360;
 
 /// Sums over the points in one part of a turn.
 #[derive(Debug, Clone, Copy, Default)]
-struct Part {
+struct TurnPart {
     count: f64,
     angle: f64,
     outside: f64,
 }
 
-impl Part {
+impl TurnPart {
     fn add(&mut self, angle: f64, outside: f64) {
         self.count += 1.0;
         self.angle += angle;
@@ -32,12 +32,12 @@ impl Part {
 /// The shift between the first and the last turn of a run: what both have alike, such as glitches,
 /// backlash or a periodic error, falls out of it. `None` where there are no two turns, or where
 /// they do not show one.
-pub(super) fn drift(run: &Run, fit: &Fit, points: &[[f64; 2]]) -> Option<Drift> {
+pub(super) fn drift(run: &PathRun, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<CircleDrift> {
     let covered = run.covered();
     if covered < 2.0 * TAU - run.lacking() {
         return None;
     }
-    let mut first = vec![Part::default(); usize::from(PARTS)];
+    let mut first = vec![TurnPart::default(); usize::from(PARTS)];
     let mut last = first.clone();
     for (point, angle) in points[run.points.clone()].iter().zip(run.angles()) {
         let at = part_of(fit.angle(*point));
@@ -58,7 +58,7 @@ pub(super) fn drift(run: &Run, fit: &Fit, points: &[[f64; 2]]) -> Option<Drift> 
             Some(([1.0, turns * cos, turns * sin], after - before))
         })
         .collect();
-    Drift::shown(&differences)
+    CircleDrift::shown(&differences)
 }
 
 fn part_of(angle: f64) -> usize {

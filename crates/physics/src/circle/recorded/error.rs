@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use crate::circle::direction::Direction;
-use frictcomp::diagnostic::Shown;
+use frictcomp::diagnostic::ReadableNumber;
 
 /// A recording that is no circle.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -58,12 +58,12 @@ pub enum RecordedError {
     Count(usize),
     /// A radius of 0 mm.
     #[error(
-        "a radius of {} mm is not possible; it must be between 0.001 and 1000000 mm", Shown(*.0)
+        "a radius of {} mm is not possible; it must be between 0.001 and 1000000 mm", ReadableNumber(*.0)
     )]
     CommandedRadius(f64),
     /// A feed of 0 mm/min.
     #[error(
-        "a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", Shown(*.0)
+        "a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", ReadableNumber(*.0)
     )]
     CommandedFeed(f64),
     /// Two counter-clockwise circles.

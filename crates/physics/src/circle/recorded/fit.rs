@@ -11,12 +11,12 @@ const STEPS: usize = 12;
 
 /// A circle in mm.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
+pub(super) struct FittedCircle {
     pub(super) centre: [f64; 2],
     pub(super) radius: f64,
 }
 
-impl Fit {
+impl FittedCircle {
     /// The circle through three points; `None` where they lie on a line.
     pub(super) fn through([first, second, third]: [[f64; 2]; 3]) -> Option<Self> {
         let from_first = |point: [f64; 2]| [point[0] - first[0], point[1] - first[1]];

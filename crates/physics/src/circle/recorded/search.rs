@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::error::RecordedError;
-use super::fit::Fit;
+use super::fit::FittedCircle;
 
 /// Steps of the way along the longer side of all points.
 const STEPS: f64 = 1000.0;
@@ -31,12 +31,12 @@ const FLATTEST: f64 = 10.0;
 const ROUNDS: usize = 4;
 
 /// The circle in mm.
-pub(super) fn search(points: &[[f64; 2]]) -> Result<Fit, RecordedError> {
+pub(super) fn search(points: &[[f64; 2]]) -> Result<FittedCircle, RecordedError> {
     let extent = extent(points);
     let way = steps_of(points, extent / STEPS);
     let stride = way.len().div_ceil(COMPARED).max(1);
     let compared: Vec<[f64; 2]> = way.iter().copied().step_by(stride).collect();
-    let mut best: Option<(Rank, Fit)> = None;
+    let mut best: Option<(Rank, FittedCircle)> = None;
     for distance in DISTANCES {
         #[allow(clippy::cast_precision_loss)] // points of a file
         let between = (way.len() as f64 * distance).ceil();
@@ -45,7 +45,7 @@ pub(super) fn search(points: &[[f64; 2]]) -> Result<Fit, RecordedError> {
         let starts = way.len().saturating_sub(2 * between);
         for from in (0..starts).step_by(starts.div_ceil(TRIES).max(1)) {
             let three = [way[from], way[from + between], way[from + 2 * between]];
-            let circle = Fit::through(three).filter(|it| it.radius < FLATTEST * extent);
+            let circle = FittedCircle::through(three).filter(|it| it.radius < FLATTEST * extent);
             let Some(circle) = circle else { continue };
             let rank = Rank::of(&circle, &compared);
             if best.is_none_or(|(most, _)| rank > most) {
@@ -61,7 +61,7 @@ pub(super) fn search(points: &[[f64; 2]]) -> Result<Fit, RecordedError> {
             .copied()
             .filter(|&point| circle.outside(point).abs() <= tolerance)
             .collect();
-        match Fit::of(&on_it) {
+        match FittedCircle::of(&on_it) {
             Ok(fit) => circle = fit,
             Err(_) => break,
         }
@@ -77,7 +77,7 @@ struct Rank {
 }
 
 impl Rank {
-    fn of(circle: &Fit, points: &[[f64; 2]]) -> Self {
+    fn of(circle: &FittedCircle, points: &[[f64; 2]]) -> Self {
         let tolerance = circle.tolerance();
         let mut sectors: u128 = 0;
         let mut count = 0;

@@ -65,7 +65,7 @@ impl Deviating {
 /// Remaining glitch of a list at one acceleration, in µm: the largest over the axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct Checked {
+pub struct RemainingGlitch {
     /// The acceleration v²/R at the reversal in mm/s².
     #[serde(rename = "acceleration")]
     pub acceleration_mm_per_s2: f64,
@@ -86,7 +86,7 @@ pub struct Checked {
     pub glitch_uneven_um: f64,
 }
 
-impl Checked {
+impl RemainingGlitch {
     /// Whether compensation makes it worse, by more than the place of the reversal within its cycle does.
     pub fn is_worse(&self) -> bool {
         const PLACE: f64 = 1.02;
@@ -234,10 +234,10 @@ impl Task {
     }
 
     /// The row of a circle from the glitches at its reversals, in their order.
-    pub(super) fn row(circle: Circle, glitches: &[f64]) -> Checked {
-        let mut row = Checked {
+    pub(super) fn row(circle: Circle, glitches: &[f64]) -> RemainingGlitch {
+        let mut row = RemainingGlitch {
             acceleration_mm_per_s2: circle.acceleration_mm_per_s2(),
-            ..Checked::default()
+            ..RemainingGlitch::default()
         };
         for (trial, &glitch) in Trial::all().zip(glitches) {
             let value = match (trial.is_on, trial.deviating) {

@@ -19,8 +19,8 @@ mod task;
 mod tuned;
 
 pub use candidate::Candidate;
-pub use check::Checked;
+pub use check::RemainingGlitch;
 pub use heights::Heights;
 pub use ranges::{FreeParameter, Ranges};
-pub use task::{Aim, Shaping, Task};
+pub use task::{Shaping, Task, TuningAim};
 pub use tuned::{FeedResult, Robust, Simulations, Tuned, TunedAxis, tune, tune_with};

@@ -6,8 +6,8 @@ use super::super::crossing::PlaneAxis;
 use super::super::direction::Direction;
 use super::super::method::Method;
 use super::super::profile::UM_PER_M;
-use super::super::reference::{Circle, CircleError, Stretch};
-use super::super::simulate::{AxisRun, Run};
+use super::super::reference::{Circle, CircleArc, CircleError};
+use super::super::simulate::{AxesSimulation, AxisRun};
 use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;
@@ -86,7 +86,7 @@ impl AxisAlone<'_> {
         compensation: Option<&Method>,
     ) -> Result<Vec<(f64, f64)>, CircleError> {
         let path = self.path(circle, compensation)?;
-        let window = Window::of(&circle, self.axis);
+        let window = CycleWindow::of(&circle, self.axis);
         let reversal = reversal(self.axis) / circle.angular_velocity();
         let middle = |(at, [least, most]): (usize, &[f64; 2])| {
             let time = (real(window.from + at) + 0.5 - self.phase) * circle.cycle_time_s;
@@ -97,19 +97,19 @@ impl AxisAlone<'_> {
 
     /// The path of the axis in the window of a reversal.
     fn path(&self, circle: Circle, compensation: Option<&Method>) -> Result<Path, CircleError> {
-        let window = Window::of(&circle, self.axis);
+        let window = CycleWindow::of(&circle, self.axis);
         let lead = compensation
             .and_then(Method::list)
             .map_or(0, |list| window.lead(&circle, list));
         let first = window.begin.saturating_sub(lead);
         let turning = circle.angular_velocity() * circle.cycle_time_s;
-        let stretch = Stretch {
+        let stretch = CircleArc {
             start: (real(first) - self.phase) * turning,
             length: real(window.end - first) * turning,
             lead: window.begin - first,
             direction: Direction::Ccw,
         };
-        let run = Run {
+        let run = AxesSimulation {
             circle,
             model: self.model,
             reading: self.reading,
@@ -140,7 +140,7 @@ impl AxisAlone<'_> {
 /// The deviation of one axis from what is commanded, outwards in m.
 struct Path {
     circle: Circle,
-    stretch: Stretch,
+    stretch: CircleArc,
     axis: PlaneAxis,
     cycle: usize,
     /// Commanded positions at the ends of the cycle.
@@ -203,7 +203,7 @@ impl Path {
 }
 
 /// CNC cycles of a whole run around a reversal.
-struct Window {
+struct CycleWindow {
     /// The angle in radians from where the drives begin to the reversal.
     ahead: f64,
     /// First cycle of the drives.
@@ -214,7 +214,7 @@ struct Window {
     end: usize,
 }
 
-impl Window {
+impl CycleWindow {
     fn of(circle: &Circle, axis: PlaneAxis) -> Self {
         let turning = circle.angular_velocity();
         let cycle = |time: f64| {
@@ -235,7 +235,7 @@ impl Window {
     }
 }
 
-impl Window {
+impl CycleWindow {
     /// CNC cycles before the drives begin from which on the additive current of a list is what it
     /// would be on a whole run: its dead time has passed, and before that the axis has moved by more
     /// than its `position_delay`. A quarter of a turn is enough for any list.
@@ -281,7 +281,7 @@ mod tests {
                 delay_cycles,
                 ..crate::simulation::plant_list(&drive)
             };
-            let window = Window::of(&circle, PlaneAxis::X);
+            let window = CycleWindow::of(&circle, PlaneAxis::X);
             let lead = window.lead(&circle, &list);
             assert!(lead < circle.cycles(FRAC_PI_2) / 3, "{lead}");
             let currents = |lead: usize| {

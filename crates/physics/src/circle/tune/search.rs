@@ -24,12 +24,12 @@ pub(super) struct Search<S: Space> {
     best: Option<(f64, S::Candidate)>,
     /// All that may be as good as the best.
     good: Vec<(Heights, S::Candidate)>,
-    stage: Stage,
+    stage: SearchStage,
     rounds: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stage {
+enum SearchStage {
     Grid,
     Steps(usize),
     Done,
@@ -43,7 +43,7 @@ impl<S: Space> Search<S> {
             tried: BTreeSet::new(),
             best: None,
             good: Vec::new(),
-            stage: Stage::Grid,
+            stage: SearchStage::Grid,
             rounds: 0,
         }
     }
@@ -52,9 +52,9 @@ impl<S: Space> Search<S> {
     pub(super) fn next_trials(&mut self) -> Option<Vec<S::Candidate>> {
         loop {
             let wanted = match self.stage {
-                Stage::Done => return None,
-                Stage::Grid => self.space.grid(),
-                Stage::Steps(at) => self.space.neighbours(self.best(), at),
+                SearchStage::Done => return None,
+                SearchStage::Grid => self.space.grid(),
+                SearchStage::Steps(at) => self.space.neighbours(self.best(), at),
             };
             let fresh: BTreeSet<S::Candidate> = wanted
                 .into_iter()
@@ -92,7 +92,7 @@ impl<S: Space> Search<S> {
         }
         self.rounds += 1;
         let is_better = self.least() < before * (1.0 - GAIN);
-        if self.stage == Stage::Grid || !is_better || self.rounds > MAX_ROUNDS {
+        if self.stage == SearchStage::Grid || !is_better || self.rounds > MAX_ROUNDS {
             self.advance();
         }
     }
@@ -125,11 +125,11 @@ impl<S: Space> Search<S> {
 
     fn advance(&mut self) {
         self.stage = match self.stage {
-            Stage::Grid => Stage::Steps(0),
-            Stage::Steps(at) if at + 1 < S::STEPS && self.rounds <= MAX_ROUNDS => {
-                Stage::Steps(at + 1)
+            SearchStage::Grid => SearchStage::Steps(0),
+            SearchStage::Steps(at) if at + 1 < S::STEPS && self.rounds <= MAX_ROUNDS => {
+                SearchStage::Steps(at + 1)
             }
-            Stage::Steps(_) | Stage::Done => Stage::Done,
+            SearchStage::Steps(_) | SearchStage::Done => SearchStage::Done,
         };
     }
 }

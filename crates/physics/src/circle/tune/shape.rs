@@ -66,7 +66,7 @@ const GAIN: f64 = 0.001;
 /// A search for outputs and times.
 #[derive(Debug, Clone)]
 pub(super) struct ShapeSearch {
-    runs: [Run; RUNS],
+    runs: [SearchRun; RUNS],
     /// Index of the present one.
     current: usize,
     start: Candidate,
@@ -82,7 +82,7 @@ pub(super) struct ShapeSearch {
 
 /// One of the searches, and the least that it found.
 #[derive(Debug, Clone)]
-struct Run {
+struct SearchRun {
     cma_es: CmaEs,
     least: f64,
 }
@@ -102,7 +102,7 @@ impl ShapeSearch {
         let begin = |run: usize| {
             let mut mean = vec![0.0; FREE];
             mean.extend([LATER[run] / DELAY, 0.0, 0.0]);
-            Run {
+            SearchRun {
                 cma_es: CmaEs::new(mean, STEP, run as u64),
                 least: f64::INFINITY,
             }

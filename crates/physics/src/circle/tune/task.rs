@@ -3,7 +3,7 @@
 use super::super::compare::Comparison;
 use super::super::crossing::PlaneAxis;
 use super::super::direction::Direction;
-use super::super::lap::Job;
+use super::super::lap::LapRun;
 use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::super::test::CircularTest;
@@ -32,13 +32,13 @@ pub struct Task {
     /// Whether the points below 1 mm/s get a shape of their own.
     pub shaping: Shaping,
     /// For which machines the list must be good.
-    pub aim: Aim,
+    pub aim: TuningAim,
 }
 
 /// For which machines a list must be good (R5.29).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum Aim {
+pub enum TuningAim {
     /// The plant as it is described.
     #[default]
     Plant,
@@ -207,7 +207,7 @@ impl Task {
             compensation: compensation.clone(),
             reading: self.reading,
         };
-        let job = Job {
+        let job = LapRun {
             compensation: switched,
             direction: Direction::Ccw,
         };

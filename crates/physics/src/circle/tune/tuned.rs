@@ -6,12 +6,12 @@ use super::super::crossing::PlaneAxis;
 use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
-use super::check::{CHECKED, Checked, Deviating};
+use super::check::{CHECKED, Deviating, RemainingGlitch};
 use super::heights::Heights;
 use super::search::Search;
 use super::shape::ShapeSearch;
 use super::space::{Lists, Space, Stictions};
-use super::task::Aim;
+use super::task::TuningAim;
 use super::task::{Shaping, Task, Variant};
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
@@ -97,7 +97,7 @@ pub struct Tuned {
     /// Remaining glitches on each circle.
     pub feeds: Vec<FeedResult>,
     /// Remaining glitches at accelerations all over the range (R5.29).
-    pub check: Vec<Checked>,
+    pub check: Vec<RemainingGlitch>,
     /// Result of the search for a robust list, where it was requested.
     pub robust: Option<Robust>,
     /// Number of lists, or sets of parameters, tried.
@@ -185,11 +185,12 @@ pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, Ci
     let mut trials = 0;
     let mut found = tuning.found(&mut trials)?;
     let mut robust = None;
-    if task.aim == Aim::Robust {
+    if task.aim == TuningAim::Robust {
         let limit_um = ROBUST_COSTS * worst(&found.check, |it| it.glitch_on_um);
         tuning.limit_um = Some(limit_um);
         let other = tuning.found(&mut trials)?;
-        let [before, after] = [&found, &other].map(|it| worst(&it.check, Checked::robust_um));
+        let [before, after] =
+            [&found, &other].map(|it| worst(&it.check, RemainingGlitch::robust_um));
         let is_taken =
             after <= WORTH_ROBUST * before && worst(&other.check, |it| it.glitch_on_um) <= limit_um;
         robust = Some(Robust {
@@ -221,14 +222,14 @@ pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, Ci
     })
 }
 
-fn worst(check: &[Checked], of: impl Fn(&Checked) -> f64) -> f64 {
+fn worst(check: &[RemainingGlitch], of: impl Fn(&RemainingGlitch) -> f64) -> f64 {
     check.iter().map(of).fold(0.0, f64::max)
 }
 
 /// Lists, and what they leave over the range.
-struct Found {
+struct TunedLists {
     axes: [TunedAxis; 2],
-    check: Vec<Checked>,
+    check: Vec<RemainingGlitch>,
 }
 
 /// A list that without a shape takes most of the glitch away beyond the range that is tuned for must
@@ -275,8 +276,8 @@ impl Task {
             Shaping::None => 0,
         };
         let searches = match self.aim {
-            Aim::Plant => 1,
-            Aim::Robust => 2,
+            TuningAim::Plant => 1,
+            TuningAim::Robust => 2,
         };
         let check = CHECKED * Self::reversals_of_a_check();
         searches * self.groups().len() * (PARAMETERS + shapes + 2 * check)
@@ -295,7 +296,7 @@ struct Tuning<'a> {
 
 impl Tuning<'_> {
     /// The best lists, checked over the whole range: with a shape where that leaves less.
-    fn found(&self, trials: &mut usize) -> Result<Found, CircleError> {
+    fn found(&self, trials: &mut usize) -> Result<TunedLists, CircleError> {
         let task = self.task;
         let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
         let [of_x, of_y] = Method::of_plant(&task.plant);
@@ -324,7 +325,7 @@ impl Tuning<'_> {
         let both = |shaping| PlaneAxis::ALL.map(|axis| of(axis, shaping));
         let checked = |axes: [TunedAxis; 2]| {
             let check = self.check(&axes)?;
-            Ok(Found { axes, check })
+            Ok(TunedLists { axes, check })
         };
         let plain = checked(both(Shaping::None))?;
         let shaped = both(Shaping::Allowed);
@@ -332,7 +333,7 @@ impl Tuning<'_> {
             return Ok(plain);
         }
         let shaped = checked(shaped)?;
-        let left = |found: &Found| {
+        let left = |found: &TunedLists| {
             worst(&found.check, |it| match self.limit_um {
                 None => it.glitch_on_um,
                 Some(_) => it.robust_um(),
@@ -343,7 +344,7 @@ impl Tuning<'_> {
     }
 
     /// Checks the remaining glitches of lists over the whole range.
-    fn check(&self, axes: &[TunedAxis; 2]) -> Result<Vec<Checked>, CircleError> {
+    fn check(&self, axes: &[TunedAxis; 2]) -> Result<Vec<RemainingGlitch>, CircleError> {
         let task = self.task;
         let circles = task.checked();
         let is_same = task.plant.x == task.plant.y && axes[0] == axes[1];
@@ -365,7 +366,7 @@ impl Tuning<'_> {
             )
         })?;
         let glitches: Vec<f64> = heights.iter().map(Heights::worst_um).collect();
-        let rows: Vec<Checked> = glitches
+        let rows: Vec<RemainingGlitch> = glitches
             .chunks(reversals)
             .enumerate()
             .map(|(at, glitches)| Task::row(circles[at % circles.len()], glitches))

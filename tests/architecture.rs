@@ -362,6 +362,52 @@ fn files_stay_short() {
 }
 
 #[test]
+fn a_type_name_means_one_thing() {
+    // A package defines a name once, and none that is public in another package.
+    let mut definitions: BTreeMap<String, Vec<(&str, String, bool)>> = BTreeMap::new();
+    let bindings = ["bindings/c", "bindings/python", "bindings/web"];
+    let bindings = bindings.map(|folder| sources_of(folder, Some("binding")));
+    for file in sources().iter().chain(bindings.iter().flatten()) {
+        for (_, line) in code(file) {
+            if let Some((name, is_public)) = defined_type(line) {
+                let definition = (file.package, file.shown(), is_public);
+                definitions
+                    .entry(name.to_owned())
+                    .or_default()
+                    .push(definition);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for (name, mut places) in definitions {
+        places.sort();
+        // One thing for different systems.
+        places.dedup_by(|one, other| one.1 == other.1);
+        let is_public = places.iter().any(|(_, _, is_public)| *is_public);
+        let is_twice = places.windows(2).any(|pair| pair[0].0 == pair[1].0);
+        if places.len() > 1 && (is_public || is_twice) {
+            let files: Vec<String> = places.into_iter().map(|(_, file, _)| file).collect();
+            found.push(format!("`{name}`: {}", files.join(", ")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The type that a line at the margin defines, and whether it is public.
+fn defined_type(line: &str) -> Option<(&str, bool)> {
+    let rest = line.strip_prefix("pub ").unwrap_or(line);
+    let is_public = rest.len() < line.len();
+    let rest = match rest.strip_prefix("pub(") {
+        Some(within) => within.split_once(") ")?.1,
+        None => rest,
+    };
+    let kinds = ["struct ", "enum ", "trait ", "type "];
+    let name = kinds.iter().find_map(|kind| rest.strip_prefix(kind))?;
+    let end = name.find(|letter: char| !letter.is_alphanumeric());
+    Some((&name[..end.unwrap_or(name.len())], is_public))
+}
+
+#[test]
 fn a_crate_path_is_found_in_a_line() {
     assert_eq!(named_rooms("use crate::diagnostic::Code;"), ["diagnostic"]);
     assert_eq!(named_rooms("f(crate::a::B, crate::c_d)"), ["a", "c_d"]);

@@ -141,14 +141,14 @@ fn config_show_prints_the_machine() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(
-        text.contains("X         T     active        1 assumed     assumed"),
+        text.contains("X     T     active        1 assumed     assumed"),
         "{text}"
     );
     assert!(
-        text.contains("Y         T     unconfigured  0 default     none"),
+        text.contains("Y     T     unconfigured  0 default     none"),
         "{text}"
     );
-    assert!(text.contains("Q         T     active"), "{text}");
+    assert!(text.contains("Q     T     active"), "{text}");
     // `enable` of the configuration assumes the same, without an option.
     let folder = tempfile::tempdir().expect("a folder");
     let config = folder.path().join("frictcomp.toml");

@@ -219,7 +219,7 @@ const FILLED_IN: &[&str] = &[
     "circle::Circle",
     "circle::CircularTest",
     "circle::CommandedCircle",
-    "circle::Job",
+    "circle::LapRun",
     "circle::LearnedCircle",
     "circle::Learner",
     "circle::RecordedTrace",

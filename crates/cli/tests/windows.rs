@@ -79,7 +79,7 @@ fn lists_of_the_control_are_found() {
         "N10 L SUB.nc\r\nN20 X[COMP ON FRICT]\r\nN30 M30\r\n",
     );
     let shown = bench.stdout(&["config", "show", "--config", "mill/frictcomp.toml"]);
-    for axis in ["X         T     active", "Y ", "Z "] {
+    for axis in ["X     T     active", "Y ", "Z "] {
         assert!(shown.contains(axis), "{axis}: {shown}");
     }
     assert!(!shown.contains("FC123"), "{shown}");

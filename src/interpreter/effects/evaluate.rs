@@ -340,7 +340,7 @@ impl Interpreter {
                 self.write(AssignedPlace::Parameter(*owner, *index), unknown());
             }
             RegionTarget::Variable(name) => {
-                self.write(AssignedPlace::Variable(name.clone()), unknown())
+                self.write(AssignedPlace::Variable(name.clone()), unknown());
             }
             RegionTarget::Elements(name) => {
                 self.write(
@@ -349,7 +349,7 @@ impl Interpreter {
                 );
             }
             RegionTarget::Parameters => {
-                self.write(AssignedPlace::Parameters(cause.clone()), unknown())
+                self.write(AssignedPlace::Parameters(cause.clone()), unknown());
             }
         }
     }

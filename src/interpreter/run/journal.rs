@@ -42,7 +42,7 @@ impl Journal {
         }
         match place {
             AssignedPlace::Parameter(owner, index) => {
-                self.note(RegionTarget::Parameter(*owner, *index))
+                self.note(RegionTarget::Parameter(*owner, *index));
             }
             AssignedPlace::Variable(name) => self.note(RegionTarget::Variable(name.clone())),
             AssignedPlace::Elements(..) | AssignedPlace::Parameters(_) | AssignedPlace::Nowhere => {

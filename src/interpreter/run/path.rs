@@ -122,7 +122,7 @@ impl AssumedValues {
         for (target, before) in go {
             match (target, before) {
                 (RegionTarget::Parameter(_, index), Some(value)) => {
-                    memory.set_parameter(index, value)
+                    memory.set_parameter(index, value);
                 }
                 (RegionTarget::Parameter(_, index), None) => memory.delete_parameter(index),
                 (RegionTarget::Variable(name), Some(value)) => memory.set_variable(&name, value),

@@ -183,14 +183,14 @@ impl Interpreter {
             RegionEffect::Coupling(_) => differing.name("axis couplings"),
             RegionEffect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
             RegionEffect::Hash(name) if is_exchange(name) => {
-                differing.name("the axes of the channel")
+                differing.name("the axes of the channel");
             }
             RegionEffect::Hash(name) if name == "#DISABLE MODAL CYCLE" => {
-                differing.name("modal cycles")
+                differing.name("modal cycles");
             }
             RegionEffect::Hash(name) if name == "#ERROR" => differing.decides = true,
             RegionEffect::Declaration(name) if outlives(name) => {
-                differing.name(format!("`{name}`"))
+                differing.name(format!("`{name}`"));
             }
             RegionEffect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
                 differing.decides = true;

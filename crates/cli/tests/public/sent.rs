@@ -547,6 +547,7 @@ sent! {
     readings::Alternative,
     readings::Basis<'_>,
     readings::Confirmation,
+    readings::Question,
     readings::QuestionFacts,
     readings::QuestionSet,
     readings::Readings,

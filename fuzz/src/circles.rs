@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
-    Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES, Method,
+    Circle, CircleError, CircularTest, Comparison, Lap, LapRun, MIN_CYCLES, Method,
 };
 use frictcomp_physics::current::Reading;
 use frictcomp_physics::simulation::{FrictionModel, Plant, STEP_S, plant_list};
@@ -27,7 +27,7 @@ pub fn check_circle(dice: &mut Dice<'_>) {
         reading: Reading::default(),
     };
     let mut laps: Vec<Lap> = Vec::new();
-    for job in Job::ALL {
+    for job in LapRun::ALL {
         match test.run(job) {
             Ok(lap) => {
                 let deviations = lap.profile.deviations_m();

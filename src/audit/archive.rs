@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::cure::{Cure, Mending};
 use super::program::{AxisAudit, ProgramAudit};
 use crate::comp::Kind;
+use crate::interpreter::FoundVariables;
 use crate::readings::{Question, QuestionSet};
 
 /// The programs of one machine.
@@ -93,6 +94,36 @@ impl Archive {
     /// One more program.
     pub fn push(&mut self, program: ProgramAudit) {
         self.programs.push(program);
+    }
+
+    /// What each of the programs finds in variables that outlive programs after any of the others (R2.34).
+    pub fn found(&self) -> FoundVariables {
+        let mut found = FoundVariables::default();
+        for program in &self.programs {
+            found.add(&program.used.written);
+        }
+        found
+    }
+
+    /// The positions of the programs that found something else in the variables that they ask for than
+    /// [`found`](Self::found) says: they are to be run again.
+    pub fn unsettled(&self) -> Vec<usize> {
+        let found = self.found();
+        let is_unsettled = |(_, program): &(usize, &ProgramAudit)| {
+            let wanted = &program.used.wanted;
+            program.found.of(wanted) != found.of(wanted)
+        };
+        let programs = self.programs.iter().enumerate();
+        let unsettled = programs.filter(is_unsettled);
+        unsettled.map(|(position, _)| position).collect()
+    }
+
+    /// Takes the audit of a program that has run again. What it did before counts as well, so that this comes to an
+    /// end.
+    pub fn settle(&mut self, position: usize, mut program: ProgramAudit) {
+        let before = &mut self.programs[position];
+        program.used.add(&before.used);
+        *before = program;
     }
 
     /// The programs, in the order in which they came.

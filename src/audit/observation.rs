@@ -10,7 +10,7 @@ use super::within::Within;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{
-    Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates,
+    Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome, PossibleStates, VariableUse,
 };
 use crate::readings::QuestionSet;
 use crate::text::Place;
@@ -73,6 +73,8 @@ pub(super) struct Observation {
     pub(super) called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in it (R15.3).
     pub(super) rests_on: QuestionSet,
+    /// What it did with variables that outlive programs.
+    pub(super) used: VariableUse,
     /// The main file.
     main: Option<Arc<str>>,
     /// The called file of the last block.
@@ -95,6 +97,7 @@ impl Observation {
             within: Within::default(),
             called: BTreeSet::new(),
             rests_on: QuestionSet::default(),
+            used: VariableUse::default(),
             main: None,
             last_called: None,
             doubt: None,
@@ -105,6 +108,15 @@ impl Observation {
     pub(super) fn within(mut self, called: Option<&Arc<str>>) -> Self {
         self.within = called.map(Within::called).unwrap_or_default();
         self
+    }
+
+    /// Takes what the run did with variables that outlive programs. Where a budget ended it, nobody knows what the
+    /// rest of the program writes.
+    pub(super) fn use_ends(&mut self, used: VariableUse) {
+        self.used = used;
+        if self.by == Some(EndedBy::Budget) {
+            self.used.write_anything();
+        }
     }
 
     /// Takes an event of the run.

@@ -14,7 +14,8 @@ use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet, State};
 use crate::diagnostic::Code;
 use crate::interpreter::{
-    Event, Interpreter, Observer, Options, PossibleStates, StopPolicy, WayCondition,
+    Event, FoundVariables, Interpreter, Observer, Options, PossibleStates, StopPolicy, VariableUse,
+    WayCondition,
 };
 use crate::machine::{Machine, Setting};
 use crate::readings::QuestionSet;
@@ -134,6 +135,10 @@ pub struct ProgramAudit {
     pub called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in its runs (R15.3).
     pub rests_on: QuestionSet,
+    /// What its runs do with variables that outlive programs.
+    pub(super) used: VariableUse,
+    /// What they found in them.
+    pub(super) found: Arc<FoundVariables>,
 }
 
 /// Audits the programs of one machine.
@@ -143,6 +148,7 @@ pub struct Auditor {
     options: Options,
     settings: Vec<(String, Setting)>,
     scope: Scope,
+    found: Arc<FoundVariables>,
 }
 
 impl Auditor {
@@ -159,7 +165,14 @@ impl Auditor {
             machine: Arc::new(machine),
             options: options.with_stop(StopPolicy::FirstError),
             settings: settings.to_vec(),
+            found: Arc::default(),
         }
+    }
+
+    /// Sets what programs find in variables that outlive programs, [`Archive::found`](super::Archive::found); nothing
+    /// without it.
+    pub fn find(&mut self, found: FoundVariables) {
+        self.found = Arc::new(found);
     }
 
     /// Returns the audited axes and kinds.
@@ -203,6 +216,8 @@ impl Auditor {
             ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
             called: runs.called(),
             rests_on: runs.rests_on(),
+            used: runs.used(),
+            found: Arc::clone(&self.found),
         })
     }
 
@@ -236,12 +251,14 @@ impl Auditor {
     ) -> Result<Observation, E> {
         let from = self.scope.found(|at| start.is_away(at));
         let mut interpreter = self.interpreter(from);
+        interpreter.find(&self.found);
         let mut observation = Observation::new(&self.scope).within(called);
         run(&mut interpreter, &mut |event: Event<'_>| {
             observation.event(&self.scope, &event);
             ControlFlow::Continue(())
         })?;
         observation.rests_on = interpreter.rests_on();
+        observation.use_ends(interpreter.take_use());
         Ok(observation)
     }
 

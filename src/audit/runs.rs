@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
 use super::observation::{Observation, SelectionOrigin};
 use super::scope::{Scope, Selected};
-use crate::interpreter::EndedBy;
+use crate::interpreter::{EndedBy, VariableUse};
 use crate::readings::QuestionSet;
 
 /// A program asks for the states of so many axes and kinds at most; of one that asks for more it is not
@@ -98,6 +98,15 @@ impl ProgramRuns {
     pub(super) fn rests_on(&self) -> QuestionSet {
         let questions = self.all().map(|run| run.rests_on);
         questions.fold(QuestionSet::default(), QuestionSet::union)
+    }
+
+    /// What the program does with variables that outlive programs.
+    pub(super) fn used(&self) -> VariableUse {
+        let mut used = VariableUse::default();
+        for run in self.all() {
+            used.add(&run.used);
+        }
+        used
     }
 
     /// The starts that are still to be tried: whatever the program asks for may be either, whatever the

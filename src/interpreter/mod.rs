@@ -45,5 +45,7 @@ pub(crate) use run::untouched::{FoundOn, UntouchedOn};
 pub use run::way_condition::{BlockCondition, WayChange, WayCondition};
 pub(crate) use run::way_condition::{limit_to, unless, ways_in_words};
 pub use values::carried::{ArrayShape, Carried};
+pub use values::found::FoundVariables;
+pub(crate) use values::found::VariableUse;
 pub use values::value::Value;
 pub(crate) use values::variable::set_name;

@@ -5,6 +5,8 @@ mod archives;
 mod folder;
 #[path = "order/roots.rs"]
 mod roots;
+#[path = "order/variables.rs"]
+mod variables;
 #[path = "order/ways.rs"]
 mod ways;
 

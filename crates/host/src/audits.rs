@@ -134,23 +134,70 @@ impl ArchiveAuditor {
         ControlFlow::Continue(())
     }
 
-    /// Runs every program twice. Gives the archive of each machine, and what cannot be read.
+    /// Runs every program twice, and those again that ask for what others leave in variables (R2.34). Gives the
+    /// archive of each machine, and what cannot be read.
     pub fn audit(&self) -> (Vec<Archive>, Vec<HostError>) {
         let auditors = self.auditors();
         let mut archives = vec![Archive::default(); auditors.len()];
+        let mut inputs = vec![Vec::new(); auditors.len()];
         let mut errors = Vec::new();
-        let work = |(input, machine): &(Input, usize)| -> Result<_, HostError> {
-            Ok((*machine, auditors[*machine].audit(input)?))
+        let work = |(input, machine): &'_ (Input, usize)| {
+            let audited = auditors[*machine].audit(input);
+            if audited.is_ok() {
+                self.machines[*machine].watch.program_done();
+            }
+            (*machine, audited)
         };
         let workers = self.workers(self.programs.len());
-        in_order(self.programs.iter(), workers, work, |audited| {
+        let programs = self.programs.iter().enumerate();
+        let work = |(at, program): (usize, &'_ (Input, usize))| (at, work(program));
+        in_order(programs, workers, work, |(at, (machine, audited))| {
             match audited {
-                Ok((machine, program)) => archives[machine].push(program),
+                Ok(program) => {
+                    archives[machine].push(program);
+                    inputs[machine].push(at);
+                }
                 Err(error) => errors.push(error),
             }
             self.flow()
         });
+        self.settle(auditors, (&mut archives, &inputs), &mut errors);
         (archives, errors)
+    }
+
+    /// Runs programs again until each has found what others may leave. `inputs` are the positions of the programs of
+    /// each archive.
+    fn settle(
+        &self,
+        mut auditors: Vec<ProgramAuditor<'_>>,
+        (archives, inputs): (&mut [Archive], &[Vec<usize>]),
+        errors: &mut Vec<HostError>,
+    ) {
+        let count = errors.len();
+        while errors.len() == count && self.flow().is_continue() {
+            let unsettled: Vec<(usize, usize)> = unsettled(archives);
+            if unsettled.is_empty() {
+                return;
+            }
+            find(&mut auditors, archives);
+            let work = |(machine, at): (usize, usize)| {
+                let (input, _) = &self.programs[inputs[machine][at]];
+                (machine, at, auditors[machine].audit(input))
+            };
+            let workers = self.workers(unsettled.len());
+            in_order(
+                unsettled.into_iter(),
+                workers,
+                work,
+                |(machine, at, audited)| {
+                    match audited {
+                        Ok(program) => archives[machine].settle(at, program),
+                        Err(error) => errors.push(error),
+                    }
+                    self.flow()
+                },
+            );
+        }
     }
 
     /// Runs the programs one after another in their order, each machine from the start of its control.
@@ -174,6 +221,23 @@ impl ArchiveAuditor {
     }
 }
 
+/// The programs of archives that are to be run again, each with its archive.
+fn unsettled(archives: &[Archive]) -> Vec<(usize, usize)> {
+    let archives = archives.iter().enumerate();
+    let unsettled = archives.flat_map(|(machine, archive)| {
+        let programs = archive.unsettled().into_iter();
+        programs.map(move |at| (machine, at))
+    });
+    unsettled.collect()
+}
+
+/// Tells the auditors what the programs of their archives find in variables that outlive programs.
+pub(super) fn find(auditors: &mut [ProgramAuditor<'_>], archives: &[Archive]) {
+    for (auditor, archive) in auditors.iter_mut().zip(archives) {
+        auditor.auditor.find(archive.found());
+    }
+}
+
 impl<'a> ProgramAuditor<'a> {
     fn new(loaded: &'a LoadedMachine, options: AuditOptions) -> Self {
         let machine = loaded.machine.clone();
@@ -189,7 +253,6 @@ impl<'a> ProgramAuditor<'a> {
             let finder = self.finder(input, &self.loaded.disk);
             self.run(input, finder, (interpreter, observer))
         })?;
-        self.loaded.watch.program_done();
         Ok(audit)
     }
 

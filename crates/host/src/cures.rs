@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::audits::{ArchiveAuditor, ProgramAuditor};
+use super::audits::{ArchiveAuditor, ProgramAuditor, find};
 use super::disk::Disk;
 use super::error::HostError;
 use super::mend::{MendedFile, read_encoded};
@@ -41,7 +41,9 @@ impl ArchiveAuditor {
         archives: &[Archive],
         end: MendedEnd,
     ) -> (Vec<MendedProgram>, Vec<HostError>) {
-        let mut cures = Cures::new(self.auditors(), archives, end);
+        let mut auditors = self.auditors();
+        find(&mut auditors, archives);
+        let mut cures = Cures::new(auditors, archives, end);
         let (mut changes, mut errors) = (Vec::new(), Vec::new());
         let (shared, alone) = cures.files();
         for place in shared {

@@ -62,29 +62,47 @@ impl Interpreter {
                 Value::Number(0.0)
             };
             self.scratch.wrote = true;
+            let is_scalar = dimensions.is_empty();
+            self.note_declaration(&name, is_scalar.then(|| values.first().unwrap_or(&default)));
             let memory = &mut self.state.control.memory;
-            if dimensions.is_empty() {
+            let before = memory.before_declaration(&name);
+            if is_scalar {
                 let value = values.into_iter().next().unwrap_or(default);
                 match name.strip_prefix('P').map(str::parse) {
-                    Some(Ok(index)) => memory.set_parameter(index, value),
+                    Some(Ok(index)) => memory.declare_parameter(index, value),
                     _ => memory.declare(&name, value),
                 }
-                continue;
-            }
-            let elements: Vec<Option<String>> = (0..values.len())
-                .map(|at| element(&name, &dimensions, at))
-                .collect();
-            let unknown = dimensions.iter().find_map(|size| size.as_ref().err());
-            let default = unknown.cloned().unwrap_or(default);
-            let dimensions = dimensions.into_iter().map(Result::ok).collect();
-            memory.declare_array(&name, dimensions, default);
-            for (element, value) in elements.iter().zip(values) {
-                if let Some(element) = element {
-                    memory.declare(element, value);
+            } else {
+                let elements: Vec<Option<String>> = (0..values.len())
+                    .map(|at| element(&name, &dimensions, at))
+                    .collect();
+                let unknown = dimensions.iter().find_map(|size| size.as_ref().err());
+                let default = unknown.cloned().unwrap_or(default);
+                let dimensions = dimensions.into_iter().map(Result::ok).collect();
+                memory.declare_array(&name, dimensions, default);
+                for (element, value) in elements.iter().zip(values) {
+                    if let Some(element) = element {
+                        memory.declare(element, value);
+                    }
                 }
+            }
+            if let Some(before) = before {
+                memory.declare_anew(&name, &before);
             }
         }
         Ok(())
+    }
+
+    /// Notes the start value of a variable, or an array, that may be there before.
+    fn note_declaration(&self, name: &str, start: Option<&Value>) {
+        let is_unwritten = self.state.control.memory.is_unwritten(name);
+        let array = Value::Unknown(name.into());
+        self.note_use(|used| {
+            if is_unwritten {
+                used.want(name);
+            }
+            used.write_name(name, start.unwrap_or(&array));
+        });
     }
 }
 

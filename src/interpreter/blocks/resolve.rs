@@ -14,6 +14,7 @@ use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::{ControlStep, Passage, Request};
 use crate::interpreter::run::stopping::stops;
 use crate::interpreter::values::cause::program;
+use crate::interpreter::values::found::VariableUse;
 use crate::machine::Keeps;
 use crate::syntax::Fault;
 use crate::syntax::ast::{CallForm, CallScope};
@@ -78,6 +79,7 @@ impl Interpreter {
                 let cause = program(&wanted.name);
                 self.state.told.enter_root(&cause, wanted.span, at);
                 self.state.control.memory.miss(&cause);
+                self.note_use(VariableUse::write_anything);
                 self.scratch.diagnostics.push(at.diagnostic(*fault));
                 return None;
             }

@@ -86,6 +86,7 @@ impl Interpreter {
             scope: ExpressionScope {
                 memory: &self.state.control.memory,
                 reads: self.state.watching.then_some(&self.state.reads),
+                used: self.used.as_ref(),
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
                 unread: &self.scratch.unread,
@@ -292,6 +293,7 @@ impl Interpreter {
         }
         self.scratch.wrote = true;
         self.journal.write(&place, &value);
+        self.note_use(|used| used.write(&place, &value));
         self.state
             .track
             .write(&place, &mut self.state.control.memory);

@@ -10,6 +10,7 @@ use crate::interpreter::coordinates::simplified::{self, Holds};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
+use crate::interpreter::values::found::VariableUse;
 use crate::interpreter::values::memory::unescaped;
 use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
@@ -66,6 +67,7 @@ impl Interpreter {
             .track
             .write_anything(&mut self.state.control.memory);
         self.state.control.memory.havoc_all(cause);
+        self.note_use(VariableUse::write_anything);
     }
 
     /// Every kind of every axis becomes unknown.

@@ -21,6 +21,7 @@ use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
+use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::variable::set_name;
 use crate::interpreter::values::work_budget::WorkBudget;
@@ -91,6 +92,8 @@ pub struct Interpreter {
     pub(in crate::interpreter) lost: Collected,
     pub(in crate::interpreter) journal: Journal,
     pub(in crate::interpreter) state: State,
+    /// What the programs do with variables that outlive programs, where that is asked for.
+    pub(in crate::interpreter) used: Option<RefCell<VariableUse>>,
     pub(in crate::interpreter) version: u64,
     pub(in crate::interpreter) scratch: BlockScratch,
 }
@@ -217,6 +220,7 @@ impl Interpreter {
             regions: Regions::new(),
             lost: Collected::default(),
             journal: Journal::default(),
+            used: None,
             state,
             version: 0,
             scratch: BlockScratch::default(),
@@ -227,6 +231,26 @@ impl Interpreter {
     pub fn set(&mut self, name: &str, setting: &Setting) {
         self.state.control.memory.give(name, setting.into());
         self.journal.begin_anew();
+    }
+
+    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and notes from
+    /// here on what is done with them.
+    pub(crate) fn find(&mut self, found: &FoundVariables) {
+        self.state.control.memory.find(found);
+        self.used = Some(RefCell::new(VariableUse::new(self.machine.parameters)));
+    }
+
+    /// What the programs since did with variables that outlive programs.
+    pub(crate) fn take_use(&mut self) -> VariableUse {
+        let used = self.used.take().map(RefCell::into_inner);
+        used.unwrap_or_default()
+    }
+
+    /// Notes what is done with variables that outlive programs, where that is asked for.
+    pub(in crate::interpreter) fn note_use(&self, note: impl FnOnce(&mut VariableUse)) {
+        if let Some(used) = &self.used {
+            note(&mut used.borrow_mut());
+        }
     }
 
     /// Says where an axis stands before the first program, in mm or degrees; a name that no axis has

@@ -217,6 +217,7 @@ impl Interpreter {
             }
             RegionEffect::Declaration(name) => {
                 let unknown = Value::Unknown(cause.clone());
+                self.note_use(|used| used.write_name(name, &unknown));
                 self.state.control.memory.declare(name, unknown);
                 self.state.control.memory.havoc_elements(name, cause);
                 self.scratch.wrote = true;

@@ -37,6 +37,8 @@ pub(in crate::interpreter) fn unknown_value(name: &str) -> String {
         format!("{name}, which only the machine knows")
     } else if let Some(program) = name.strip_prefix(PROGRAM) {
         format!("the program `{program}`, which is not at hand")
+    } else if name.starts_with("V.S.") {
+        format!("`{name}`, which a program before this one may have left")
     } else if is_settable(name) {
         format!("`{name}`, which only the machine knows")
     } else if is_command(name) {

@@ -7,8 +7,10 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::found::VariableUse;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
+use super::names::parts;
 use super::reads::Reads;
 use super::target::{AssignedPlace, RegionTarget};
 use super::value::{Slot, Value, rounded};
@@ -28,6 +30,8 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     pub(in crate::interpreter) memory: &'a Memory,
     /// Notes on the values read, while they matter (R2.84).
     pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
+    /// Notes on what programs before it may have written, where that is asked for (R2.34).
+    pub(in crate::interpreter) used: Option<&'a RefCell<VariableUse>>,
     /// Own parameters of the call.
     pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
     /// Source of the values that it does not hold.
@@ -187,10 +191,41 @@ impl Evaluator<'_> {
                         _ => 0,
                     });
                     self.effort.charge(read.sum());
-                    self.bounded(call(function, slots, span), span)
+                    match self.perhaps_there(function, at) {
+                        Some(unknown) => Ok(unknown),
+                        None => self.bounded(call(function, slots, span), span),
+                    }
                 }
             };
             stack.push(slot);
+        }
+    }
+
+    /// The answer of `EXIST` to a variable that a program before this one may have left, or not.
+    fn perhaps_there(&self, function: Function, at: usize) -> Option<Value> {
+        self.scope.used.filter(|_| function == Function::Exist)?;
+        let argument = at.checked_sub(1)?;
+        let name = match self.block.nodes[argument] {
+            Node::Variable { subscripts: 0 } => canonical(self.block.spans[argument].of(self.text)),
+            Node::Parameter {
+                owner: Owner::Program,
+                index,
+            } => format!("P{index}").into(),
+            _ => return None,
+        };
+        let is_found = self.scope.memory.is_found(&name);
+        is_found.then(|| Value::Unknown(name.as_ref().into()))
+    }
+
+    /// Notes a value that the program may have found.
+    fn note_found(&self, name: &str) {
+        let base = parts(name).0;
+        if let Some(used) = self
+            .scope
+            .used
+            .filter(|_| self.scope.memory.is_unwritten(base))
+        {
+            used.borrow_mut().want(base);
         }
     }
 
@@ -211,6 +246,9 @@ impl Evaluator<'_> {
             reads
                 .borrow_mut()
                 .note(RegionTarget::Parameter(owner, index));
+        }
+        if self.scope.used.is_some() && owner == Owner::Program {
+            self.note_found(&format!("P{index}"));
         }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
@@ -361,6 +399,7 @@ impl Evaluator<'_> {
     }
 
     fn note_read(&self, name: &str) {
+        self.note_found(name);
         if let Some(reads) = self.scope.reads {
             reads
                 .borrow_mut()
@@ -398,6 +437,7 @@ impl Evaluator<'_> {
         let argument = text.split_once('[').map_or("", |(_, argument)| argument);
         let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
         let name = name.trim();
+        self.note_found(name);
         let place = match dimension.transpose()? {
             Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
             Some(value) => value.number().and_then(rounded).unwrap_or(1),
@@ -413,6 +453,7 @@ impl Evaluator<'_> {
                     "the array does not have that many dimensions",
                 )),
             },
+            None if self.scope.memory.is_found(name) => Ok(Value::Unknown(name.into())),
             None if is_program_variable(name) => Err(never_written(span, self.text)),
             None => {
                 (self.scope.unknown)(name, self.shown.unwrap_or(span));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
+use super::found::FoundVariables;
 use super::names::{
     Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
 };
@@ -29,6 +30,10 @@ pub(in crate::interpreter) struct Memory {
     given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
+    /// The names that outlive programs, may be there, and were not written since for certain.
+    found: BTreeSet<String>,
+    /// Whether a `V.S.` variable that no program is known to write may be there all the same.
+    may_find: bool,
     /// `V.L.` of each call level.
     locals: Vec<VariableNames>,
     /// The code of each macro, or why it is not known.
@@ -76,6 +81,9 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn set_parameter(&mut self, index: u32, value: Value) {
+        if !self.found.is_empty() {
+            self.found.remove(&format!("P{index}"));
+        }
         self.parameters.set(index, value);
     }
 
@@ -86,7 +94,61 @@ impl Memory {
         }
         let unknown = self.unknown_names.as_ref().filter(|_| is_written(name));
         let written = self.variables.value(name);
-        written.or_else(|| unknown.map(|cause| Value::Unknown(cause.clone())))
+        written.or_else(|| match unknown {
+            Some(cause) => Some(Value::Unknown(cause.clone())),
+            None => self
+                .may_find(name)
+                .then(|| Value::Unknown(parts(name).0.into())),
+        })
+    }
+
+    /// Whether a name that nothing is known of may be there.
+    fn may_find(&self, name: &str) -> bool {
+        self.may_find && name.starts_with("V.S.") && self.given.get(name).is_none()
+    }
+
+    /// Sets what the program finds in variables that outlive programs. What the user gave goes before it.
+    pub(in crate::interpreter) fn find(&mut self, found: &FoundVariables) {
+        self.may_find = found.has_anything();
+        let names = found
+            .names()
+            .filter(|(name, _)| self.given.get(name.as_str()).is_none());
+        let names: Vec<(String, Value)> = names.map(|(name, it)| (name.clone(), it)).collect();
+        for (name, value) in names {
+            match name.strip_prefix('P').map(str::parse) {
+                Some(Ok(index)) => self.set_parameter(index, value),
+                _ => self.find_variable(&name, value),
+            }
+            self.found.insert(name);
+        }
+    }
+
+    /// A variable or an array is found: of an array no element is known but those that the user gave.
+    fn find_variable(&mut self, name: &str, value: Value) {
+        if let Value::Unknown(cause) = &value {
+            self.variables.havoc_elements(name, cause);
+        }
+        self.variables.set(name, value);
+        let element = format!("{name}[");
+        let given = self.given.from(&element);
+        let given = given.take_while(|(key, _)| key.starts_with(&element));
+        for (key, value) in given {
+            self.variables.set(key, value.clone());
+        }
+    }
+
+    /// Whether the program has not written a name for certain that may be there, with no subscripts.
+    pub(in crate::interpreter) fn is_found(&self, base: &str) -> bool {
+        let is_new = || self.may_find(base) && self.variables.names.get(base).is_none();
+        self.found.contains(base) || is_new()
+    }
+
+    /// Whether what is read under a name, without its subscripts, is what the program found, or nothing.
+    pub(in crate::interpreter) fn is_unwritten(&self, base: &str) -> bool {
+        let holds = |index| self.parameters.get(index).is_some();
+        let parameter = base.strip_prefix('P').and_then(|index| index.parse().ok());
+        self.is_found(base)
+            || !(parameter.is_some_and(holds) || self.variables.names.get(base).is_some())
     }
 
     /// A value from the user (R2.36). What programs write themselves goes before it.
@@ -106,6 +168,7 @@ impl Memory {
 
     pub(in crate::interpreter) fn set_variable(&mut self, name: &str, value: Value) {
         if !name.starts_with("V.L.") {
+            self.found.remove(name);
             self.variables.set(name, value);
             return;
         }
@@ -134,9 +197,46 @@ impl Memory {
         }
     }
 
+    /// Declares a P parameter; one that an earlier program may have left may keep its value.
+    pub(in crate::interpreter) fn declare_parameter(&mut self, index: u32, value: Value) {
+        let name = format!("P{index}");
+        let mut start = Some(value);
+        if self.found.contains(&name) {
+            let cause: Arc<str> = name.as_str().into();
+            join_value(&mut start, self.parameter(index).as_ref(), &cause);
+        }
+        self.set_parameter(index, start.unwrap_or(Value::Unknown(name.into())));
+    }
+
     /// Declares a scalar on the current level.
     pub(in crate::interpreter) fn declare(&mut self, name: &str, value: Value) {
+        self.found.remove(name);
         self.declared(name).set(name, value);
+    }
+
+    /// The variable of a name that is declared, where it outlives programs and is there, or may be.
+    pub(in crate::interpreter) fn before_declaration(&self, name: &str) -> Option<NamedVariable> {
+        let held = self.variables.names.get(name);
+        let held = held.filter(|_| name.starts_with("V.S."));
+        held.cloned().or_else(|| {
+            let cause: Arc<str> = name.into();
+            self.may_find(name).then(|| NamedVariable {
+                scalar: Some(Value::Unknown(cause.clone())),
+                lost: Some(cause),
+                ..NamedVariable::default()
+            })
+        })
+    }
+
+    /// A variable was declared that was there before. Whether the start value replaces the value that it has is
+    /// not documented, so it is unknown where the two differ (R2.34); the user's value decides.
+    pub(in crate::interpreter) fn declare_anew(&mut self, name: &str, before: &NamedVariable) {
+        self.variables.join_name(name, before, &name.into());
+        if let Some(given) = self.given.get(name)
+            && let Some(Value::Unknown(_)) = self.variables.value(name)
+        {
+            self.variables.set(name, given.clone());
+        }
     }
 
     /// Declares an array on the current level; its elements have a default value.
@@ -150,6 +250,7 @@ impl Memory {
             dimensions,
             default,
         };
+        self.found.remove(name);
         self.declared(name).declare_array(name, array);
     }
 
@@ -162,6 +263,7 @@ impl Memory {
 
     pub(in crate::interpreter) fn delete(&mut self, name: &str) {
         if !name.starts_with("V.L.") {
+            self.found.remove(name);
             self.variables.delete(name);
             return;
         }
@@ -215,6 +317,7 @@ impl Memory {
     }
 
     pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
+        self.found.remove(&format!("P{index}"));
         self.parameters.remove(index);
     }
 
@@ -259,6 +362,8 @@ impl Memory {
             // What the user gave is the same on all ways.
             given: _,
             unknown_names,
+            found,
+            may_find,
             locals,
             macros,
             macro_version,
@@ -279,6 +384,8 @@ impl Memory {
         if self.unknown_names.is_none() {
             self.unknown_names.clone_from(unknown_names);
         }
+        self.found.extend(found.iter().cloned());
+        self.may_find |= may_find;
         differing += self.variables.join(variables, cause);
         while self.locals.len() < locals.len() {
             self.locals.push(VariableNames::default());

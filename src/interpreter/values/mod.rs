@@ -3,6 +3,7 @@
 pub(super) mod carried;
 pub(super) mod cause;
 pub(super) mod expression;
+pub(super) mod found;
 pub(super) mod functions;
 pub(super) mod memory;
 pub(super) mod names;

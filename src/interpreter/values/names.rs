@@ -304,12 +304,22 @@ impl VariableNames {
         let nothing = NamedVariable::default();
         for name in &differing {
             let theirs = other.names.get(name).unwrap_or(&nothing);
-            let mine = self.names.slot(name.clone(), NamedVariable::default);
-            self.weight.take(mine.own_weight(name));
-            mine.join(theirs, cause, &mut self.weight);
-            self.weight.add(mine.own_weight(name));
+            self.join_name(name, theirs, cause);
         }
         differing.len()
+    }
+
+    /// Makes unknown what differs from another variable of a name.
+    pub(in crate::interpreter) fn join_name(
+        &mut self,
+        name: &str,
+        theirs: &NamedVariable,
+        cause: &Arc<str>,
+    ) {
+        let mine = self.names.slot(name.to_owned(), NamedVariable::default);
+        self.weight.take(mine.own_weight(name));
+        mine.join(theirs, cause, &mut self.weight);
+        self.weight.add(mine.own_weight(name));
     }
 
     pub(in crate::interpreter) fn weigh(&self) -> usize {

@@ -1,0 +1,148 @@
+//! What a program finds in the variables that outlive programs, and what it does to them (R2.34).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use super::names::parts;
+use super::target::AssignedPlace;
+use super::value::Value;
+use crate::machine::Parameters;
+use crate::syntax::ast::Owner;
+
+/// Values in the variables that outlive programs, as far as it is known which programs write them: `V.S.`, and P
+/// parameters where a program start keeps them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FoundVariables {
+    /// The value that each has where it is there: known where every write is of the same.
+    names: BTreeMap<String, Value>,
+    /// Set where any of them may have been written.
+    anything: bool,
+}
+
+impl FoundVariables {
+    /// Adds what other programs write.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.anything |= other.anything;
+        for (name, value) in &other.names {
+            self.write(name, value.clone());
+        }
+    }
+
+    /// The part of it that concerns some names.
+    pub(crate) fn of(&self, names: &BTreeSet<String>) -> Self {
+        let named = self.names.iter().filter(|(name, _)| names.contains(*name));
+        Self {
+            names: named
+                .map(|(name, value)| (name.clone(), value.clone()))
+                .collect(),
+            anything: self.anything && !names.is_empty(),
+        }
+    }
+
+    /// The names that may be there, with their values; none is known where anything may have been written.
+    pub(in crate::interpreter) fn names(&self) -> impl Iterator<Item = (&String, Value)> {
+        self.names.iter().map(|(name, value)| {
+            let known = (!self.anything).then(|| value.clone());
+            (
+                name,
+                known.unwrap_or_else(|| Value::Unknown(name.as_str().into())),
+            )
+        })
+    }
+
+    pub(in crate::interpreter) fn has_anything(&self) -> bool {
+        self.anything
+    }
+
+    fn write(&mut self, name: &str, value: Value) {
+        match self.names.get_mut(name) {
+            Some(known) if *known == value => {}
+            Some(known) => *known = Value::Unknown(name.into()),
+            None => {
+                self.names.insert(name.to_owned(), named(name, value));
+            }
+        }
+    }
+}
+
+/// The value as found by the next program: one that is not known is named as the variable.
+fn named(name: &str, value: Value) -> Value {
+    match value {
+        Value::Unknown(_) => Value::Unknown(name.into()),
+        known => known,
+    }
+}
+
+/// What a program does with the variables that outlive programs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct VariableUse {
+    /// The names that it asked for without having written them before for certain.
+    pub(crate) wanted: BTreeSet<String>,
+    /// What it may have written.
+    pub(crate) written: FoundVariables,
+    parameters: Parameters,
+}
+
+impl VariableUse {
+    pub(in crate::interpreter) fn new(parameters: Parameters) -> Self {
+        Self {
+            parameters,
+            ..Self::default()
+        }
+    }
+
+    /// Adds another run of the same program.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.wanted.extend(other.wanted.iter().cloned());
+        self.written.add(&other.written);
+    }
+
+    /// Anything may be written: nobody knows what the program does.
+    pub(crate) fn write_anything(&mut self) {
+        self.written.anything = true;
+    }
+
+    /// Asked for without a write before.
+    pub(in crate::interpreter) fn want(&mut self, base: &str) {
+        if self.outlives(base) && !self.wanted.contains(base) {
+            self.wanted.insert(base.to_owned());
+        }
+    }
+
+    /// A value is written, or may be.
+    pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
+        match place {
+            AssignedPlace::Parameter(Owner::Program, index) => {
+                if self.parameters == Parameters::Kept {
+                    self.written.write(&format!("P{index}"), value.clone());
+                }
+            }
+            AssignedPlace::Variable(name) => self.write_name(name, value),
+            AssignedPlace::Elements(name, cause) => {
+                self.write_name(name, &Value::Unknown(cause.clone()));
+            }
+            AssignedPlace::Parameters(_) => {
+                self.written.anything |= self.parameters == Parameters::Kept;
+            }
+            AssignedPlace::Parameter(Owner::Call, _) | AssignedPlace::Nowhere => {}
+        }
+    }
+
+    /// A variable, or an element of an array, of which no value is followed from program to program.
+    pub(in crate::interpreter) fn write_name(&mut self, name: &str, value: &Value) {
+        let (base, subscripts) = parts(name);
+        if !self.outlives(base) {
+            return;
+        }
+        let element: Arc<str> = base.into();
+        let is_whole = subscripts.is_empty();
+        let value = is_whole.then(|| value.clone());
+        self.written
+            .write(base, value.unwrap_or(Value::Unknown(element)));
+    }
+
+    fn outlives(&self, base: &str) -> bool {
+        let is_parameter = base.starts_with('P') && self.parameters == Parameters::Kept;
+        base.starts_with("V.S.") || is_parameter
+    }
+}

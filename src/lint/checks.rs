@@ -80,9 +80,8 @@ impl Linter<'_> {
     /// One that a loop keeps for ever is ended by a reset, which keeps the state unless the machine is
     /// read otherwise (R1.28).
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
-        let left = ended.compensation;
         self.history
-            .program_ended(&self.program, &self.memory, left);
+            .program_ended(&self.program, &self.memory, ended);
         match ended.by {
             EndedBy::Budget
                 if ended.endless && !self.machine.readings.takes_second(Question::Reset) =>

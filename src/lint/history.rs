@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::memory::{BlockSite, ProgramEffects};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
+use crate::interpreter::Ended;
 
 /// A block is remembered with so many characters of its text.
 const MAX_TEXT: usize = 400;
@@ -57,7 +58,7 @@ struct Away {
 /// States left by the programs of a session, and the states at the start of the control.
 #[derive(Debug, Clone)]
 pub(crate) struct History {
-    start_up: Compensation,
+    pub(super) start_up: Compensation,
     axes: Vec<[Away; Kind::ALL.len()]>,
     /// The kinds of each axis that nothing has switched since the start of the control.
     unswitched: Vec<KindSet>,
@@ -106,12 +107,8 @@ impl History {
     }
 
     /// Takes over what a program did that leaves a state.
-    pub(super) fn program_ended(
-        &mut self,
-        program: &str,
-        did: &ProgramEffects,
-        left: &Compensation,
-    ) {
+    pub(super) fn program_ended(&mut self, program: &str, did: &ProgramEffects, ended: &Ended<'_>) {
+        let left = ended.compensation;
         for (position, kinds) in self.axes.iter_mut().enumerate() {
             let axis = AxisIndex::new(position);
             for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
@@ -120,9 +117,9 @@ impl History {
                 }
                 if left.state(axis, kind) == self.start_up.state(axis, kind) {
                     *away = Away::default();
-                } else if let Some((_, site)) = &did.axis(axis).kind(kind).last {
+                } else if let Some(site) = did.made(ended, (axis, kind), &self.start_up) {
                     *away = Away {
-                        maker: Some(Maker::new(program, site)),
+                        maker: Some(Maker::new(program, &site)),
                         told: LeftAwayNotice::No,
                     };
                 }

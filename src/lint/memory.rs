@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
+use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, Selection, State};
 use crate::interpreter::{
-    Certainty, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
+    Certainty, Ended, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
 };
 use crate::text::{Place, Span};
 
@@ -25,6 +25,15 @@ impl BlockSite {
             seq: executed.seq,
             place: place(executed, span),
             ways: executed.branch.unwrap_or_default().to_vec(),
+        }
+    }
+
+    /// A command of which only its place matters.
+    pub(super) fn at(seq: u64, place: Place) -> Self {
+        Self {
+            seq,
+            place,
+            ways: Vec::new(),
         }
     }
 
@@ -185,6 +194,25 @@ impl AxisMemory {
     }
 }
 
+/// The latest of the commands that are the last ones on some way and lead to the state at the end, or away from the
+/// start-up state where ways differ (R14.5).
+pub(super) fn command_to(
+    ended: &Ended<'_>,
+    (axis, kind): (AxisIndex, Kind),
+    start_up: &Compensation,
+) -> Option<Arc<BlockSite>> {
+    let is_on = match ended.compensation.state(axis, kind) {
+        State::Unknown => {
+            let mut possible = ended.possible.iter();
+            possible.find(|it| (it.axis, it.kind) == (axis, kind))?;
+            start_up.state(axis, kind) == State::Inactive
+        }
+        state => state != State::Inactive,
+    };
+    let latest = ended.last_commands.latest(axis, kind, is_on)?;
+    Some(Arc::new(BlockSite::at(latest.seq, latest.place.clone())))
+}
+
 /// Whether a motion counts for the second run (R1.53, R10.7).
 fn counts(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
@@ -228,6 +256,19 @@ impl ProgramEffects {
             memory.kinds[kind as usize].is_commanded = true;
         }
         memory.note(selection.kinds(), selection.into(), &site);
+    }
+
+    /// The block that made the state of a kind what it is at the end: of the commands that are the last ones on some
+    /// way, the latest that leads to it, or away from the start-up state where ways differ.
+    pub(super) fn made(
+        &self,
+        ended: &Ended<'_>,
+        (axis, kind): (AxisIndex, Kind),
+        start_up: &Compensation,
+    ) -> Option<Arc<BlockSite>> {
+        let last = self.axis(axis).kind(kind).last.as_ref();
+        let command = command_to(ended, (axis, kind), start_up);
+        command.or_else(|| last.map(|(_, site)| Arc::clone(site)))
     }
 
     /// The states that no command made unknown, but what this block contains.

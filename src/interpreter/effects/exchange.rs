@@ -125,6 +125,7 @@ impl Interpreter {
         let control = &mut self.state.control;
         control.possible.replace(axis, kinds);
         control.untouched.switch(axis, kinds);
+        control.last_commands.forget(axis, kinds);
         let changes = &mut self.scratch.changes;
         control
             .compensation

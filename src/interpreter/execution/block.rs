@@ -10,6 +10,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::block_scratch::OwnEnd;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::last_commands::LastCommand;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::path::Last;
@@ -114,6 +115,9 @@ impl Interpreter {
             self.perhaps_execute(level, at, &mut outcome);
         } else if !self.is_halted() {
             self.items(at, &mut outcome, limit);
+        }
+        if !self.scratch.outcomes.is_empty() {
+            self.remember_commands(at);
         }
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
@@ -295,6 +299,20 @@ impl Interpreter {
             return self.repetition(step, moved, at, finder);
         }
         step
+    }
+
+    /// The commands of the block are the last ones on the way, each at the place where it is written or used as a macro.
+    fn remember_commands(&mut self, at: &BlockContext<'_>) {
+        for outcome in &self.scratch.outcomes {
+            if let Ok(axis) = outcome.result {
+                let last = LastCommand {
+                    seq: self.state.seq,
+                    place: at.place(outcome.command.span),
+                };
+                let commands = &mut self.state.control.last_commands;
+                commands.switch(axis, outcome.command.selection, &last);
+            }
+        }
     }
 
     /// Whether a jump of the running program may go to the block.

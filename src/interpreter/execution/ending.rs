@@ -116,6 +116,7 @@ impl Interpreter {
             endless: std::mem::take(&mut self.scratch.endless),
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
+            last_commands: &self.state.control.last_commands,
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,

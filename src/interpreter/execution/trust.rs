@@ -97,6 +97,8 @@ impl<'a> Trust<'a> {
             "positions of other axes",
         )?;
         holds(control.couplings.fits(axes), "a coupling of other axes")?;
+        let commands = control.last_commands.fits(axes);
+        holds(commands, "a command on another axis")?;
         holds(control.channel_axes.fits(axes), "a name of another axis")
     }
 

@@ -10,6 +10,7 @@ use super::coupling::Couplings;
 use super::cycles::ModalCycles;
 use super::description::Description;
 use super::event::EndedBy;
+use super::last_commands::LastCommands;
 use super::possible::{self, PossibleKinds};
 use super::stack::CallStack;
 use super::untouched::Untouched;
@@ -30,6 +31,8 @@ pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) possible: PossibleKinds,
     /// Kinds that are as the program found them.
     pub(in crate::interpreter) untouched: Untouched,
+    /// The last commands on kinds, on each way that leads here.
+    pub(in crate::interpreter) last_commands: LastCommands,
     pub(in crate::interpreter) memory: Memory,
     pub(in crate::interpreter) modal: Modal,
     pub(in crate::interpreter) frames: CallStack,
@@ -55,6 +58,7 @@ impl ControlState {
             compensation,
             possible: PossibleKinds::default(),
             untouched: Untouched::default(),
+            last_commands: LastCommands::default(),
             memory: Memory::default(),
             modal,
             frames: CallStack::default(),
@@ -80,6 +84,7 @@ impl ControlState {
             compensation,
             possible,
             untouched,
+            last_commands,
             memory,
             modal,
             frames,
@@ -104,6 +109,7 @@ impl ControlState {
         };
         (self.compensation, self.possible) = possible::join(&mine, &theirs);
         self.untouched.join(untouched, reach);
+        self.last_commands.join(last_commands);
         let differing = self.memory.join(memory, cause);
         self.modal.join(modal);
         self.frames.join(frames, cause);
@@ -151,6 +157,7 @@ impl ControlState {
             compensation,
             possible,
             untouched,
+            last_commands,
             memory,
             modal,
             frames,
@@ -167,6 +174,7 @@ impl ControlState {
             && *compensation == other.compensation
             && *possible == other.possible
             && *untouched == other.untouched
+            && *last_commands == other.last_commands
             && *couplings == other.couplings
             && *cycles == other.cycles
             && *refused == other.refused

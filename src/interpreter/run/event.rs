@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::last_commands::LastCommands;
 use super::possible_state::PossibleStates;
 use super::untouched::FoundStates;
 use super::way_condition::WayCondition;
@@ -242,6 +243,8 @@ pub struct Ended<'a> {
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
+    /// The last commands on each way that ends.
+    pub(crate) last_commands: &'a LastCommands,
     /// Changes by the program end itself.
     pub changes: &'a [Change],
     /// Messages on the program that belong to no executed block.

@@ -69,6 +69,7 @@ impl Interpreter {
                 control.compensation = before.compensation;
                 control.possible = before.possible;
                 control.untouched = before.untouched;
+                control.last_commands.clear();
                 self.version += 1;
             }
             None => self.search_either_way(&before, at),

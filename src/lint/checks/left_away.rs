@@ -5,7 +5,7 @@ use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
 use crate::lint::linter::{EndNote, LeftAway, Linter};
-use crate::lint::memory::{BlockSite, KindEffect, MovedBefore};
+use crate::lint::memory::{BlockSite, KindEffect, MovedBefore, command_to};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
@@ -26,24 +26,25 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                 KindEffect::Lost => false,
             };
             let last = did.last.as_ref().filter(|(deed, _)| is_told(*deed));
-            // It was brought back, but the program may end before that.
-            let is_on = linter.history.start_up(axis, kind) != State::Inactive;
-            let passed = did.switched[usize::from(!is_on)].as_ref();
-            let is_lost = matches!(did.last, Some((KindEffect::Lost, _)));
-            let passed = passed.filter(|_| end == State::Unknown && !is_lost);
-            let passed = passed.filter(|_| has_other_ends(ended));
             let possible = ended.possible.iter();
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();
             // Where ways differ, the command counts that leads away on some of them.
+            let command = command_to(ended, (axis, kind), &linter.history.start_up);
+            let is_on = linter.history.start_up(axis, kind) != State::Inactive;
+            let switched = did.switched[usize::from(!is_on)].as_ref();
+            let away = command.as_ref().filter(|_| end == State::Unknown);
+            let away = away.or(switched);
+            // It was brought back, but the program may end before that.
+            let is_lost = matches!(did.last, Some((KindEffect::Lost, _)));
+            let passed = away.filter(|_| end == State::Unknown && !is_lost);
+            let passed = passed.filter(|_| has_other_ends(ended));
             // FC902 has said what only a call decides.
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
-            let parted = parted.and_then(|_| {
-                let [off, on] = &did.switched;
-                if is_on { off.as_ref() } else { on.as_ref() }
-            });
-            let passed = passed.or(parted);
-            if let Some(site) = passed.or(last.map(|(_, site)| site)) {
+            let parted = parted.and(away);
+            let known = command.as_ref().filter(|_| end != State::Unknown);
+            let site = passed.or(parted).or(known);
+            if let Some(site) = site.or(last.map(|(_, site)| site)) {
                 let subject = LeftAwayKind {
                     linter,
                     axis,
@@ -54,10 +55,11 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                     ended,
                 };
                 let moved_before = did.moved_before.as_ref().filter(|_| did.is_commanded);
-                let diagnostic = match moved_before {
+                let what = moved_before.and_then(|moved| subject.what_is_left(moved, site));
+                let diagnostic = match (moved_before, what) {
+                    (Some(moved), Some(what)) => subject.second_run_differs(site, moved, &what),
                     _ if end == State::Unknown => subject.may_be_left(site),
-                    Some(moved) => subject.second_run_differs(site, moved),
-                    None => subject.left_changed(site),
+                    _ => subject.left_changed(site),
                 };
                 let note = EndNote {
                     seq: site.seq,
@@ -99,11 +101,7 @@ impl LeftAwayKind<'_> {
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!(
-                "restore it before {}: `{}`",
-                self.place_of_end(&site.place),
-                self.way_home()
-            ))
+            .with_help(self.restore(&site.place))
     }
 
     /// Says that a value that only the machine knows may leave a selection away as well.
@@ -128,33 +126,41 @@ impl LeftAwayKind<'_> {
         );
         let mut diagnostic = Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!(
-                "restore it before {}: `{}`",
-                self.place_of_end(&site.place),
-                self.way_home()
-            ));
+            .with_help(self.restore(&site.place));
         if self.needs_change() {
             diagnostic.lower(Severity::Info);
         }
         diagnostic
     }
 
-    fn second_run_differs(&self, site: &BlockSite, moved: &MovedBefore) -> Diagnostic {
+    /// The state that a command leaves after a motion, with the ways on which it does; `None` where that is not
+    /// known, or where the two need not come together.
+    fn what_is_left(&self, moved: &MovedBefore, site: &BlockSite) -> Option<String> {
+        if self.end != State::Unknown {
+            return Some(self.end.as_str().to_owned());
+        }
+        if !moved.ways.is_empty() || self.needs_change() {
+            return None;
+        }
+        let file = &site.place.file;
+        let (_, away) = self.state_away()?;
+        Some(format!("{} {}", away.as_str(), self.ways_away(file)?))
+    }
+
+    fn second_run_differs(&self, site: &BlockSite, moved: &MovedBefore, what: &str) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let place = &site.place;
         let message = format!(
             "the second run differs from the first: {} moves axis `{name}` before the program sets \
-             `{keyword}`, and line {} leaves it {}",
+             `{keyword}`, and line {} leaves it {what}",
             moved.site.seen_from(&place.file),
             place.start().line,
-            self.end.as_str()
         );
         let mut diagnostic = Diagnostic::new(Code::Fc407, place.clone(), message)
             .with_axis(name)
             .with_help(format!(
-                "set it before the first motion, and restore it before {}: `{}`",
-                self.place_of_end(place),
-                self.way_home()
+                "set it before the first motion, and {}",
+                self.restore(place)
             ))
             .with_label(moved.site.place.clone(), "the axis moves here first");
         if !moved.ways.is_empty() {
@@ -208,6 +214,15 @@ impl LeftAwayKind<'_> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let ends = self.ended.ends.iter();
         ends.filter(move |end| end.compensation.state(self.axis, self.kind) != start_up)
+    }
+
+    /// What to do about it, as seen from a file. Nothing comes after a loop that only a reset ends.
+    fn restore(&self, site: &Place) -> String {
+        let command = self.way_home();
+        if self.ended.endless {
+            return format!("restore it in the loop, which only a reset ends: `{command}`");
+        }
+        format!("restore it before {}: `{command}`", self.place_of_end(site))
     }
 
     /// The ends as a message names them that stands in a file.

@@ -218,3 +218,43 @@ fn an_allow_comment_that_stands_above_no_block_is_said() {
         .said("; frictcomp: hall 2\n\nX1\nM30\n");
     assert!(!other.contains("FC49"), "{other}");
 }
+
+#[test]
+fn the_command_is_named_that_leaves_a_state_on_the_way_that_has_it() {
+    // R1.50 R1.53 R14.5: the way through line 4 ends with what the control starts with.
+    let program = "X[COMP OFF FRICT]\n$IF V.E.A == 1\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n\
+                   $ELSE\nX10\n$ENDIF\nM30";
+    let left = said(&[program]);
+    assert!(
+        left.contains("FC401 1:1 `FRICT` of axis `X` is left inactive"),
+        "{left}"
+    );
+    // The other way ends before, on or off.
+    let program = "X[COMP OFF FRICT]\n$IF V.E.A == 1\nX[COMP ON FRICT]\n$IF V.E.B == 1\nX[COMP OFF FRICT]\n\
+                   M30\n$ENDIF\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    let left = said(&[program, "X1\nM30"]);
+    assert!(
+        left.contains("FC401 8:1 `FRICT` of axis `X` is left inactive after"),
+        "{left}"
+    );
+    assert!(
+        left.contains("left so by `X[COMP OFF FRICT]` at a.nc:8"),
+        "{left}"
+    );
+    let program = "X1\n$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    let second = "FC407 3:1 the second run differs from the first: line 1 moves axis `X` before the program sets \
+                  `FRICT`, and line 3 leaves it inactive if V.E.A == 1 (line 2)";
+    let left = said(&[program]);
+    assert!(left.contains(second), "{left}");
+}
+
+#[test]
+fn what_a_loop_without_an_end_leaves_is_restored_in_it() {
+    // R1.50
+    let left = said(&["X[COMP OFF FRICT]\n$WHILE 1\nG4 1\n$ENDWHILE\nM30"]);
+    let advice = "help: restore it in the loop, which only a reset ends: `X[COMP ON FRICT]`";
+    assert!(
+        left.contains(advice) && !left.contains("before M30"),
+        "{left}"
+    );
+}

@@ -75,8 +75,24 @@ fn ends_of_programs() {
     a.nc -
       1 line 1 -
       2 line 2 -
+        FC310 2:1-4
       end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
+    // A subprogram that runs by itself ends as it should.
+    for sub in [
+        "X1\nM17",
+        "M17\nX2",
+        "%L S\nM17\n%MAIN\nX1\nM17\n%OTHER\nM30",
+    ] {
+        assert!(!bench.run(&[sub]).contains("FC310"), "{sub}");
+    }
+    assert!(
+        bench
+            .run(&["M17\nX[COMP OFF FRICT]\nM30"])
+            .contains("FC310 1:1-4")
+    );
+    let on_a_way = bench.run(&["$IF V.E.A\nM29\n$ENDIF\nM30"]);
+    assert!(on_a_way.contains("FC310 2:1-4"), "{on_a_way}");
     assert_snapshot!(bench.run(&["M30\nX[COMP OFF FRICT"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -

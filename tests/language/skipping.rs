@@ -498,3 +498,20 @@ fn trying_blocks_that_are_passed_over_changes_nothing() {
     let passed = left(&Bench::new().check_all().passing_branches(), &program);
     assert_eq!((x, y), (passed.0, passed.1), "{said}\n{}", passed.2);
 }
+
+#[test]
+fn a_level_that_does_not_exist_skips_nothing() {
+    // R2.3: whatever switches are on.
+    for mark in ["/11", "/0", "/12", "/100", "/ 11", "/01"] {
+        let program = format!("{mark} N10 X[COMP OFF FRICT]\nM30");
+        for bench in [
+            Bench::new().skip("all"),
+            Bench::new().skip("none"),
+            Bench::new(),
+        ] {
+            let said = bench.said(&program);
+            assert_eq!(count(&said, "FC207"), 1, "{mark}: {said}");
+            assert!(said.contains("there is no skip level"), "{mark}: {said}");
+        }
+    }
+}

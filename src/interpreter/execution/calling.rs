@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::programs::call_sites::holds_program_end;
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::{CallFrame, Retains};
@@ -12,6 +13,26 @@ use crate::interpreter::run::step::{ControlStep, Destination, Request};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
+    /// Whether M30 or M02 stands in the running program after its last block; not known where lines are read one by
+    /// one.
+    fn holds_end_after(&self) -> bool {
+        let Some(frame) = self.state.control.frames.running() else {
+            return false;
+        };
+        let index = self.programs.index(frame.unit);
+        let end = index.sections.get(frame.section).map(|section| section.end);
+        let offset = |entry: EntryIndex| {
+            let entry = index
+                .entries
+                .get(usize::try_from(entry).unwrap_or(usize::MAX))?;
+            usize::try_from(entry.offset).ok()
+        };
+        let text = index.source.text();
+        let to = end.and_then(offset).unwrap_or(text.len());
+        let rest = offset(frame.next).and_then(|from| text.get(from..to));
+        rest.is_some_and(holds_program_end)
+    }
+
     pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
         let ProgramId { unit, section } = request.found;
         let level = self.state.control.frames.level() + 1;
@@ -177,8 +198,10 @@ impl Interpreter {
             ControlStep::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
-                    // A subprogram run by itself ends as it should.
-                    self.state.last = None;
+                    // A subprogram run by itself ends as it should; one that holds M30 is a main program.
+                    if !self.holds_end_after() {
+                        self.state.last = None;
+                    }
                     return ControlFlow::Break(EndedBy::EndOfFile);
                 }
             },

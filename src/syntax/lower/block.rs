@@ -10,6 +10,7 @@ use crate::syntax::brackets::{Brackets, brackets};
 use crate::syntax::expression;
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule, gave_up};
+use crate::syntax::skip_levels::SkipLevels;
 use crate::text::Span;
 
 /// Parses the code of a block into an empty block.
@@ -80,17 +81,28 @@ fn too_much_to_read(span: Span) -> Fault {
 }
 
 impl BlockLowering<'_> {
+    /// A skip mark with a level that does not exist skips nothing: it is a mistake whatever switches are on (R2.3).
+    fn skip_mark(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let level = pair.into_inner().next();
+        let named = level.map_or("1", |level| level.as_str());
+        let level = (1..=SkipLevels::HIGHEST).find(|level| level.to_string() == named);
+        self.block.skip = level;
+        if level.is_none() {
+            let highest = SkipLevels::HIGHEST;
+            let message = format!("there is no skip level `{named}`");
+            let fault = Fault::new(Code::Fc207, span, message)
+                .with_help(format!("skip levels are `/1` to `/{highest}`"));
+            self.refuse(fault, span);
+        }
+    }
+
     fn part(&mut self, pair: Pair<'_, Rule>) {
         if !matches!(pair.as_rule(), Rule::unknown | Rule::bare_word) {
             self.flush_unknown();
         }
         let span = trimmed(span_of(&pair), self.code);
         match pair.as_rule() {
-            Rule::skip => {
-                let level = pair.into_inner().next();
-                self.block.skip =
-                    Some(level.map_or(1, |level| level.as_str().parse().unwrap_or(1)));
-            }
+            Rule::skip => self.skip_mark(pair, span),
             Rule::number => self.number(pair, span),
             Rule::flow => self.flow(pair, span),
             Rule::hash => self.hash(span),

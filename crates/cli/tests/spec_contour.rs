@@ -451,3 +451,13 @@ fn a_long_program_makes_no_larger_picture() {
     let (short, long) = (size(8), size(16));
     assert!(long < short * 3 / 2, "{short} {long}");
 }
+
+#[test]
+fn a_program_that_drives_no_path_has_no_figures() {
+    // R11.3
+    let bench = bench("X[COMP OFF FRICT]\nM30\n");
+    let output = bench.call(&["contour", "part.nc", "--plant", "mid"]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("no path was driven while cutting"), "{text}");
+    assert!(!text.contains("µm"), "{text}");
+}

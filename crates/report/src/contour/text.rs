@@ -59,8 +59,12 @@ pub fn render_text(
     if !obstacles.is_empty() {
         out.push('\n');
     }
-    push_figures(&mut out, contour);
-    push_due(&mut out, contour);
+    if contour.deviations().programmed.max_at().is_some() {
+        push_figures(&mut out, contour);
+        push_due(&mut out, contour);
+    } else {
+        out.push_str("no path was driven while cutting: there are no deviations to tell\n");
+    }
     for line in contour_remarks(contour) {
         let _ = writeln!(out, "{line}");
     }

@@ -35,5 +35,3 @@ pub use mending::{Affected, Mended, Missed, WhyMissed, mend};
 pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
 pub use scope::{AuditedKind, Scope, Selected};
 pub use sequence::{Sequence, Step, StepAxis};
-
-pub use crate::interpreter::FoundVariables;

@@ -429,6 +429,7 @@ sent! {
     interpreter::EndedBy,
     interpreter::Event<'_>,
     interpreter::Executed<'_>,
+    interpreter::FoundVariables,
     interpreter::GFunctions,
     interpreter::Group,
     interpreter::Interpreter,

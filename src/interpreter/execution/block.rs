@@ -116,9 +116,7 @@ impl Interpreter {
         } else if !self.is_halted() {
             self.items(at, &mut outcome, limit);
         }
-        if !self.scratch.outcomes.is_empty() {
-            self.remember_commands(at);
-        }
+        self.remember_commands(at);
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
         let calls = self.take_calls(&mut outcome, at, finder);

@@ -30,9 +30,9 @@ impl FoundVariables {
 
     /// The part of it that concerns some names.
     pub(crate) fn of(&self, names: &BTreeSet<String>) -> Self {
-        let named = self.names.iter().filter(|(name, _)| names.contains(*name));
+        let asked = self.names.iter().filter(|(name, _)| names.contains(*name));
         Self {
-            names: named
+            names: asked
                 .map(|(name, value)| (name.clone(), value.clone()))
                 .collect(),
             anything: self.anything && !names.is_empty(),

@@ -114,9 +114,8 @@ impl Interpreter {
         if let Some(level) = undecided {
             self.perhaps_execute(level, at, &mut outcome);
         } else if !self.is_halted() {
-            self.items(at, &mut outcome, limit);
+            self.remembered_items(at, &mut outcome, limit);
         }
-        self.remember_commands(at);
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
         let calls = self.take_calls(&mut outcome, at, finder);
@@ -299,8 +298,14 @@ impl Interpreter {
         step
     }
 
-    /// The commands of the block are the last ones on the way, each at the place where it is written or used as a macro.
-    fn remember_commands(&mut self, at: &BlockContext<'_>) {
+    /// Executes the items of a block. Its commands are the last ones on the way then, each at the place where it is written or used as a macro.
+    fn remembered_items(
+        &mut self,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+        limit: Option<u32>,
+    ) {
+        self.items(at, outcome, limit);
         for outcome in &self.scratch.outcomes {
             if let Ok(axis) = outcome.result {
                 let last = LastCommand {

@@ -16,12 +16,14 @@ pub(crate) enum Touches {
     Axes,
     /// It moves axes to places that are not followed.
     Motion,
+    /// It moves the axes of the plane to places that are not followed.
+    Plane,
     /// Friction compensation of the axes that it names, of all where it names none, in a way that no
     /// public page describes (R2.93).
     Friction,
 }
 
-use Touches::{Axes, Friction, Motion, Nothing, Values};
+use Touches::{Axes, Friction, Motion, Nothing, Plane, Values};
 
 /// PM, appendix, overview of additional functions.
 const APPENDIX: &str = "PM/5252011631026770315";
@@ -42,7 +44,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#AKIMA ENDVECTOR", Nothing, APPENDIX),
     ("#AKIMA STARTVECTOR", Nothing, APPENDIX),
     ("#AKIMA TRANS", Nothing, APPENDIX),
-    ("#ANG", Nothing, APPENDIX),
+    ("#ANG", Plane, "PM/206123787"),
     ("#ASPLINE", Nothing, EDITOR),
     ("#AX DEF", Axes, APPENDIX),
     ("#AX LINK", Nothing, APPENDIX),
@@ -244,6 +246,10 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
 /// Returns the effect of a `#` command; `None` where no row names it. The name has its words in upper case
 /// with one blank between them; a row holds for its continuations.
 pub(crate) fn hash_command(name: &str) -> Option<Touches> {
+    row_of(name).map(|(_, touches)| touches)
+}
+
+fn row_of(name: &str) -> Option<(&'static str, Touches)> {
     let begins = |words: &str| {
         name.strip_prefix(words)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
@@ -251,7 +257,98 @@ pub(crate) fn hash_command(name: &str) -> Option<Touches> {
     let rows = HASH_COMMANDS.iter();
     let row = rows.filter(|(words, ..)| begins(words));
     row.max_by_key(|(words, ..)| words.len())
-        .map(|(_, touches, _)| *touches)
+        .map(|(words, touches, _)| (*words, *touches))
+}
+
+/// Words that go on the name of a `#` command or stand behind its bracket, `#MSG SAVE EXCLUSIVE […]`,
+/// `#SET AX […] FAST` (PM, chapters of the commands).
+const FURTHER_WORDS: [&str; 62] = [
+    "ABS",
+    "ACK",
+    "ACT",
+    "ADAPT",
+    "ADD",
+    "AKIMA",
+    "ALL",
+    "AUTO",
+    "BEGIN",
+    "BSPLINE",
+    "CLEAR",
+    "CONTINUE",
+    "CTRL",
+    "DEF",
+    "DEFAULT",
+    "DEL",
+    "DELAY",
+    "DELETE",
+    "DISABLE",
+    "ENABLE",
+    "END",
+    "EX",
+    "EXCLUSIVE",
+    "FAST",
+    "FEED",
+    "FREEZE",
+    "GET",
+    "HMI",
+    "IDX",
+    "IN",
+    "INFO",
+    "INIT",
+    "LATERAL",
+    "LOAD",
+    "MODE",
+    "NAM",
+    "NBR",
+    "OFF",
+    "OFFSETS",
+    "ON",
+    "ORI",
+    "OUT",
+    "PCS",
+    "PROFILE",
+    "READ",
+    "REL",
+    "REMOVE",
+    "RESET",
+    "ROT",
+    "SAVE",
+    "SELECT",
+    "SET",
+    "START",
+    "STOP",
+    "SYN",
+    "SYNC",
+    "TOOL",
+    "TYPE",
+    "UPDATE",
+    "WAIT",
+    "WAXIS",
+    "WRITE",
+];
+
+/// Commands that take coordinates without a bracket, `#PSET X10 Y20`.
+const WITH_COORDINATES: [&str; 3] = ["#PRESET", "#PSET", "#SHIFT"];
+
+/// Whether a word goes on the name of a `#` command or stands behind its bracket.
+pub(super) fn is_further_word(word: &str) -> bool {
+    FURTHER_WORDS
+        .iter()
+        .any(|known| known.eq_ignore_ascii_case(word))
+}
+
+/// Whether a `#` command takes coordinates without a bracket.
+pub(super) fn takes_coordinates(name: &str) -> bool {
+    WITH_COORDINATES.contains(&name)
+}
+
+/// Returns how many words of a name belong to a `#` command that is known; 0 where none is.
+pub(super) fn command_words(name: &str) -> usize {
+    let Some((row, _)) = row_of(name) else {
+        return 0;
+    };
+    let further = name[row.len()..].split_ascii_whitespace();
+    row.split(' ').count() + further.take_while(|word| is_further_word(word)).count()
 }
 
 /// Whether a name is that of a `#` command that is known.

@@ -6,7 +6,7 @@
 use super::allow::MARK;
 use super::ast::Block;
 use super::fault::Fault;
-use super::hash_words::hash_word;
+use super::hash_words::opening_command;
 use super::mask::{Masked, mask, mask_number};
 use super::pieces::is_blank;
 use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
@@ -40,6 +40,8 @@ pub struct BlockReader<S> {
     fast_path: FastPath,
     /// The number of the line that `source` stands on.
     line: u32,
+    /// Number and offset of the first line of the block that is read.
+    start: (u32, usize),
     text: String,
     /// The code of the last block that was not parsed by hand.
     pub(super) code: String,
@@ -53,6 +55,7 @@ impl<S: LineSource> BlockReader<S> {
             source,
             fast_path,
             line: first_line - 1,
+            start: (first_line, 0),
             text: String::new(),
             code: String::new(),
             remarks: LatestRemarks::default(),
@@ -100,9 +103,9 @@ impl<S: LineSource> BlockReader<S> {
                 return None;
             }
             self.line += 1;
-            let (line, offset) = (self.line, self.source.line().offset);
             let stretch = self.slow(block);
             if let Some(stretch) = stretch {
+                let (line, offset) = self.start;
                 return Some(RawBlock {
                     stretch,
                     text: &self.text,
@@ -124,10 +127,8 @@ impl<S: LineSource> BlockReader<S> {
 
     /// Reads the line that the source stands on, and those that belong to it.
     fn slow(&mut self, block: &mut Block) -> Option<Stretch> {
-        self.text.clear();
-        self.code.clear();
         let cut = self.source.line().cut;
-        let masked = self.take_line();
+        let masked = self.begin_block();
         let start = self.code.trim_ascii_start();
         if start.is_empty() {
             if self.text.contains(MARK) {
@@ -153,16 +154,14 @@ impl<S: LineSource> BlockReader<S> {
                 return None;
             }
         }
-        match hash_word(&self.code) {
-            Some(word) if word == "#COMMENT BEGIN" => {
-                self.skip_comment_region();
-                return None;
+        if let Some(opening) = opening_command(&self.code) {
+            let is_alone = opening.is_alone();
+            match opening.name.as_str() {
+                "#COMMENT BEGIN" if self.skip_comment_region(is_alone) => return None,
+                "#VAR" => self.take_region("#ENDVAR", block),
+                "#RT CYCLE" | "#RT CYCLE DEF" => self.take_region("#RT CYCLE END", block),
+                _ => {}
             }
-            Some(word) if word == "#VAR" => self.take_region("#ENDVAR", block),
-            Some(word) if word == "#RT CYCLE" || word == "#RT CYCLE DEF" => {
-                self.take_region("#RT CYCLE END", block);
-            }
-            _ => {}
         }
         if cut || (self.text.len() > MAX_LINE && self.text.lines().any(too_long)) {
             block.faults.push(
@@ -183,6 +182,14 @@ impl<S: LineSource> BlockReader<S> {
         block.faults.sort_by_key(|fault| fault.span.start);
         cap_faults(&mut block.faults);
         Some(Stretch::Block)
+    }
+
+    /// Takes the source's line as the first one of a block.
+    fn begin_block(&mut self) -> Masked {
+        self.text.clear();
+        self.code.clear();
+        self.start = (self.line, self.source.line().offset);
+        self.take_line()
     }
 
     /// Appends the source's line to text and code, without trailing blanks.
@@ -243,17 +250,26 @@ impl<S: LineSource> BlockReader<S> {
         false
     }
 
-    fn skip_comment_region(&mut self) {
+    /// Passes over a comment region, whose opener is the block that is read; whether opener and end stand
+    /// alone (R2.6). Where the end does not, it is the block from here on.
+    fn skip_comment_region(&mut self, opener_is_alone: bool) -> bool {
+        let mut code = String::new();
         while self.source.advance() {
             self.line += 1;
-            self.code.clear();
+            code.clear();
             let line = trimmed(self.source.line().text);
             self.remarks.look_at(line, self.line);
-            mask(line, &mut self.code);
-            if hash_word(&self.code).is_some_and(|word| word == "#COMMENT END") {
-                return;
+            mask(line, &mut code);
+            let opening = opening_command(&code);
+            if let Some(end) = opening.filter(|it| it.name == "#COMMENT END") {
+                if opener_is_alone && !end.is_alone() {
+                    self.begin_block();
+                    return false;
+                }
+                break;
             }
         }
+        opener_is_alone
     }
 
     /// Appends lines up to the one that ends a region of declarations.
@@ -272,11 +288,11 @@ impl<S: LineSource> BlockReader<S> {
             self.code.push(if continued { ' ' } else { '\n' });
             let from = self.code.len();
             continued = self.take_line().continues;
-            if hash_word(&self.code[from..]).is_some_and(|word| word == end) {
+            if ends(&self.code[from..], end) {
                 return;
             }
         }
-        let is_end = |code: &str, _| hash_word(code).is_some_and(|word| word == end);
+        let is_end = |code: &str, _| ends(code, end);
         let name = opener.of(&self.text).trim().to_owned();
         block.faults.push(if is_whole && self.pass_over(is_end) {
             self.code.clear();
@@ -291,6 +307,11 @@ impl<S: LineSource> BlockReader<S> {
                 .with_help(format!("write `{end}` in a block of its own"))
         });
     }
+}
+
+/// Whether a line begins with the command that ends a region.
+fn ends(code: &str, end: &str) -> bool {
+    opening_command(code).is_some_and(|command| command.name == end)
 }
 
 /// FC102: characters that change the order in which a line is shown (R9.94).

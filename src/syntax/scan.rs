@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::ast::{Block, CallScope, Item};
 use super::axes::{AxisUse, MAX_MACROS, own_uses, uses_of, with_macros};
-use super::hash_words::hash_word;
+use super::hash_words::opening_command;
 use super::mask::mask;
 use super::parse::parse_block;
 
@@ -80,7 +80,8 @@ impl<Q: ScanQuestion> Scan<Q> {
         let line = String::from_utf8_lossy(line);
         let mut code = String::new();
         let masked = mask(&line, &mut code);
-        match hash_word(&code).as_deref() {
+        let opening = opening_command(&code);
+        match opening.as_ref().map(|command| command.name.as_str()) {
             Some("#COMMENT BEGIN") => self.is_comment = true,
             Some("#COMMENT END") => self.is_comment = false,
             _ => {}

@@ -291,15 +291,17 @@ fn macros() {
         FC405 4:5-11
       5 line 5 N30
         FC207 5:5-11
-      6 line 6 N40 X:active>unknown Y:inactive>unknown B:ineffective>unknown
-        FC902 6:5-12
+      6 line 6 N40
+        FC312 6:5-12
       7 line 7 -
       8 line 8 N50
+        FC312 8:13-19
       9 line 9 N60
       10 line 10 N70
         FC207 10:5-10
       11 line 11 -
-      end 11 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+        FC401 4:5-11
+      end 11 M30 X:active Y:inactive Z:unconfigured B:ineffective
     ");
     assert_snapshot!(Bench::new().run(&["\"A\" = \"X[COMP OFF FRICT]\"\nM30", "\"A\"\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective

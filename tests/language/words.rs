@@ -404,7 +404,6 @@ fn couplings() {
       4 line 4 -
         FC401 1:1-18
       end 4 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
-    opaque {"#ENABLE AX LINK": 1}
     "##);
 }
 

@@ -139,23 +139,36 @@ impl Interpreter {
         axes.map(|(position, _)| AxisIndex::new(position)).collect()
     }
 
+    /// X, Y and Z, as far as the machine has them.
+    fn main_axes(&self) -> Vec<AxisIndex> {
+        let letters = [b'X', b'Y', b'Z'].map(|it| self.letter_axis(it));
+        letters.into_iter().flatten().collect()
+    }
+
+    /// The axes of the active plane; all main axes where it is not known.
+    pub(in crate::interpreter) fn plane_axes(&self) -> Vec<AxisIndex> {
+        match [self.main_axis(b'X'), self.main_axis(b'Y')] {
+            [Some(first), Some(second)] => vec![first, second],
+            _ => self.main_axes(),
+        }
+    }
+
     /// The axes of a frame, and whether each moves for sure with another of them.
     fn frame(&self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
         let row = moving::of_command(name)?;
-        let main = || {
-            let letters = [b'X', b'Y', b'Z'].map(|it| self.letters[usize::from(it - b'A')]);
-            letters.into_iter().flatten().collect()
-        };
-        let plane = || [self.main_axis(b'X'), self.main_axis(b'Y')];
         Some(match row.moves {
-            Moves::Plane => match plane() {
-                [Some(first), Some(second)] if self.state.control.is_skewed() => {
-                    (vec![first, second], row.certainty)
-                }
-                [Some(first), Some(second)] => (vec![first, second], Certainty::Possible),
-                _ => (main(), Certainty::Possible),
-            },
-            Moves::Main => (main(), row.certainty),
+            Moves::Plane => {
+                let axes = self.plane_axes();
+                let is_known = [b'X', b'Y'].iter().all(|it| self.main_axis(*it).is_some());
+                let is_sure = is_known && self.state.control.is_skewed();
+                let certainty = if is_sure {
+                    row.certainty
+                } else {
+                    Certainty::Possible
+                };
+                (axes, certainty)
+            }
+            Moves::Main => (self.main_axes(), row.certainty),
             Moves::Channel => (self.path_axes(), row.certainty),
             _ => return None,
         })

@@ -19,12 +19,8 @@ impl Interpreter {
         let before = self.scratch.changes.len();
         let axis = match self.state.control.addressed(&command.axis) {
             Ok(Addressed::Axis(axis)) => Ok(axis),
-            Ok(Addressed::Absent(Some(axis))) => {
-                return self.havoc(axis, command.selection.kinds());
-            }
-            Ok(Addressed::Any | Addressed::Absent(None)) => {
-                return self.havoc_any_axis(command.selection.kinds());
-            }
+            Ok(Addressed::Absent(axis)) => return self.switch_released(command, axis, at),
+            Ok(Addressed::Any) => return self.havoc_any_axis(command.selection.kinds()),
             Err(error) => Err(error),
         };
         let result = axis.and_then(|axis| {
@@ -60,6 +56,29 @@ impl Interpreter {
             result,
             changes: self.scratch.changes.len() - before,
         });
+    }
+
+    /// FC902: a command to an axis that the program gave away, which the control may refuse (R2.70).
+    fn switch_released(
+        &mut self,
+        command: &CompCommand,
+        axis: Option<AxisIndex>,
+        at: &BlockContext<'_>,
+    ) {
+        let kinds = command.selection.kinds();
+        match axis {
+            Some(axis) => self.havoc(axis, kinds),
+            None => self.havoc_any_axis(kinds),
+        }
+        let name = &command.axis;
+        let message = format!(
+            "the program has given axis `{name}` away, so that the control may refuse this command; what it switches \
+             is unknown"
+        );
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help("request the axis first, with `#CALL AX` or `#AX REQUEST`");
+        let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        self.scratch.diagnostics.push(diagnostic);
     }
 
     /// The refusal of a command that the selected readings say the control does not take (R1.8, R1.25,

@@ -4,6 +4,7 @@ use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
+use crate::interpreter::coordinates::geometry::foreign_command;
 use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::effects::machine_data::{WriteTarget, enables, is_machine_data, written};
@@ -43,7 +44,7 @@ impl Interpreter {
                 outcome.axis_words = AxisWords::Other;
                 self.scratch.dwells = true;
                 if let Some(&time) = hash.arguments.first() {
-                    let seconds = self.value(time, at)?.number();
+                    let seconds = self.number(time, hash.span, at)?;
                     self.scratch.geometry().dwell = Some(seconds);
                 }
             }
@@ -57,7 +58,7 @@ impl Interpreter {
                 self.define_coupling(rest, axes, at);
             }
             // PM/207133579
-            "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling(rest, hash.span, at),
+            "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling(rest, at),
             "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
             "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
             "#DISABLE MODAL CYCLE" => self.state.control.cycles = ModalCycles::default(),
@@ -86,6 +87,9 @@ impl Interpreter {
                 self.rotate(name, rest, at);
                 self.couple_by(name, rest);
                 self.command_motion(name, rest, hash.span);
+                if let Some(reason) = foreign_command(name) {
+                    self.scratch.geometry().foreign = Some(reason);
+                }
                 self.pace_command(name, rest, at);
                 for target in &hash.written {
                     let place = self.target_place(target.place, at)?;
@@ -111,6 +115,12 @@ impl Interpreter {
             Some(Touches::Motion) => {
                 self.state.control.modal.havoc_positions();
                 self.perhaps_move_all();
+            }
+            Some(Touches::Plane) => {
+                for axis in self.plane_axes() {
+                    self.state.control.modal.havoc_position(axis);
+                    self.scratch.perhaps_move(axis);
+                }
             }
             Some(Touches::Friction) => {
                 for axis in self.axes_or_all(hash.rest.of(at.text)) {

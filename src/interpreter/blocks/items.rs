@@ -8,7 +8,6 @@ use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::BlockScratch;
-use crate::interpreter::run::hash_parts::point_after;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -159,9 +158,9 @@ impl Interpreter {
                 Ok(())
             }
             Item::BareNumber(operand, span) => {
-                let value = self.value(*operand, at)?;
+                let value = self.number(*operand, *span, at)?;
                 if outcome.axis_words != AxisWords::Motion {
-                    self.scratch.geometry().dwell = Some(value.number());
+                    self.scratch.geometry().dwell = Some(value);
                     return Ok(());
                 }
                 let found = span.of(at.text);
@@ -172,15 +171,7 @@ impl Interpreter {
                 )))
             }
             Item::Assign(assignment) => self.assign(*assignment, at),
-            Item::Hash(hash) => {
-                self.hash(hash, at, outcome)?;
-                if let Some(point) = point_after(hash, at) {
-                    let inner = at.rest(&point);
-                    self.items(&inner, outcome, None);
-                    self.take_faults(&inner, false);
-                }
-                Ok(())
-            }
+            Item::Hash(hash) => self.hash(hash, at, outcome),
             Item::MacroDefinition(name, code) => {
                 let (name, code) = (unquoted(name.of(at.text)), unquoted(code.of(at.text)));
                 self.state.control.memory.define_macro(name, code);
@@ -327,10 +318,10 @@ impl Interpreter {
         let number = at.block.number.as_ref()?;
         let value = match &number.value {
             Operand::Number(number) => return rounded(*number),
-            operand @ Operand::Expression(_) => self.value(*operand, at),
+            operand @ Operand::Expression(_) => self.number(*operand, number.span, at),
         };
         match value {
-            Ok(value) => value.number().and_then(rounded),
+            Ok(value) => value.and_then(rounded),
             Err(fault) => {
                 self.scratch.complain(*fault, at);
                 None

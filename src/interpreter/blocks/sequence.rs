@@ -12,6 +12,7 @@ use crate::interpreter::run::journal::RegionCall;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stack::CallFrame;
 use crate::interpreter::run::step::{AwaitedBlock, ControlStep, Destination};
+use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, CallScope, Operand, Return, ReturnLevels, SequenceCall};
@@ -47,7 +48,7 @@ impl Interpreter {
             None => Value::Number(1.0),
             Some(passes) => self.value(passes, at)?,
         };
-        let Some(passes) = passes.number().and_then(rounded) else {
+        let Some(passes) = numeric(&passes, span)?.and_then(rounded) else {
             let cause = match passes {
                 Value::Unknown(cause) => cause,
                 Value::Number(_) | Value::Text(_) => "REPEAT".into(),

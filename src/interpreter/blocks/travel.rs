@@ -176,7 +176,7 @@ impl Interpreter {
         let [Some(first), Some(second)] = letters else {
             return PathForm::Unknown("the active plane is not known");
         };
-        let axes = [first, second].map(|letter| self.letters[usize::from(letter - b'A')]);
+        let axes = [first, second].map(|letter| self.letter_axis(letter));
         let [Some(one), Some(two)] = axes else {
             return PathForm::Unknown("the machine lacks an axis of the plane");
         };

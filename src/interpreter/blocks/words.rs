@@ -53,9 +53,16 @@ impl Interpreter {
         let number = match &word.value {
             None => None,
             Some(Operand::Number(number)) => Some(*number),
-            Some(operand) => self.value(*operand, at)?.number(),
+            Some(operand) => self.number(*operand, word.span, at)?,
         };
+        let are_own = self.state.control.channel_axes.are_own();
         if let Address::Letter(letter @ b'A'..=b'Z') = word.address {
+            let name = char::from(letter);
+            if !are_own
+                && self.exchanged_word((name.encode_utf8(&mut [0; 4]), number), word.span, at)
+            {
+                return Ok(());
+            }
             if let Some(axis) = self.letters[usize::from(letter - b'A')] {
                 self.axis_word(axis, word.span, number);
                 return Ok(());
@@ -76,6 +83,10 @@ impl Interpreter {
         let name = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
+                let are_own = self.state.control.channel_axes.are_own();
+                if !are_own && self.exchanged_word((name, number), word.span, at) {
+                    return;
+                }
                 match self.names.get(name).copied() {
                     Some(axis) => self.axis_word(axis, word.span, number),
                     None if self.is_main_spindle(name) => {
@@ -101,7 +112,7 @@ impl Interpreter {
     /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
     fn lower_axis(&mut self, letter: u8, span: Span, at: &BlockContext<'_>) {
         let upper = letter.to_ascii_uppercase();
-        let axis = self.letters[usize::from(upper - b'A')];
+        let axis = self.letter_axis(upper);
         let mut fault = not_known(span.of(at.text), span);
         if let Some(axis) = axis {
             self.state.control.modal.havoc_position(axis);
@@ -169,8 +180,11 @@ impl Interpreter {
             return false;
         };
         if let Some(axis) = self.letters[usize::from(letter - b'A')] {
-            self.axis_word(axis, word.span, Some(number));
-            return true;
+            let is_own = self.state.control.channel_axes.are_own();
+            if is_own {
+                self.axis_word(axis, word.span, Some(number));
+            }
+            return is_own;
         }
         match letter {
             b'F' => outcome.feed = Feed::Given(Some(number)),

@@ -42,3 +42,12 @@ pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
         _ => return None,
     })
 }
+
+/// The same of `#` commands that stand among words (PM/206123787, 206609163).
+pub(in crate::interpreter) fn foreign_command(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "#ANG" => "`#ANG` computes a coordinate from an angle",
+        "#CHF" | "#CHR" | "#RND" => "`#CHF`, `#CHR` and `#RND` insert a contour",
+        _ => return None,
+    })
+}

@@ -6,7 +6,6 @@ use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::text::Span;
 
 impl Interpreter {
     pub(in crate::interpreter) fn define_coupling(
@@ -21,21 +20,13 @@ impl Interpreter {
         self.state.control.mark_coupled(changed);
     }
 
-    pub(in crate::interpreter) fn enable_coupling(
-        &mut self,
-        rest: &str,
-        span: Span,
-        at: &BlockContext<'_>,
-    ) {
+    pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, at: &BlockContext<'_>) {
         let group = self.group_of(rest, at);
         self.simplify(Simplification::Coupling, Holds::On);
-        if let Some(changed) = self.state.control.couplings.enable(&group) {
-            self.state.control.mark_coupled(changed);
-            self.state.control.lose_followers(&group);
-        } else {
-            // A group of the channel parameters: which axes it couples is not known offline.
-            self.pass_over("#ENABLE AX LINK", span, at);
-        }
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        let changed = self.state.control.couplings.enable(&group, axes);
+        self.state.control.mark_coupled(changed);
+        self.state.control.lose_followers(&group);
     }
 
     /// Without a group the last one that was enabled is released.
@@ -158,7 +149,7 @@ impl Interpreter {
             let position = axes.position(|axis| number.is_some() && axis.number == number);
             position.map(AxisIndex::new)
         };
-        self.machine.find(word).or_else(by_number)
+        self.axis_now(word).or_else(by_number)
     }
 
     /// The axes that a definition of a coupling group names; `None` for any other command.
@@ -196,7 +187,7 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn axes_in(&self, text: &str) -> Vec<AxisIndex> {
         names_in(text)
-            .filter_map(|word| self.machine.find(word))
+            .filter_map(|word| self.axis_now(word))
             .collect()
     }
 

@@ -12,6 +12,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros, ParameterSource};
+use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -184,11 +185,12 @@ impl Interpreter {
         let rest = name.strip_prefix("V.A.")?;
         let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
             let position = index.trim_end_matches(']').parse().ok()?;
-            let is_there = position < self.machine.axes.len();
+            let are_own = self.state.control.channel_axes.are_own();
+            let is_there = are_own && position < self.machine.axes.len();
             (variable, is_there.then(|| AxisIndex::new(position))?)
         } else {
             let (variable, axis) = rest.rsplit_once('.')?;
-            (variable, self.machine.find(axis)?)
+            (variable, self.axis_now(axis)?)
         };
         let kind = |end: &str| variable.strip_suffix(end).and_then(compensation_kind);
         if let Some(kind) = kind("_COMP_ACTIVE") {
@@ -316,6 +318,16 @@ impl Interpreter {
             AssignedPlace::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
             AssignedPlace::Nowhere => {}
         }
+    }
+
+    /// The number that an operand is, if it is known; FC312 for a string (R2.37).
+    pub(in crate::interpreter) fn number(
+        &mut self,
+        operand: Operand,
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> Result<Option<f64>, Box<Fault>> {
+        numeric(&self.value(operand, at)?, span)
     }
 
     /// The number that a text is, `2` or `P1+1`, if it is known.

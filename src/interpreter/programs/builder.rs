@@ -22,6 +22,10 @@ struct Open {
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
+    /// Whether its `$ELSE` or `$DEFAULT` was there.
+    last_branch: bool,
+    /// Whether a block was refused that stands before its first branch.
+    is_led: bool,
     /// Number of open blocks up to the innermost one of each kind, so that none has to be searched.
     innermost: [usize; ControlBlock::ALL.len()],
 }
@@ -46,6 +50,7 @@ impl Index {
                 loops: Vec::new(),
                 labels: HashMap::new(),
                 locals: HashMap::new(),
+                repeated: HashMap::new(),
                 remarks: HashMap::new(),
                 lost: LostRemarks::default(),
                 interpreted: BTreeMap::new(),
@@ -165,8 +170,11 @@ impl Builder {
         let start = self.at();
         if let Some(name) = name.as_ref().filter(|_| local) {
             let number = self.index.sections.len();
-            let locals = &mut self.index.locals;
-            locals.entry(name.clone()).or_insert(number);
+            let first = *self.index.locals.entry(name.clone()).or_insert(number);
+            if first != number {
+                let repeated = &mut self.index.repeated;
+                repeated.entry(name.clone()).or_insert(number);
+            }
         }
         self.index.sections.push(ProgramSection {
             name,
@@ -237,10 +245,14 @@ impl Builder {
             }
         }
         let at = |span| Statement { entry, span, text };
+        self.before_cases(block, at(Span::new(0, text.trim_end().len())));
         for item in &block.items {
             match (control_part(block, item), item) {
                 (Some((kind, Part::Opener)), _) => self.opens(kind, at(item.span())),
-                (Some((kind, Part::Branch)), _) => self.branches(kind, at(item.span())),
+                (Some((kind, Part::Branch)), item) => {
+                    let is_last = matches!(item, Item::Flow(Flow::Else | Flow::Default, _));
+                    self.branches(kind, at(item.span()), is_last);
+                }
                 (Some((kind, Part::Closer)), _) => self.closes(kind, at(item.span())),
                 (None, Item::Label(span)) => {
                     let name = LabelName::Text(span.of(text).to_owned());
@@ -310,13 +322,44 @@ impl Builder {
             parts: vec![at.entry],
             span: at.span,
             sign: is_spelt(kind, at.word()).then(|| at.sign()),
+            last_branch: false,
+            is_led: false,
             innermost: innermost.unwrap_or_default(),
         });
     }
 
-    fn branches(&mut self, kind: ControlBlock, at: Statement<'_>) {
+    /// FC208: a block between `$SWITCH` and its first `$CASE`, which no value leads to.
+    fn before_cases(&mut self, block: &Block, at: Statement<'_>) {
+        let Some(open) = self.open.last_mut() else {
+            return;
+        };
+        let belongs = |item: &Item| {
+            let part = control_part(block, item);
+            part.is_some_and(|(kind, part)| kind == ControlBlock::Switch && part != Part::Opener)
+        };
+        let is_before = open.kind == ControlBlock::Switch && open.parts.len() == 1;
+        let is_blank = block.words.is_empty() && block.items.is_empty();
+        if !is_before || is_blank || block.items.first().is_some_and(belongs) || open.is_led {
+            return;
+        }
+        open.is_led = true;
+        let message =
+            "this block stands between `$SWITCH` and its first `$CASE`, where no value leads to";
+        let fault = Fault::new(Code::Fc208, at.span, message)
+            .with_help("write it before `$SWITCH`, or behind a `$CASE`");
+        self.refuse(at.entry, fault);
+    }
+
+    fn branches(&mut self, kind: ControlBlock, at: Statement<'_>, is_last: bool) {
         match self.open.last_mut() {
-            Some(open) if open.kind == kind => open.parts.push(at.entry),
+            Some(open) if open.kind == kind => {
+                let after = open.last_branch;
+                open.parts.push(at.entry);
+                open.last_branch |= is_last;
+                if after {
+                    self.refuse(at.entry, after_last(kind, at));
+                }
+            }
             _ => self.refuse_stray(kind, at),
         }
     }
@@ -453,6 +496,17 @@ fn stray(kind: ControlBlock, at: Statement<'_>) -> Fault {
         at.span,
         format!("`{word}` without an open `{opener}`"),
     )
+}
+
+fn after_last(kind: ControlBlock, at: Statement<'_>) -> Fault {
+    let word = at.word().split_whitespace().next().unwrap_or_default();
+    let last = match kind {
+        ControlBlock::If => at.sign().to_string() + "ELSE",
+        _ => "$DEFAULT".to_owned(),
+    };
+    let message = format!("`{word}` follows `{last}`, which is the last branch");
+    let help = format!("write `{last}` behind all other branches");
+    Fault::new(Code::Fc208, at.span, message).with_help(help)
 }
 
 /// The section that a run of a file begins with: blocks in front of any `%` line, else the first

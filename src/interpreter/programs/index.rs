@@ -106,6 +106,8 @@ pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) labels: HashMap<(usize, LabelName), EntryIndex>,
     /// The local subprograms by name, the first of each.
     pub(in crate::interpreter) locals: HashMap<String, usize>,
+    /// The names that several local subprograms have, each with the section of the second.
+    pub(in crate::interpreter) repeated: HashMap<String, usize>,
     pub(in crate::interpreter) remarks: HashMap<EntryIndex, Remark>,
     /// Comments that speak to this tool and stand above no block.
     pub(in crate::interpreter) lost: LostRemarks,
@@ -169,6 +171,12 @@ impl Index {
     /// A local subprogram by its name.
     pub(in crate::interpreter) fn local(&self, name: &str) -> Option<usize> {
         self.locals.get(name).copied()
+    }
+
+    /// The opening of another local subprogram of a name that several have.
+    pub(in crate::interpreter) fn repeated_local(&self, name: &str) -> Option<&Place> {
+        let section = self.sections.get(*self.repeated.get(name)?)?;
+        section.opening.as_ref()
     }
 
     /// The names of the local subprograms.

@@ -12,6 +12,7 @@ use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
 use crate::syntax::Fault;
 use crate::syntax::ast::CallScope;
+use crate::text::Place;
 
 /// Limit of the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
@@ -193,8 +194,11 @@ impl ProgramStore {
         let name = wanted.name.as_str();
         let unit = caller.unit;
         if wanted.scope == CallScope::Local {
-            let section = self.units.get(unit);
-            return match section.and_then(|unit| unit.index.local(name)) {
+            let index = self.units.get(unit).map(|unit| &unit.index);
+            if let Some(again) = index.and_then(|index| index.repeated_local(name)) {
+                return Err(repeated(wanted, again));
+            }
+            return match index.and_then(|index| index.local(name)) {
                 Some(section) => Ok(Some(ProgramId { unit, section })),
                 None => Err(self.no_local(wanted, unit, effort)),
             };
@@ -268,6 +272,17 @@ impl ProgramStore {
         effort.charge(compared);
         Box::new(fault)
     }
+}
+
+/// FC320: which of several local subprograms of one name the control calls is not documented.
+fn repeated(wanted: &WantedCall, again: &Place) -> Box<Fault> {
+    let name = &wanted.name;
+    let line = again.first_line;
+    let message = format!(
+        "the file has several local subprograms `{name}`, and which of them the control calls is not known"
+    );
+    let help = format!("give the one on line {line} a name of its own");
+    Box::new(Fault::new(Code::Fc320, wanted.span, message).with_help(help))
 }
 
 fn not_at_hand(wanted: &WantedCall, why: &NoProgram) -> Box<Fault> {

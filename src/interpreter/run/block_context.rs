@@ -189,11 +189,6 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A part of the block that was read anew, with the spans of the whole.
-    pub(in crate::interpreter) fn rest(&self, block: &'a Block) -> Self {
-        Self { block, ..*self }
-    }
-
     /// The code of a macro that is used at a span of this block or macro.
     pub(in crate::interpreter) fn in_macro(
         &self,

@@ -15,6 +15,20 @@ pub(in crate::interpreter) struct ChannelAxes {
 }
 
 impl ChannelAxes {
+    /// Whether every name means the axis of the machine.
+    #[inline]
+    pub(in crate::interpreter) fn are_own(&self) -> bool {
+        self.names.is_empty() && !self.doubtful
+    }
+
+    /// Meaning of a name; `None` where it means the axis of the machine, or none.
+    pub(in crate::interpreter) fn meaning(&self, name: &str) -> Option<AxisNameMeaning> {
+        if self.doubtful {
+            return Some(AxisNameMeaning::Unknown);
+        }
+        self.names.get(name).copied()
+    }
+
     /// Whether it names no axis beyond so many.
     pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {

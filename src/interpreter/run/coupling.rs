@@ -45,6 +45,8 @@ struct CoupledAxes {
     axes: Vec<AxisIndex>,
     /// The turn at which it was enabled, while it is in force.
     enabled: Option<u64>,
+    /// Whether the channel parameters define it, so that its axes are unknown.
+    unknown: bool,
 }
 
 impl PartialEq for Couplings {
@@ -52,7 +54,8 @@ impl PartialEq for Couplings {
     fn eq(&self, other: &Self) -> bool {
         let groups = |couplings: &Self| {
             let groups = couplings.groups.iter();
-            let groups = groups.map(|(name, group)| (name.clone(), group.axes.clone()));
+            let groups =
+                groups.map(|(name, group)| (name.clone(), group.axes.clone(), group.unknown));
             groups.collect::<Vec<_>>()
         };
         self.enabled.values().eq(other.enabled.values())
@@ -83,7 +86,8 @@ impl Couplings {
         let pairs = pairs.map(|pair| (pair[0], pair[1]));
         let certain = pairs.chain(self.followers.values().flatten().copied());
         let certain = certain.map(|(one, other)| (one, Some(other), Certainty::Certain));
-        let doubted = self.named.iter().filter(|_| self.doubted);
+        let is_doubted = self.is_doubted();
+        let doubted = self.named.iter().filter(|_| is_doubted);
         let strays = self.strays.iter().chain(doubted);
         let strays = strays.map(|axis| (*axis, None, Certainty::Possible));
         certain.chain(strays).collect()
@@ -136,6 +140,12 @@ impl Couplings {
         self.doubted || !self.enabled.is_empty()
     }
 
+    /// Whether axes may be coupled by a group whose axes are unknown.
+    fn is_doubted(&self) -> bool {
+        let mut names = self.enabled.values();
+        self.doubted || names.any(|name| self.groups.get(name).is_some_and(|group| group.unknown))
+    }
+
     /// Returns the number of defined groups.
     pub(in crate::interpreter) fn len(&self) -> usize {
         self.groups.len()
@@ -143,7 +153,7 @@ impl Couplings {
 
     /// The groups that are known, with their axes.
     pub(in crate::interpreter) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
-        let groups = self.groups.iter();
+        let groups = self.groups.iter().filter(|(_, group)| !group.unknown);
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
@@ -161,7 +171,7 @@ impl Couplings {
     pub(in crate::interpreter) fn of(&self, axis: AxisIndex) -> Coupling {
         if self.holding.contains_key(&axis) {
             Coupling::Active
-        } else if self.doubted && self.named.contains(&axis) {
+        } else if self.is_doubted() && self.named.contains(&axis) {
             Coupling::Perhaps
         } else {
             Coupling::None
@@ -248,21 +258,39 @@ impl Couplings {
             .all(|axis| axis.get() < axes)
     }
 
-    /// Puts a group into force; the axes whose coupling may have changed, where it may be defined.
-    pub(in crate::interpreter) fn enable(&mut self, group: &str) -> Option<Vec<AxisIndex>> {
-        let Some(known) = self.groups.get(group) else {
-            let lost = self.vague && !self.named.is_empty();
-            return lost.then(|| {
+    /// Puts a group into force; the axes whose coupling may have changed. One that no command defined is a
+    /// group of the channel parameters, which may couple any axis of the machine.
+    pub(in crate::interpreter) fn enable(
+        &mut self,
+        group: &str,
+        axes: impl Iterator<Item = AxisIndex>,
+    ) -> Vec<AxisIndex> {
+        if !self.groups.contains_key(group) {
+            self.named.extend(axes);
+            if self.vague {
                 self.version = self.version.wrapping_add(1);
                 self.doubted = true;
-                self.named.iter().copied().collect()
-            });
-        };
-        let axes = known.axes.clone();
+                return self.named.iter().copied().collect();
+            }
+            let unknown = CoupledAxes {
+                unknown: true,
+                ..CoupledAxes::default()
+            };
+            self.groups.insert(group.to_owned(), unknown);
+        }
         self.release(group);
         self.turns = self.turns.wrapping_add(1);
         self.enable_at(group, self.turns);
-        Some(axes)
+        self.axes_of(group)
+    }
+
+    /// The axes that a group couples, or may couple.
+    fn axes_of(&self, group: &str) -> Vec<AxisIndex> {
+        match self.groups.get(group) {
+            Some(group) if group.unknown => self.named.iter().copied().collect(),
+            Some(group) => group.axes.clone(),
+            None => Vec::new(),
+        }
     }
 
     fn enable_at(&mut self, group: &str, turn: u64) {
@@ -301,7 +329,7 @@ impl Couplings {
                 self.holding.remove(axis);
             }
         }
-        (Some(turn), known.axes.clone())
+        (Some(turn), self.axes_of(group))
     }
 
     /// Releases the group that was enabled last; the axes whose coupling may have changed.

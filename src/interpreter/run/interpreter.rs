@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::block_scratch::BlockScratch;
+use super::channel_axes::AxisNameMeaning;
 use super::control::ControlState;
 use super::journal::{Journal, RegionCall, Regions};
 use super::options::{Options, SourceMode};
@@ -336,11 +337,23 @@ impl Interpreter {
     /// The axis that `@X` means in the plane in force.
     pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
         let letter = self.state.control.modal.main_axis(letter)?;
-        self.letters[usize::from(letter - b'A')]
+        self.letter_axis(letter)
+    }
+
+    /// The axis that a letter stands for at the moment, if that is known.
+    pub(in crate::interpreter) fn letter_axis(&self, letter: u8) -> Option<AxisIndex> {
+        let mut name = [0; 4];
+        self.axis_named(char::from(letter).encode_utf8(&mut name))
     }
 
     /// An axis by its name.
     pub(in crate::interpreter) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
+        if let Some(meaning) = self.state.control.channel_axes.meaning(name) {
+            return match meaning {
+                AxisNameMeaning::Axis(axis) => Some(axis),
+                AxisNameMeaning::Released(_) | AxisNameMeaning::Unknown => None,
+            };
+        }
         match name.as_bytes() {
             [letter @ b'A'..=b'Z'] => self.letters[usize::from(letter - b'A')],
             _ => self.names.get(name).copied(),

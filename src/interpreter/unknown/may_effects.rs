@@ -21,7 +21,7 @@ use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::event::Notes;
-use crate::interpreter::run::hash_parts::{declared_name, point_after};
+use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region, RegionEffect};
 use crate::interpreter::values::expression::unquoted;
@@ -325,7 +325,7 @@ impl MayEffects<'_> {
         }
         self.effect(RegionEffect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
-            Some(Touches::Motion) => self.effect(RegionEffect::Positions),
+            Some(Touches::Motion | Touches::Plane) => self.effect(RegionEffect::Positions),
             Some(Touches::Friction) => {
                 for axis in self.run.axes_or_all(hash.rest.of(at.text)) {
                     let name = self.run.machine.axis(axis).name.clone();
@@ -333,16 +333,6 @@ impl MayEffects<'_> {
                 }
             }
             _ => {}
-        }
-        if let Some(point) = point_after(hash, at) {
-            let inner = at.rest(&point);
-            let items = point.items.iter().filter_map(|item| match item {
-                Item::Word(word) => Some(word),
-                _ => None,
-            });
-            for word in point.words.iter().chain(items) {
-                self.word(word, &inner);
-            }
         }
     }
 
@@ -441,9 +431,7 @@ impl MayEffects<'_> {
             }
             Address::Lower(letter) => {
                 let upper = letter.to_ascii_uppercase();
-                if let Some(axis) = self.run.letters[usize::from(upper - b'A')] {
-                    self.axis(axis, at);
-                }
+                self.axis_word(char::from(upper).encode_utf8(&mut [0; 4]), at);
             }
             Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
                 if letter == b'M' && matches!(number, Some(3..=5 | 19)) {
@@ -452,18 +440,16 @@ impl MayEffects<'_> {
                 self.effect(RegionEffect::Function(FunctionWord { letter, number }));
             }
             Address::Letter(letter @ b'A'..=b'Z') => {
-                if let Some(axis) = self.run.letters[usize::from(letter - b'A')] {
-                    self.axis(axis, at);
-                }
+                self.axis_word(char::from(letter).encode_utf8(&mut [0; 4]), at);
             }
             // Which axis it is depends on the plane, which the region may change.
             Address::Main(_) => self.effect(RegionEffect::Positions),
             Address::Name(name) => {
                 let name = name.of(at.text);
-                if let Some(&axis) = self.run.names.get(name) {
-                    self.axis(axis, at);
-                } else if self.run.is_main_spindle(name) {
+                if self.run.is_main_spindle(name) {
                     self.effect(RegionEffect::Spindle);
+                } else {
+                    self.axis_word(name, at);
                 }
             }
             Address::Letter(_) => {}
@@ -486,6 +472,14 @@ impl MayEffects<'_> {
                 letter: b'G',
                 number,
             }));
+        }
+    }
+
+    fn axis_word(&mut self, name: &str, at: &BlockContext<'_>) {
+        if self.run.state.control.channel_axes.doubtful {
+            self.effect(RegionEffect::Positions);
+        } else if let Some(axis) = self.run.axis_named(name) {
+            self.axis(axis, at);
         }
     }
 

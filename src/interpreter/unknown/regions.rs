@@ -205,6 +205,7 @@ impl Interpreter {
                 self.havoc_hash(name, cause);
                 if is_exchange(name) {
                     self.state.control.havoc_exchange();
+                    self.state.control.modal.havoc_positions();
                 }
             }
             RegionEffect::Coupling(axes) => self.state.control.havoc_definitions(axes),

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::found::VariableUse;
-use super::functions::{binary, call, fault, wrong_type};
+use super::functions::{binary, call, fault, numeric, wrong_type};
 use super::memory::Memory;
 use super::names::parts;
 use super::reads::Reads;
@@ -146,7 +146,7 @@ impl Evaluator<'_> {
                 Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
                 Node::IndexedParameter { owner, subscripts } => {
-                    Self::parameter_key(owner, usize::from(subscripts), stack)
+                    Self::parameter_key(owner, usize::from(subscripts), span, stack)
                         .and_then(|key| self.keyed_parameter(&key, span))
                 }
                 Node::Variable { subscripts: 0 } => {
@@ -321,18 +321,19 @@ impl Evaluator<'_> {
     fn parameter_key(
         owner: Owner,
         subscripts: usize,
+        span: Span,
         stack: &mut Vec<Slot>,
     ) -> Result<ParameterKey, Box<Fault>> {
         let from = stack.len().saturating_sub(subscripts + 1);
         let mut numbers = Vec::with_capacity(subscripts + 1);
         let mut unknown = None;
         for slot in stack.drain(from..) {
-            match slot? {
-                Value::Number(number) => numbers.push(rounded(number).unwrap_or(i64::MAX)),
-                other => {
-                    numbers.push(i64::MAX);
-                    unknown = unknown.or(Some((numbers.len() == 1, other)));
-                }
+            let value = slot?;
+            if let Some(number) = numeric(&value, span)? {
+                numbers.push(rounded(number).unwrap_or(i64::MAX));
+            } else {
+                numbers.push(i64::MAX);
+                unknown = unknown.or(Some((numbers.len() == 1, value)));
             }
         }
         let index = numbers.first().copied().unwrap_or_default();
@@ -440,7 +441,7 @@ impl Evaluator<'_> {
         self.note_found(name);
         let place = match dimension.transpose()? {
             Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
-            Some(value) => value.number().and_then(rounded).unwrap_or(1),
+            Some(value) => numeric(&value, span)?.and_then(rounded).unwrap_or(1),
             None => 1,
         };
         let place = usize::try_from(place.max(1) - 1).unwrap_or(usize::MAX);
@@ -489,15 +490,17 @@ impl Evaluator<'_> {
                 Ok(AssignedPlace::Parameters(text))
             }
             Node::IndexedParameter { owner, subscripts } => {
-                Self::parameter_key(owner, usize::from(subscripts), stack).map(|key| match key {
-                    ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
-                    ParameterKey::Element(name) => AssignedPlace::Variable(name),
-                    ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
-                        Some(array) => AssignedPlace::Elements(array, cause),
-                        None => AssignedPlace::Parameters(cause),
+                Self::parameter_key(owner, usize::from(subscripts), span, stack).map(
+                    |key| match key {
+                        ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
+                        ParameterKey::Element(name) => AssignedPlace::Variable(name),
+                        ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
+                            Some(array) => AssignedPlace::Elements(array, cause),
+                            None => AssignedPlace::Parameters(cause),
+                        },
+                        ParameterKey::Unknown(..) => AssignedPlace::Nowhere,
                     },
-                    ParameterKey::Unknown(..) => AssignedPlace::Nowhere,
-                })
+                )
             }
             Node::Variable { subscripts: 0 } => Ok(AssignedPlace::Variable(
                 canonical(span.of(self.text)).into_owned(),

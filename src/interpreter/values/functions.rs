@@ -18,6 +18,18 @@ pub(in crate::interpreter) fn wrong_type(span: Span, message: &str) -> Box<Fault
     fault(Code::Fc312, span, message)
 }
 
+/// The number where a number is wanted; `None` for what only the machine knows, FC312 for a string (R2.37).
+pub(in crate::interpreter) fn numeric(
+    value: &Value,
+    span: Span,
+) -> Result<Option<f64>, Box<Fault>> {
+    match value {
+        Value::Text(_) => Err(wrong_type(span, "a string stands where a number is wanted")),
+        Value::Number(number) => Ok(Some(*number)),
+        Value::Unknown(_) => Ok(None),
+    }
+}
+
 pub(in crate::interpreter) fn binary(
     operator: BinaryOperator,
     left: Slot,

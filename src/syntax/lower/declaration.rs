@@ -6,7 +6,7 @@ use pest::iterators::Pair;
 use super::lowering::{BlockLowering, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Declaration, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::{expression, hash_words::hash_word, pieces::is_blank};
+use crate::syntax::{expression, hash_words::opening_command, pieces::is_blank};
 use crate::text::Span;
 
 impl BlockLowering<'_> {
@@ -22,7 +22,10 @@ impl BlockLowering<'_> {
             let span = Span::new(start, start + line.len());
             start += line.len() + 1;
             let code = line.trim_matches(is_blank);
-            if code.is_empty() || hash_word(line).is_some() {
+            if code.is_empty() {
+                continue;
+            }
+            if opening_command(line).is_some() {
                 continue;
             }
             if let Ok(pairs) = NcParser::parse(Rule::declaration_line, span.of(read)) {

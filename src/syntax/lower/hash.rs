@@ -3,25 +3,53 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::lowering::{BlockLowering, span_of, trimmed};
-use crate::diagnostic::nearest;
+use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
+use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
+use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::keywords::{Touches, hash_command, hash_commands};
-use crate::syntax::{expression, hash_words::hash_name, unread::not_known};
+use crate::syntax::hash_words::{command_name, goes_on, hash_name, opening_command};
+use crate::syntax::keywords::{
+    Touches, hash_command, hash_commands, is_further_word, takes_coordinates,
+};
+use crate::syntax::{expression, pieces::is_blank, unread::not_known};
 use crate::text::Span;
+
+/// Commands with a region behind them, whose lines are no arguments.
+const REGIONS: [&str; 3] = ["#VAR", "#RT CYCLE", "#RT CYCLE DEF"];
 
 impl BlockLowering<'_> {
     pub(super) fn hash(&mut self, span: Span) {
-        let code = self.code;
-        let (name, length) = hash_name(&code[span.start as usize..]);
+        let code = span.of(self.code);
+        let (name, length) = command_name(code);
         let name_end = span.start as usize + length;
         self.note_case(Span::new(span.start as usize, name_end));
-        let Some(touches) = hash_command(&name) else {
-            self.unknown_hash(&name, length, span);
-            return;
+        let touches = hash_command(&name).filter(|_| !goes_on(code, &name));
+        let Some(touches) = touches else {
+            let (name, length) = hash_name(code);
+            return self.unknown_hash(&name, length, span);
         };
-        let rest = Span::new(name_end, span.end as usize);
+        let behind = Span::new(name_end, span.end as usize);
+        let is_region = REGIONS.contains(&name.as_str());
+        let rest = if is_region {
+            behind
+        } else {
+            self.arguments(&name, behind)
+        };
+        // A comment that is opened as it shall be is no block (R2.6).
+        if name == "#COMMENT BEGIN" && rest.end == span.end {
+            return self.beside("other words", span);
+        }
+        self.command(name.clone(), touches, rest, span);
+        if is_region {
+            self.region_end(rest);
+        } else {
+            let behind = Span::new(rest.end as usize, span.end as usize);
+            self.beside(&format!("`{name}`"), behind);
+        }
+    }
+
+    fn command(&mut self, name: String, touches: Touches, rest: Span, span: Span) {
         let arguments = match name.as_str() {
             "#TIME" | "#DELETE" => self.expressions_in(rest),
             _ => Vec::new(),
@@ -41,8 +69,63 @@ impl BlockLowering<'_> {
             arguments,
             declarations,
             written,
-            span,
+            span: Span::new(span.start as usize, rest.end as usize),
         }));
+    }
+
+    /// The arguments at the start of what stands behind the words of a command.
+    fn arguments(&self, name: &str, behind: Span) -> Span {
+        let is_argument = |pair: &Pair<'_, Rule>| match pair.as_rule() {
+            Rule::hash_coordinate => takes_coordinates(name),
+            Rule::hash_further => is_further_word(pair.as_str()),
+            _ => true,
+        };
+        let read = NcParser::parse(Rule::hash_arguments, behind.of(self.read));
+        let pairs = read.into_iter().flatten().flat_map(Pair::into_inner);
+        let last = pairs.take_while(is_argument).last();
+        let length = last.map_or(0, |pair| pair.as_span().end());
+        let start = behind.start as usize;
+        trimmed(Span::new(start, start + length), self.code)
+    }
+
+    /// Text beside a command, which stands alone in its block (R2.47): the control may execute it.
+    fn beside(&mut self, what: &str, span: Span) {
+        let text = span.of(self.code);
+        let from = span.start as usize + text.len() - text.trim_start_matches(is_blank).len();
+        let span = trimmed(Span::new(from, span.end as usize), self.code);
+        if span.start == span.end {
+            return;
+        }
+        if let Some(at) = self.unclosed.take() {
+            return self.refuse(not_closed(at), span);
+        }
+        let shown: String = span.of(self.code).chars().take(40).collect();
+        let message = format!(
+            "`{shown}` stands beside {what}, and it is not known whether the control executes it; whatever it could \
+             change is unknown from here on"
+        );
+        let fault = Fault::new(Code::Fc210, span, message)
+            .with_help("write it in a block of its own: a `#` command stands alone in its block");
+        self.block.faults.push(fault);
+        self.block
+            .items
+            .push(Item::Unread(Effect::Everything, span));
+    }
+
+    /// The command that ends a region stands alone, too.
+    fn region_end(&mut self, region: Span) {
+        let text = region.of(self.code);
+        let Some(start) = text.rfind('\n') else {
+            return;
+        };
+        let command = opening_command(&text[start..]).filter(|command| !command.is_alone());
+        if let Some(command) = command {
+            let end = region.end as usize;
+            self.beside(
+                &format!("`{}`", command.name),
+                Span::new(end - command.rest.len(), end),
+            );
+        }
     }
 
     /// A `#` command that no table names could do anything (R2.70).

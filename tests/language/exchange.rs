@@ -98,6 +98,39 @@ fn names_mean_the_axes_that_the_channel_has() {
 }
 
 #[test]
+fn words_and_variables_mean_the_axes_that_the_channel_has() {
+    // R2.36 R2.70
+    let machine = machine();
+    let bench = Bench::on(&machine);
+    let renamed = "#PUT AX [X, Y]\n#CALL AX [Y,1,0]\n";
+    // Y is the axis that the machine calls X.
+    let values = bench.values(
+        &format!("Y[COMP OFF FRICT]\n{renamed}"),
+        &[
+            "V.A.FRICT_COMP_ACTIVE.Y",
+            "V.A.FRICT_COMP_ACTIVE.X",
+            "V.A.FRICT_COMP_ACTIVE[1]",
+        ],
+    );
+    assert_eq!(
+        values,
+        "V.A.FRICT_COMP_ACTIVE.Y -> 1\n\
+         V.A.FRICT_COMP_ACTIVE.X -> unknown: V.A.FRICT_COMP_ACTIVE.X\n\
+         V.A.FRICT_COMP_ACTIVE[1] -> unknown: V.A.FRICT_COMP_ACTIVE[1]\n"
+    );
+    let positions = bench.positions(&format!("X1 Y2 C3\n{renamed}Y7\nM30"));
+    let row = positions.lines().nth(3).unwrap_or_default();
+    assert!(row.contains("X:7") && !row.contains("Y:7"), "{positions}");
+    let said = bench.said("#PUT AX [X]\nX10\nX11\nM30");
+    assert_eq!(said.matches("has given axis `X` away").count(), 1, "{said}");
+    let said = bench.said("#PUT AX [X]\nX[COMP ON FRICT]\nM30");
+    assert!(
+        said.contains("FC902") && said.contains("may refuse this command"),
+        "{said}"
+    );
+}
+
+#[test]
 fn every_program_starts_with_the_axes_of_the_machine() {
     // R2.70
     let machine = machine();

@@ -269,6 +269,25 @@ fn strings() {
 }
 
 #[test]
+fn a_string_is_no_number() {
+    // R2.37
+    for program in [
+        "X[P1]",
+        "F[P1]",
+        "G[P1]",
+        "P[\"a\"] = 5",
+        "P2 = P[P1]",
+        "#TIME P1",
+        "N[P1] X1",
+        "$FOR P2=0, P1, 1\n$ENDFOR",
+        "L SEQUENCE [N1 N2 REPEAT=P1]",
+    ] {
+        let said = Bench::new().run(&[&format!("P1 = \"a\"\n{program}\nM30")]);
+        assert!(said.contains("FC312"), "{program}: {said}");
+    }
+}
+
+#[test]
 fn macros() {
     // R2.35
     let preparation = "\"STRING1\" = \"COS[\\\"STRING2\\\"]\"\n\"STRING2\" = \"5 * 12\"\n\"STRING3\" = \"SIN[89.5 + \\\"STRING1\\\"]\"";

@@ -192,7 +192,7 @@ fn unbalanced_blocks() {
         FC208 4:1-10
       end 0 error X:active Y:active Z:unconfigured B:ineffective
     ");
-    assert_snapshot!(Bench::new().run(&["$ENDIF\n$ELSE\n$CASE 1\n$UNTIL 1\n$BREAK\n$CONTINUE\n$SWITCH 1\n$CONTINUE\n$ENDSWITCH\nM30"]), @"
+    assert_snapshot!(Bench::new().run(&["$ENDIF\n$ELSE\n$CASE 1\n$UNTIL 1\n$BREAK\n$CONTINUE\n$SWITCH 1\n$CASE 1\n$CONTINUE\n$ENDSWITCH\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
         FC208 1:1-7
@@ -201,7 +201,7 @@ fn unbalanced_blocks() {
         FC208 4:1-9
         FC208 5:1-7
         FC208 6:1-10
-        FC208 8:1-10
+        FC208 9:1-10
       end 0 error X:active Y:active Z:unconfigured B:ineffective
     ");
     assert_snapshot!(Bench::new().run(&["$FOO 1\n$IFF 1\n$FOR P1\n$GOTO 5\nM30"]), @"
@@ -210,6 +210,26 @@ fn unbalanced_blocks() {
         FC208 3:1-8
       end 0 error X:active Y:active Z:unconfigured B:ineffective
     ");
+}
+
+#[test]
+fn branches_that_no_value_leads_to_are_refused() {
+    // R2.43
+    for (program, lines) in [
+        ("$IF 1\nX1\n$ELSE\nX2\n$ELSEIF 1\nX3\n$ELSE\n$ENDIF", "5 7"),
+        ("$SWITCH 2\n$CASE 1\n$DEFAULT\nX1\n$CASE 2\n$ENDSWITCH", "5"),
+        ("$SWITCH 2\nX[COMP OFF FRICT]\nX1\n$CASE 2\n$ENDSWITCH", "2"),
+        ("$SWITCH 2\n$IF 1\n$CASE 2\n$ENDIF\n$ENDSWITCH", "2 3"),
+        ("$SWITCH 2\n; no block\n\n[HERE] $CASE 2\n$ENDSWITCH", ""),
+        ("$SWITCH 2\n$ENDSWITCH", ""),
+    ] {
+        let said = Bench::new().keep_going().run(&[&format!("{program}\nM30")]);
+        let rows = said
+            .lines()
+            .filter_map(|row| row.trim().strip_prefix("FC208 "));
+        let found: Vec<&str> = rows.filter_map(|row| row.split(':').next()).collect();
+        assert_eq!(found.join(" "), lines, "{program}: {said}");
+    }
 }
 
 #[test]

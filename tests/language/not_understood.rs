@@ -132,6 +132,99 @@ fn what_a_table_names_is_silent() {
 }
 
 #[test]
+fn what_stands_beside_a_command_may_be_executed() {
+    // R2.6 R2.47 R2.70
+    for program in [
+        "#HSC ON X[COMP ON FRICT]",
+        "#HSC ON [BSPLINE] X[COMP OFF FRICT]",
+        "#FF [80] X[COMP OFF FRICT]",
+        "#TIME 2.5 $GOTO N10\nN10: X1",
+        "#TIME 2.5 P1=3",
+        "#MSG [\"a\"] \"MACRO\"",
+        "#MSG [\"a\"] L sub.nc",
+        "#SET AX [X, 1, 0] FAST M17",
+        "#PSET X10 Y[COMP OFF FRICT]",
+        "#COMMENT BEGIN X[COMP OFF FRICT]\nX1\n#COMMENT END",
+        "#COMMENT BEGIN\nX1\n#COMMENT END X[COMP OFF FRICT]",
+        "X10 #COMMENT BEGIN\n#COMMENT END",
+        "#VAR\nV.P.A = 3\n#ENDVAR X[COMP OFF FRICT]",
+        "#VAR\n#HSC ON X[COMP OFF FRICT]\n#ENDVAR M17",
+        "#RT CYCLE [ID=1]\nV.E.A = 1\n#RT CYCLE END X[COMP OFF FRICT]",
+    ] {
+        let said = run(&format!("{program}\nM30"));
+        assert!(said.contains("FC210"), "{program}: {said}");
+        assert!(
+            said.contains("X:active>unknown Y:active>unknown"),
+            "{program}: {said}"
+        );
+    }
+    assert_eq!(codes("#HSC ON [BSPLINE\nM30"), ["FC205"]);
+}
+
+#[test]
+fn a_word_that_goes_on_a_command_is_known_or_may_do_anything() {
+    // R2.70
+    let said = block("#HSC ON SOFTLY [1]\nM30", 1);
+    assert!(
+        said.contains("X:active>unknown") && said.contains("FC210"),
+        "{said}"
+    );
+    for program in [
+        "#MSG SAVE EXCLUSIVE [\"X[COMP ON FRICT]\"]",
+        "#SET AX [X, 1, 0][Y, 2, 1] FAST",
+        "#PSET X10 Y-20",
+        "#PSET [X=0 Y=10]",
+        "#AX REQUEST NAM [X, 1, 0]",
+        "#AKIMA STARTVECTOR [1, 0, 0]",
+        "#CS DEF [P1+1][X, 20, 30, 0, 0, 45]",
+        "#MCS ON EX TOOL",
+        "#TIME P1",
+        "#TIME 2*1.5",
+        "#INIT V.E.",
+        "#MEAS MODE 1",
+        "#SLOPE [TYPE=HSC]  (a remark)",
+        "#SPLINE ON X10 Y20",
+        "#MCS OFF",
+    ] {
+        let found = codes(&format!("P1=1\n{program}\nM30"));
+        assert!(found.is_empty(), "{program}: {found:?}");
+    }
+}
+
+#[test]
+fn commands_that_stand_among_words_leave_them_as_they_are() {
+    // R2.47: PM/206123787, 206609163, 207256971
+    let bench = Bench::new();
+    for (program, found) in [
+        ("G1 X10 #RND=3 Y5", "X:10 Y:5"),
+        ("X10 #CHF 2 Y5 #FRC=100", "X:10 Y:5"),
+        // The coordinate that the angle gives is not computed.
+        ("G1 #ANG=60 X20", "X:20 Y:?"),
+        ("Y3 #ANG=60 X20", "X:20 Y:3"),
+        ("#ANG=10", "X:? Y:?"),
+        ("#SPLINE ON X1 Y2", "X:1 Y:2"),
+    ] {
+        let said = bench.positions(&format!("X0 Y0\n{program}\nM30"));
+        let row = said.lines().nth(1).unwrap_or_default();
+        let row = row.replace('*', "");
+        assert!(row.contains(found), "{program}: {said}");
+    }
+    for program in [
+        "X1 #RND=3 X[COMP OFF FRICT]",
+        "#SPLINE ON X[COMP OFF FRICT]",
+    ] {
+        let said = run(&format!("{program}\nM30"));
+        assert!(said.contains("X:active>inactive"), "{program}: {said}");
+    }
+    // On a way that may be taken they count, too.
+    let said = run("$IF V.E.A\n#SPLINE ON X[COMP OFF FRICT] X1\n$ENDIF\nM30");
+    assert!(
+        said.contains("X:active>inactive") || said.contains("X:unknown"),
+        "{said}"
+    );
+}
+
+#[test]
 fn an_unreadable_condition_opens_its_block_and_is_said_once() {
     // R2.71
     for (opener, closer) in [
@@ -142,7 +235,7 @@ fn an_unreadable_condition_opens_its_block_and_is_said_once() {
         ("$WHILE P1 ==", "$ENDWHILE"),
         ("$FOR P1 = 1", "$ENDFOR"),
         ("$FOR P1 = 1, FOO[2], 1", "$ENDFOR"),
-        ("$SWITCH ?", "$ENDSWITCH"),
+        ("$SWITCH ?\n$CASE 1", "$ENDSWITCH"),
         ("$DO ?", "$ENDDO"),
         ("#IF P1 = 3", "#ENDIF"),
         ("$REPEAT", "$UNTIL ?"),

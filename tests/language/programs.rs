@@ -5,6 +5,17 @@ use insta::assert_snapshot;
 use crate::support::{Bench, MACHINE, SourceMode};
 
 #[test]
+fn several_local_subprograms_of_one_name_are_called_by_none() {
+    // R2.11
+    let locals = "%L A\nX[COMP OFF FRICT]\nM17\n%L A\nX[COMP ON FRICT]\nM17\n%L B\nM17\n";
+    let run = |call: &str| Bench::new().run(&[&format!("{call}\nM30\n{locals}")]);
+    assert!(run("LL A").contains("FC320 1:1-5"));
+    assert!(!run("LL B").contains("FC320"));
+    let unknown = run("$IF V.E.A\nLL A\n$ENDIF");
+    assert!(unknown.contains("FC320"), "{unknown}");
+}
+
+#[test]
 fn program_lines() {
     // R2.10
     let name = |line: &str| {

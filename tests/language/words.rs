@@ -408,6 +408,34 @@ fn couplings() {
 }
 
 #[test]
+fn a_group_of_the_channel_parameters_may_couple_any_axis() {
+    // R1.9 R2.70
+    for (program, may_be_refused) in [
+        ("#ENABLE AX LINK [1]\nX[COMP ON FRICT]", true),
+        ("#AX LINK ON [1]\nX[COMP ON FRICT]", true),
+        (
+            "#ENABLE AX LINK [1]\n#DISABLE AX LINK [1]\nX[COMP ON FRICT]",
+            false,
+        ),
+        (
+            "#ENABLE AX LINK [1]\n#DISABLE AX LINK\nX[COMP ON FRICT]",
+            false,
+        ),
+        (
+            "#ENABLE AX LINK [1]\n#DISABLE AX LINK [2]\nX[COMP ON FRICT]",
+            true,
+        ),
+        (
+            "#ENABLE AX LINK [1]\n#DISABLE AX LINK ALL\nX[COMP ON FRICT]",
+            false,
+        ),
+    ] {
+        let said = Bench::new().run(&[&format!("{program}\nM30")]);
+        assert_eq!(said.contains("FC902"), may_be_refused, "{program}: {said}");
+    }
+}
+
+#[test]
 fn main_axes_of_a_cycle() {
     // R2.13: @X, @Y, @Z are the main axes of the active plane.
     let bench = Bench::new().file("c.cyc", "G1 @X1 @Y2 @Z3 @I5 @S100\nM17");

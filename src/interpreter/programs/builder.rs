@@ -335,11 +335,17 @@ impl Builder {
         };
         let belongs = |item: &Item| {
             let part = control_part(block, item);
-            part.is_some_and(|(kind, part)| kind == ControlBlock::Switch && part != Part::Opener)
+            part.is_some_and(|(kind, part)| match part {
+                Part::Opener => false,
+                Part::Branch => kind == ControlBlock::Switch,
+                Part::Closer => true,
+            })
         };
         let is_before = open.kind == ControlBlock::Switch && open.parts.len() == 1;
-        let is_blank = block.words.is_empty() && block.items.is_empty();
-        if !is_before || is_blank || block.items.first().is_some_and(belongs) || open.is_led {
+        let mut items = block.items.iter();
+        let first = items.find(|item| !matches!(item, Item::Label(_)));
+        let begins = block.words.is_empty() && first.is_none_or(belongs);
+        if !is_before || begins || open.is_led {
             return;
         }
         open.is_led = true;

@@ -36,7 +36,7 @@ use crate::lint::{History, LeftAwayNotice, Linter};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::readings::QuestionSet;
 use crate::text::{LineSource, Place, SourceFile};
-use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
+use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
 use feed_moves::FeedMoveCounter;
 use message_dedup::MessageDedup;
 use recorder::{NoteBook, Recorder, SessionTotals};
@@ -204,7 +204,7 @@ impl Session {
                 counts: BTreeMap::new(),
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
-                footing: Footing::Known,
+                assumed: BTreeSet::new(),
                 rests_on: QuestionSet::default(),
                 feed_moves: FeedMoveCounter::new(axes),
                 unknown: BTreeSet::new(),
@@ -425,7 +425,7 @@ impl Session {
             counts: self.tally.counts.clone(),
             opaque: self.interpreter.opaque(),
             axes: axes.collect(),
-            footing: self.tally.footing,
+            assumed: self.tally.assumed.clone(),
             rests_on: self.tally.rests_on.union(self.interpreter.rests_on()),
             state,
         }))

@@ -14,9 +14,7 @@ use crate::readings::{Question, QuestionSet};
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
-use crate::timeline::{
-    ChangedBy, End, EndNote, EndedBy, Footing, Join, Record, Row, Sink, StateView,
-};
+use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Join, Record, Row, Sink, StateView};
 
 use super::feed_moves::FeedMoveCounter;
 use super::message_dedup::{DedupVerdict, MessageDedup};
@@ -41,7 +39,8 @@ pub(super) struct SessionTotals {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
-    pub(super) footing: Footing,
+    /// The codes by which was said that states are assumed.
+    pub(super) assumed: BTreeSet<Code>,
     /// The open questions on whose readings messages rest (R15.3).
     pub(super) rests_on: QuestionSet,
     pub(super) feed_moves: FeedMoveCounter,
@@ -60,7 +59,9 @@ impl SessionTotals {
             match diagnostic.code {
                 Code::Fc401 => self.rests_on.insert(Question::Reset),
                 Code::Fc409 => self.rests_on.insert(Question::LookAhead),
-                Code::Fc902 => self.footing = Footing::Assumed,
+                code @ (Code::Fc210 | Code::Fc325 | Code::Fc902) => {
+                    self.assumed.insert(code);
+                }
                 _ => {}
             }
         }

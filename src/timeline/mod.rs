@@ -19,7 +19,7 @@ pub use feed_moves::FeedMoves;
 pub use in_force::{ReadingInForce, ReadingsInForce};
 pub use possible::Possible;
 pub use record::{
-    AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Join, Record, Repeat, Row, SCHEMA,
-    Sink, StateView, Summary, TOOL,
+    AxisSummary, ChangedBy, DiagnosticRecord, End, Join, Record, Repeat, Row, SCHEMA, Sink,
+    StateView, Summary, TOOL,
 };
 pub use serial::States;

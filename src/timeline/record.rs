@@ -1,6 +1,6 @@
 //! The records and who takes them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
 use serde::Serialize;
@@ -202,16 +202,6 @@ pub struct ChangedBy {
     pub to: State,
 }
 
-/// Basis of the states of a session.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub enum Footing {
-    /// Nothing but the programs and the machine.
-    Known,
-    /// On an assumption about what only the machine knows, too (FC902).
-    Assumed,
-}
-
 /// The end of a session.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -226,8 +216,9 @@ pub struct Summary<'a> {
     pub opaque: &'a BTreeMap<String, u64>,
     /// Summary of each listed axis.
     pub axes: Vec<AxisSummary>,
-    /// Basis of the states.
-    pub footing: Footing,
+    /// The codes by which messages said that the states rest on an assumption about what only the machine knows
+    /// (R2.70): FC210, FC325, FC902.
+    pub assumed: BTreeSet<Code>,
     /// The open questions on whose readings results rest (R15.3).
     pub rests_on: QuestionSet,
     /// The state that is left.

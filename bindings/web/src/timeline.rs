@@ -7,7 +7,7 @@ use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
-use frictcomp::timeline::{AxisSummary, EndedBy, Footing, Record, Sink};
+use frictcomp::timeline::{AxisSummary, EndedBy, Record, Sink};
 
 use crate::rows::ExecutedRows;
 use crate::watched::show_progress;
@@ -111,7 +111,7 @@ impl Sink for Timeline {
                 self.counts.clone_from(&summary.counts);
                 self.opaque.clone_from(summary.opaque);
                 self.summaries.clone_from(&summary.axes);
-                self.is_assumed = summary.footing == Footing::Assumed;
+                self.is_assumed = !summary.assumed.is_empty();
                 for axis in &summary.axes {
                     self.axes[axis.axis.get()].listed = true;
                 }

@@ -1,7 +1,10 @@
 //! Advice to the operator after a session, for every report that gives it.
 
+use std::collections::BTreeSet;
+
 use frictcomp::comp::State;
-use frictcomp::timeline::{AxisSummary, EndedBy, Footing};
+use frictcomp::diagnostic::Code;
+use frictcomp::timeline::{AxisSummary, EndedBy};
 
 /// Returns the advice on an axis, after its name (R1.27: the state outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
@@ -52,14 +55,16 @@ pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
 
 /// Said where nothing is left to do, every axis is in its start-up state and the machine is described
 /// (R1.37).
-pub(super) fn all_home(axes: &[AxisSummary], footing: Footing) -> &'static str {
-    match footing {
-        Footing::Known if axes.iter().all(is_compensated) => {
-            "Nothing to do: every axis is as at the start of the control."
-        }
-        Footing::Known => "Every axis is as at the start of the control.",
-        Footing::Assumed => {
-            "Every axis is as at the start of the control as far as it is known: see FC902."
+pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>) -> String {
+    let home = "very axis is as at the start of the control";
+    let codes: Vec<&str> = assumed.iter().map(|code| code.as_str()).collect();
+    match codes.as_slice() {
+        [] if axes.iter().all(is_compensated) => format!("Nothing to do: e{home}."),
+        [] => format!("E{home}."),
+        [code] => format!("E{home} as far as it is known: see {code}."),
+        [codes @ .., last] => {
+            let codes = codes.join(", ");
+            format!("E{home} as far as it is known: see {codes} and {last}.")
         }
     }
 }

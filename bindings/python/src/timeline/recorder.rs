@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use frictcomp::comp::Kind;
 use frictcomp::interpreter::PossibleState;
 use frictcomp::session::SavedState;
-use frictcomp::timeline::{Footing, Record, Sink, StateView};
+use frictcomp::timeline::{Record, Sink, StateView};
 use serde::{Deserialize, Serialize};
 
 use super::PyProgramRun;
@@ -147,7 +147,7 @@ impl Sink for Recorder {
                     (name.to_owned(), axis.start_up.as_str().into())
                 });
                 self.start_up = axes.collect();
-                self.is_assumed = summary.footing == Footing::Assumed;
+                self.is_assumed = !summary.assumed.is_empty();
             }
         }
         self.stop.flow()

@@ -73,7 +73,7 @@ impl Obstacle {
     pub(super) fn of(said: &Diagnostic) -> Option<Self> {
         match said.code {
             Code::Fc408 => Some(Self::at(said, Reason::Undescribed)),
-            Code::Fc902 => Some(Self::at(said, Reason::Assumed)),
+            Code::Fc210 | Code::Fc325 | Code::Fc902 => Some(Self::at(said, Reason::Assumed)),
             _ => None,
         }
     }
@@ -101,7 +101,7 @@ impl fmt::Display for Obstacle {
             }
             Reason::Assumed => write!(
                 f,
-                "which way the control takes at {at} is not known offline; one was assumed"
+                "what the control does at {at} is not known offline, and was assumed"
             ),
             Reason::Undescribed => write!(
                 f,

@@ -6,7 +6,7 @@ use super::obstacle::{Obstacle, Reason};
 use super::switch::Switch;
 use frictcomp::comp::{KindSet, State};
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::timeline::{EndedBy, Footing, Record, Row, Sink};
+use frictcomp::timeline::{EndedBy, Record, Row, Sink};
 
 /// Switches of one version of a program: a sink for the records of a session that runs it.
 #[derive(Debug, Clone)]
@@ -91,7 +91,7 @@ impl Sink for Version {
                 }
             }
             // The user may have silenced the message about it.
-            Record::Summary(summary) if summary.footing == Footing::Assumed => {
+            Record::Summary(summary) if !summary.assumed.is_empty() => {
                 self.hinder(Reason::Assumed);
             }
             _ => {}

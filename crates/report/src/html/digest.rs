@@ -1,6 +1,6 @@
 //! The digest of a session that is kept while it runs, for the report after it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -13,9 +13,7 @@ use frictcomp::lists::AxisType;
 use frictcomp::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use frictcomp::readings::Readings;
 use frictcomp::text::{Place, Position};
-use frictcomp::timeline::{
-    AxisSummary, End, EndedBy, Footing, Join, Record, Row, Sink, StateView, Summary,
-};
+use frictcomp::timeline::{AxisSummary, End, EndedBy, Join, Record, Row, Sink, StateView, Summary};
 
 /// Number of characters shown of a source line.
 pub(super) const LINE_ROOM: usize = 400;
@@ -170,7 +168,7 @@ pub(super) struct SummaryDigest {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) opaque: BTreeMap<String, u64>,
     pub(super) axes: Vec<AxisSummary>,
-    pub(super) footing: Footing,
+    pub(super) assumed: BTreeSet<Code>,
     /// Possible states at the end where FRICT of an axis is unknown.
     pub(super) ways: Vec<(AxisIndex, WaysIndex)>,
 }
@@ -488,7 +486,7 @@ impl RunDigest {
             counts: summary.counts.clone(),
             opaque: summary.opaque.clone(),
             axes: summary.axes.clone(),
-            footing: summary.footing,
+            assumed: summary.assumed.clone(),
             ways,
         });
         for axis in &summary.axes {

@@ -176,7 +176,7 @@ fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
         @if !advice.is_empty() {
             div.to-do { ul { @for text in &advice { li { (text) } } } }
         } @else if is_all_home {
-            p { (all_home(&summary.axes, summary.footing)) }
+            p { (all_home(&summary.axes, &summary.assumed)) }
         }
         @if !uncompensated.is_empty() {
             div.to-do { ul { @for text in &uncompensated { li { (text) } } } }

@@ -178,7 +178,7 @@ impl<'a> Player<'a> {
             counts: BTreeMap::from([(Severity::Info, 1), (Severity::Warning, 2)]),
             opaque: &opaque,
             axes: axes.collect(),
-            footing: frictcomp::timeline::Footing::Known,
+            assumed: std::collections::BTreeSet::new(),
             rests_on: frictcomp::readings::QuestionSet::default(),
             state: view,
         };

@@ -190,7 +190,7 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         Paragraph::new(Style::new(), text).write(out, look);
     } else if out.len() == bare && is_all_home {
-        Paragraph::new(DIM, all_home(&summary.axes, summary.footing)).write(out, look);
+        Paragraph::new(DIM, &all_home(&summary.axes, &summary.assumed)).write(out, look);
     }
     let rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
     if let Some(text) = rests_on_text(&rests_on) {

@@ -740,7 +740,6 @@ sent! {
     timeline::EndNote,
     timeline::EndedBy,
     timeline::FeedMoves,
-    timeline::Footing,
     timeline::Join<'_>,
     timeline::Modal,
     timeline::Motion,

@@ -48,7 +48,7 @@ pub struct FirstMotion {
     pub site: Site,
     /// Kind of motion.
     pub motion: MotionKind,
-    /// Whether it may not come to the motion, or may come to it in a state of its own: that is not
+    /// Whether it may not reach the motion, or may reach it in a state of its own: that is not
     /// known offline. Records name it only then.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub perhaps: bool,
@@ -73,7 +73,7 @@ pub enum Inherits {
     No,
     /// The first motion before any command of the program.
     Motion(FirstMotion),
-    /// The program stopped before it came to either.
+    /// The program stopped before it reached either.
     Unknown,
 }
 

@@ -114,7 +114,7 @@ fn observe<E>(
     program.auditor.observe(program.calls.as_ref(), run)
 }
 
-/// A file on its way to be mended.
+/// A file that is being mended.
 struct Trial<'a, R> {
     text: &'a str,
     programs: &'a [Affected<'a>],
@@ -278,7 +278,7 @@ impl<R> Trial<'_, R> {
         })
     }
 
-    /// Whether a program comes to leave an axis away from its start-up state, or may.
+    /// Whether a program now leaves an axis away from its start-up state, or may.
     fn brings_a_hazard(&self, program: usize, after: &ProgramRuns) -> bool {
         let auditor = self.programs[program].auditor;
         let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();

@@ -5,10 +5,10 @@
 //! states that it leaves. Two dry runs give it, one with every configured axis in its start-up state and one with
 //! every one away from its start-up state: a [`ProgramAudit`]. An [`Archive`] puts the programs of one machine
 //! together and finds which programs leave an axis away from its start-up state and which would inherit that, without ever
-//! looking at pairs. [`Mending`] finds the block that ends it, and [`Step`] tells what happens in one
+//! looking at pairs. [`Mending`] finds the block that ends it, and [`Step`] says what happens in one
 //! given order.
 //!
-//! Nothing here opens a file: whoever has the programs runs them on the interpreter that an [`Auditor`]
+//! Nothing here opens a file: the host runs its programs on the interpreter that an [`Auditor`]
 //! hands out.
 
 mod archive;

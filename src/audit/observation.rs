@@ -36,7 +36,7 @@ pub(super) struct Moved {
 /// Effect of a run on one subject.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observed {
-    /// The last that changed it or set it anew.
+    /// The last that changed it or set it again.
     pub(super) last: Option<SelectionOrigin>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
@@ -55,7 +55,7 @@ pub(super) struct Observed {
 #[derive(Debug, Clone)]
 pub(super) struct Observation {
     pub(super) observed: Vec<Observed>,
-    /// Why it ended; `None` where nobody waited for the end.
+    /// Why it ended; `None` where the end was not awaited.
     pub(super) by: Option<EndedBy>,
     /// The block of the main file that ended it.
     pub(super) end: Option<u32>,

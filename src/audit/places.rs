@@ -52,7 +52,7 @@ fn before_ends<'a>(
         ends.into_iter().collect::<Vec<_>>()
     };
     let end_after = |line: u32| after(&numbering, line);
-    // What others call ends with M17, whoever starts it.
+    // What others call ends with M17, however it is started.
     let is_called = runs.clone().any(|run| !run.within.is_of_main());
     let returned = |run: &Observation| match run.end {
         _ if !run.within.is_of_main() => run.within.returns.clone(),

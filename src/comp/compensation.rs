@@ -23,7 +23,7 @@ struct AxisState {
 }
 
 impl AxisState {
-    /// Makes a change to a kind and tells it where the user would see it.
+    /// Makes a change to a kind and reports it where the user would see it.
     fn change(
         &mut self,
         axis: AxisIndex,

@@ -36,7 +36,7 @@ pub enum CompensationError {
     },
     /// A command that the documents do not settle, and that the configuration reads as refused
     /// (R15.2).
-    #[error("the control is read as refusing {what} of axis `{axis}` ({rule})")]
+    #[error("by the selected reading ({rule}) the control refuses {what} of axis `{axis}`")]
     ReadAsRefused {
         /// The axis of the command.
         axis: String,

@@ -33,7 +33,7 @@ pub enum Form {
     NumberOrText,
     /// Skip levels.
     SkipLevels,
-    /// A list of pairs of numbers, at most so many.
+    /// A list of pairs of numbers, with the largest number of them.
     Points(Option<usize>),
     /// The severity of a code.
     Level,

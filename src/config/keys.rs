@@ -1,4 +1,4 @@
-//! The keys that may stand in `frictcomp.toml`, for who offers them while one types.
+//! The keys that `frictcomp.toml` may have, for completion.
 
 use super::axis::{AXIS, VALUE};
 use super::file::{CHECK, LINT, ROOT, VARIABLES};

@@ -68,7 +68,7 @@ pub(super) const WORDS: Shape = Shape {
 };
 
 impl MachineTable {
-    /// The table in the whole file; without it nothing is said.
+    /// The table in the whole file; without it nothing is reported.
     pub(super) fn read(root: &Section<'_>) -> Result<Self, ConfigError> {
         let Some(section) = root.table("machine", &MACHINE)? else {
             return Ok(Self::default());

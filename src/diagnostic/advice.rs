@@ -49,7 +49,7 @@ pub enum Advice {
     ConfigureInList {
         /// Name of the axis.
         axis: String,
-        /// The list.
+        /// Path of the list.
         file: String,
         /// The line that sets it.
         line: u32,
@@ -161,7 +161,7 @@ impl fmt::Display for Advice {
                 }
             }
             Self::SetVariable(name) => {
-                write!(f, "give `{name}` its value, in `[variables]` of frictcomp.toml for instance")
+                write!(f, "give `{name}` a value, for example in `[variables]` of frictcomp.toml")
             }
             Self::SetSkip(level) => write!(
                 f,

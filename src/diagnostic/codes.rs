@@ -83,7 +83,7 @@ codes! {
     Fc136 "FC136" Warning "first table point comes too late";
     Fc137 "FC137" Warning "value exceeds 16 bits";
     Fc138 "FC138" Warning "friction values on a spindle";
-    Fc139 "FC139" Warning "friction values that are hardly meant";
+    Fc139 "FC139" Warning "implausible friction values";
     Fc140 "FC140" Warning "gantry slave compensated differently from its master";
     Fc201 "FC201" Error "incomplete COMP command";
     Fc202 "FC202" Error "unknown compensation kind";
@@ -107,7 +107,7 @@ codes! {
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius that ends where it starts";
-    Fc317 "FC317" Warning "return over more programs than are called";
+    Fc317 "FC317" Warning "return from more programs than were called";
     Fc318 "FC318" Warning "the program stops itself";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside the project folders";
@@ -137,7 +137,7 @@ codes! {
     Fc506 "FC506" Warning "compensation makes it worse";
     Fc511 "FC511" Warning "slow speeds were not recorded";
     Fc512 "FC512" Warning "fast speeds were not recorded";
-    Fc513 "FC513" Warning "torque repeats along the way";
+    Fc513 "FC513" Warning "torque repeats with the position";
     Fc514 "FC514" Warning "too few speeds for a friction curve";
     Fc515 "FC515" Warning "too much noise for the accuracy";
     Fc516 "FC516" Warning "friction drifts";

@@ -42,7 +42,7 @@ impl CodeFilter {
         }
     }
 
-    /// Changes what was said already, about lists.
+    /// Changes what was reported already, about lists.
     pub fn sift(&self, said: &mut Vec<Diagnostic>) {
         said.retain(|diagnostic| self.keeps(diagnostic.code));
         for diagnostic in said {

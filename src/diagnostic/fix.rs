@@ -85,7 +85,7 @@ impl Serialize for Fix {
     }
 }
 
-/// A fix whose text holds a name that is known only where something is said.
+/// A fix whose text holds a name that is known only where the message is made.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct NamedFix {
@@ -137,8 +137,8 @@ pub struct Edit {
     pub text: String,
 }
 
-/// The changes of a file that fixes come to, from its start to its end. A fix that overlaps an earlier
-/// one, and one whose place is not in the text, comes to nothing.
+/// The changes that fixes make in a file, from its start to its end. A fix that overlaps an earlier
+/// one, and one whose place is not in the text, changes nothing.
 pub fn edits<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Vec<Edit> {
     let line_end = line_end(source.text());
     let placed = fixes.into_iter().filter_map(|fix| {

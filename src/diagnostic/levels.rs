@@ -24,7 +24,7 @@ impl Levels {
     }
 
     /// Gives a diagnostic the severity that the user gave its code; any other, and one that is raised, keeps
-    /// its own, and one that is lowered is not raised. Returns whether it is said at all.
+    /// its own, and one that is lowered is not raised. Returns whether it is reported at all.
     pub(crate) fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
         if diagnostic.is_raised() {
             return true;

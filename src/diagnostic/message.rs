@@ -16,7 +16,7 @@ use crate::text::{Place, Span};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Label {
-    /// Where.
+    /// The place that it explains.
     pub place: Place,
     /// Text at the label, in a few words.
     pub text: String,

@@ -17,7 +17,7 @@ impl fmt::Display for ReadableNumber {
     }
 }
 
-/// A number with so many decimals; what is rounded to zero has no sign.
+/// A number with a number of decimals; what is rounded to zero has no sign.
 pub struct Rounded(pub f64, pub usize);
 
 impl fmt::Display for Rounded {

@@ -8,7 +8,7 @@ crate::words! {
     #[serde(rename_all = "lowercase")]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum Severity {
-        /// Worth knowing.
+        /// For information.
         Info = "info",
         /// Likely a mistake, or an effect that outlives the program.
         Warning = "warning",

@@ -58,9 +58,9 @@ pub enum Presence {
         /// The file and the line or the path in it.
         evidence: String,
     },
-    /// Nothing says anything, or what is said contradicts itself.
+    /// No source gives it, or the sources contradict each other.
     Unknown {
-        /// Why.
+        /// The reason, in words.
         reason: String,
     },
     /// There is no drive, or none that could take it.
@@ -350,7 +350,7 @@ impl Judge<'_> {
         self.open.push(said);
     }
 
-    /// The largest torque of a value list, scaled, in 0.1 %; too large a one is said (R7.7).
+    /// The largest torque of a value list, scaled, in 0.1 %; too large a one is reported (R7.7).
     fn largest(&mut self, list: &FrictionList) -> f64 {
         let outputs = list.table.iter().map(|point| point.output.abs());
         let plain = outputs.fold(0.0, f64::max) * f64::from(list.scaling_factor).abs() / 1000.0;

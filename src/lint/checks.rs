@@ -15,7 +15,7 @@ use crate::readings::Question;
 use crate::text::Span;
 
 /// The lints on a command, before it is remembered; the first that has something to say wins, so
-/// that nothing is said twice about it.
+/// that nothing is reported twice about it.
 const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
     [repeated::lint, undescribed::lint];
 
@@ -75,8 +75,8 @@ impl Linter<'_> {
         said.extend(shared_block::lint(executed));
     }
 
-    /// Looks at the state that an ended program leaves, and remembers who made it. A program that
-    /// an error or a budget stopped is not blamed for what it did not come to.
+    /// Looks at the state that an ended program leaves, and remembers what made it. A program that
+    /// an error or a budget stopped is not judged by what it did not reach.
     /// One that a loop keeps for ever is ended by a reset, which keeps the state unless the machine is
     /// read otherwise (R1.28).
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {

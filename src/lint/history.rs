@@ -6,7 +6,7 @@ use super::memory::{BlockSite, ProgramEffects};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::interpreter::Ended;
 
-/// A block is remembered with so many characters of its text.
+/// Characters of its text with which a block is remembered.
 const MAX_TEXT: usize = 400;
 
 /// The block that made a state what it is.
@@ -36,7 +36,7 @@ impl Maker {
     }
 }
 
-/// Whether the user has been told that a state is left away from its start-up state.
+/// Whether it was reported that a state is left away from its start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum LeftAwayNotice {
     /// It was not said.
@@ -44,7 +44,7 @@ pub(crate) enum LeftAwayNotice {
     No,
     /// FC401 or FC407 stands under a program of this session.
     Said,
-    /// The user does not want to hear it.
+    /// The user silenced it.
     Silenced,
 }
 

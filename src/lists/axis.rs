@@ -119,7 +119,7 @@ impl AxisValues {
 
     /// The change of the list that sets P-AXIS-00522: in the line that sets it to 0, unless that
     /// stands in the list `shared` by all axes, or else in a line of its own. `None` where it is set,
-    /// or where no list speaks of the axis alone.
+    /// or where no list is about the axis alone.
     pub(crate) fn configuring(&self, shared: Option<&str>) -> Option<Fix> {
         let own = |given: &&Given<bool>| shared != Some(given.file());
         match self.frict_comp() {

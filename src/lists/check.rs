@@ -8,7 +8,7 @@ use super::value::{Given, Number, Written};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 
-/// After so many statements the rest of a broken table is not looked at.
+/// Messages after which the rest of a broken table is not checked.
 const MAX_DIAGNOSTICS: usize = 50;
 
 /// Facts that the checks depend on besides the list.
@@ -119,7 +119,7 @@ impl Check<'_> {
             .any(|diagnostic| diagnostic.code == code)
     }
 
-    /// The mode and the values, where every scalar is a number of its type; an error is said where a
+    /// The mode and the values, where every scalar is a number of its type; an error is reported where a
     /// point is not.
     fn values(&mut self) -> Option<(u16, FrictionList)> {
         let mode = self.scalar(Field::Mode);

@@ -231,7 +231,7 @@ impl FrictionDraft {
         self.scalars.extend(other.scalars);
     }
 
-    /// Whether nothing at all is said about friction compensation.
+    /// Whether the list says nothing about friction compensation.
     pub fn is_empty(&self) -> bool {
         self.scalars.is_empty() && self.table.is_empty()
     }

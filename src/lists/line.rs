@@ -74,7 +74,7 @@ impl Entries {
         }
     }
 
-    /// Whether keys lost their underscores, which is said.
+    /// Whether keys lost their underscores, which is reported.
     pub(crate) fn lost_underscores(&self) -> bool {
         self.lost > 0
     }

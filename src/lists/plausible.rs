@@ -1,4 +1,4 @@
-//! Values that the control takes and that are hardly meant (FC139).
+//! Values that the control takes although they are implausible (FC139).
 
 use super::friction::{Field, FrictionDraft};
 use super::parameter::AxisType;

@@ -99,7 +99,7 @@ fn follow(entries: &[Entry], first: usize) -> Result<Option<Span>, (&'static str
             Err(why) => return Err((why, passed)),
         };
         if passed.contains(&next) {
-            return Err(("which leads round in a circle", passed));
+            return Err(("which leads back to itself", passed));
         }
         passed.push(next);
     }

@@ -19,7 +19,7 @@ pub enum Parameterisation {
     Off,
     /// The list was read and rejected with this code.
     Rejected {
-        /// The list.
+        /// Path of the list.
         file: String,
         /// The code of the first check that it failed.
         code: String,

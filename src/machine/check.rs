@@ -67,7 +67,7 @@ impl AcceptedList {
 }
 
 /// Checks one list of any kind, under a kernel version where that is known. A start-up list is
-/// checked with every list that it names; any other list by itself, so nothing is said about what
+/// checked with every list that it names; any other list by itself, so nothing is reported about what
 /// stands in its neighbours.
 pub fn check_list(
     file: SourceFile,

@@ -1,4 +1,4 @@
-//! The comment that allows a message where it is said (R9.24, R12.5).
+//! The comment that allows a message where it is reported (R9.24, R12.5).
 
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::syntax::{allow, goes_on};

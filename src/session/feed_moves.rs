@@ -21,7 +21,7 @@ pub(super) struct FeedMoveCounter {
 }
 
 impl FeedMoveCounter {
-    /// No move of so many axes yet.
+    /// No move yet, of a number of axes.
     pub(super) fn new(axes: usize) -> Self {
         Self {
             counts: vec![FeedMoves::default(); axes],

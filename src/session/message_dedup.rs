@@ -1,4 +1,4 @@
-//! Messages of a program so far: a message in a loop is said once a place, with the number of its
+//! Messages of a program so far: a message in a loop is reported once a place, with the number of its
 //! repetitions, and the messages of a file are limited (R2.85).
 
 use std::collections::HashMap;
@@ -17,7 +17,7 @@ const MAX_AT_A_PLACE: usize = 16;
 pub(super) enum DedupVerdict {
     /// It is new.
     Say,
-    /// It was said at this place before.
+    /// It was reported at this place before.
     Repeated,
     /// Its file said too much before; it counts all the same.
     TooMany,
@@ -25,7 +25,7 @@ pub(super) enum DedupVerdict {
 
 type SayingKey = (Code, Arc<str>, Position);
 
-/// A message that was said.
+/// A message that was reported.
 struct Saying {
     /// A hash of its text.
     hash: u64,
@@ -53,7 +53,7 @@ pub(super) struct MessageDedup {
 }
 
 impl MessageDedup {
-    /// Nothing is said yet, and a file may say so many messages.
+    /// No message yet, with a limit of messages for each file.
     pub(super) fn at_most(most: usize) -> Self {
         Self {
             most,
@@ -95,7 +95,7 @@ impl MessageDedup {
         DedupVerdict::Say
     }
 
-    /// Takes a message that is said at the end, where nothing is said twice.
+    /// Takes a message at the end, where none comes twice.
     pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
         if self.has_room(&diagnostic.place) {
             DedupVerdict::Say

@@ -118,7 +118,7 @@ pub enum Program<'a> {
 }
 
 impl Program<'_> {
-    /// The beginning of the text, as far as it is at hand.
+    /// The beginning of the text, as far as it is available.
     fn head(&mut self) -> &str {
         match self {
             Self::Lines(lines) => lines.ahead(),
@@ -328,7 +328,7 @@ impl Session {
         ControlFlow::Continue(())
     }
 
-    /// Runs one program. `Break` when the sink wants no more.
+    /// Runs one program. `Break` when the sink takes no more.
     pub fn program(
         &mut self,
         file: &str,

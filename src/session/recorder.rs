@@ -53,7 +53,7 @@ impl SessionTotals {
         *self.counts.entry(diagnostic.severity).or_default() += 1;
     }
 
-    /// Takes note of what the run assumes, whether or not the user wants to hear it.
+    /// Takes note of what the run assumes, whether or not the user silenced it.
     fn note_footing<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) {
         for diagnostic in said {
             match diagnostic.code {
@@ -91,7 +91,7 @@ pub(super) struct Recorder<'a> {
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
-    /// FC326, until it is said in front of everything else.
+    /// FC326, until it is reported before everything else.
     pub(super) foreign: Option<Diagnostic>,
     /// Messages so far.
     pub(super) before: MessageDedup,

@@ -35,7 +35,7 @@ pub enum StateError {
     /// It contradicts itself.
     #[error("it is damaged ({reason})")]
     Damaged {
-        /// How.
+        /// What is wrong, in words.
         reason: String,
     },
 }
@@ -45,7 +45,7 @@ pub enum StateError {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SavedState {
-    /// 3, whose files have a checksum; a state of schema 1 knows neither who made a state nor
+    /// 3, whose files have a checksum; a state of schema 1 has neither what made a state nor
     /// anything below `variables`.
     pub schema: u32,
     /// The axes with what the start of the control read: another text is another machine.
@@ -119,7 +119,7 @@ pub struct SavedAway {
     /// The block that made it so, where that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<Maker>,
-    /// Whether the user does not want to hear of it (R9.24).
+    /// Whether the user silenced it (R9.24).
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub allowed: bool,
 }
@@ -202,7 +202,7 @@ pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
     }
 }
 
-/// One line an axis with what only a start of the control reads. Value lists may be loaded anew
+/// One line an axis with what only a start of the control reads. Value lists may be loaded again
 /// while the control runs and are no part of it.
 pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
     let lines = machine.axes.iter();

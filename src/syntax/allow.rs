@@ -96,7 +96,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
     allowance
 }
 
-/// The comment of a text that speaks to this tool, with the blanks before it, where it allows a single
+/// The comment of a text that is addressed to this tool, with the blanks before it, where it allows a single
 /// code and nothing else of the text would go with it.
 pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     let mark = text.find(MARK)?;

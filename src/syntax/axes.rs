@@ -15,7 +15,7 @@ pub(crate) const MAX_MACROS: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum AxisUse {
-    /// It moves the axis, or speaks to it.
+    /// It moves the axis, or addresses it.
     Named,
     /// It switches friction compensation of the axis.
     Switched,

@@ -1,6 +1,6 @@
 //! Programs of other controls, known by their words (R2.97).
 //!
-//! What is plain DIN 66025 is fine on every control and tells nothing.
+//! Plain DIN 66025 is the same on every control and shows nothing.
 
 use std::fmt;
 

@@ -18,7 +18,7 @@ pub(super) struct NcParser;
 
 /// Bounds the steps in which a block is read (R12.16), for all of the process; past it the block is not
 /// understood, FC913. No block is known that comes near the bound. It holds for every parser that the
-/// process makes with pest, so it is up to who owns the process; the command line sets it.
+/// process makes with pest, so it is up to the owner of the process; the command line sets it.
 pub fn bound_reading() {
     pest::set_call_limit(Some(MAX_STEPS));
 }

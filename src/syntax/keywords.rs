@@ -35,7 +35,7 @@ const EDITOR: &str = "vscode-isg-cnc";
 /// The texts of the kernel's messages.
 const KERNEL: &str = "kernel messages";
 
-/// The `#` commands: the words that tell one from the others, what it touches, where it is described.
+/// The `#` commands: the words that identify it, what it touches, where it is described.
 const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#ACHSE", Nothing, "tccncprogramming/15557317259"),
     ("#ACHSTAUSCH", Axes, EDITOR),

@@ -19,7 +19,7 @@ use crate::text::{LineSource, Span, changed_direction};
 /// without one a damaged file would be read into memory whole.
 const MAX_REGION: usize = 1 << 20;
 
-/// Faults of one block that are said one by one (R2.85).
+/// Faults of one block that are reported one by one (R2.85).
 const MAX_FAULTS: usize = 1000;
 
 /// Whether blocks are parsed by hand where that is possible.

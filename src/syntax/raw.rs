@@ -38,7 +38,7 @@ pub struct RawBlock<'a> {
     pub comments: Comments,
     /// Whether it was parsed by hand, so that it is made of words with plain numbers.
     pub plain: bool,
-    /// The comment line directly above that speaks to this tool (R9.24).
+    /// The comment line directly above that is addressed to this tool (R9.24).
     pub remark: Option<&'a Remark>,
 }
 
@@ -48,14 +48,14 @@ impl RawBlock<'_> {
         Place::in_block(file, self.text, self.line, span)
     }
 
-    /// A fault of a `%` line, which no run comes to, as a message about its file.
+    /// A fault of a `%` line, which no run reaches, as a message about its file.
     pub(crate) fn opening_said(&self, file: &Arc<str>, fault: Fault) -> Diagnostic {
         let place = self.place(file, fault.span);
         fault.into_diagnostic(place, |_| None)
     }
 }
 
-/// Comment lines, one right above the other, that speak to this tool.
+/// Comment lines, one right above the other, that are addressed to this tool.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Remark {

@@ -1,4 +1,4 @@
-//! Comment lines that speak to this tool, and the blocks that they stand above (R9.24).
+//! Comment lines that are addressed to this tool, and the blocks below them (R9.24).
 
 use super::raw::{LostRemarks, Remark};
 use crate::diagnostic::MAX_MESSAGES;
@@ -34,7 +34,7 @@ impl LatestRemarks {
         self.last = line;
     }
 
-    /// Takes a line outside blocks, whatever it speaks of.
+    /// Takes a line outside blocks, whatever it contains.
     pub(super) fn look_at(&mut self, text: &str, line: u32) {
         if changed_direction(text).is_none() {
             return;

@@ -1,4 +1,4 @@
-//! A look over programs before they run, piece by piece: blocks that may tell something are parsed as in a
+//! A look over programs before they run, piece by piece: blocks that may matter are parsed as in a
 //! run, the rest is passed over. Nothing is executed.
 
 use std::collections::BTreeSet;
@@ -14,10 +14,10 @@ const MAX_CONTINUED: usize = 64 * 1024;
 
 /// A question to a program.
 pub trait ScanQuestion {
-    /// The first place of a text, from one on, at which a line may tell something.
+    /// The first place of a text, from one on, at which a line may matter.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
 
-    /// Looks at a block that may tell something.
+    /// Looks at a block that may matter.
     fn look(&mut self, block: &Block, text: &str);
 }
 

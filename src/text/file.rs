@@ -46,7 +46,7 @@ impl SourceFile {
         &self.text
     }
 
-    /// The whole text, for who keeps it beside the file.
+    /// The whole text, for callers that keep it beside the file.
     pub(crate) fn shared_text(&self) -> Arc<String> {
         self.text.clone()
     }

@@ -1,12 +1,12 @@
-//! Characters that nobody sees, or that change how their neighbours are read (R9.76).
+//! Characters that are invisible, or that change how their neighbours are read (R9.76).
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use super::span::Span;
 
-/// Whether a character is a control character or one that changes how its neighbours are read, or
-/// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
+/// Whether a character is a control character, changes how its neighbours are read, or is
+/// invisible: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
 /// characters without width, and what is no character.
 pub fn is_hidden(letter: char) -> bool {
     matches!(

@@ -32,7 +32,7 @@ pub trait LineSource {
     /// The line that [`advance`](Self::advance) went to.
     fn line(&self) -> PhysicalLine<'_>;
 
-    /// The lines to come that are at hand, each whole and with its end; none at the end of the text.
+    /// The following lines that are available, each whole and with its end; none at the end of the text.
     fn ahead(&mut self) -> &str;
 
     /// Goes to the first line of [`ahead`](Self::ahead), which has so many bytes without its end, and

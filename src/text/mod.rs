@@ -2,7 +2,7 @@
 //!
 //! Nothing here knows what an NC block or a list entry is. Offsets are bytes in UTF-8 text; lines
 //! and columns are made only when something is printed. What bytes of files mean, the code pages of old
-//! systems, is said where files are read.
+//! systems, is handled where files are read.
 
 mod file;
 mod hidden;

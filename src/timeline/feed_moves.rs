@@ -30,7 +30,7 @@ impl FeedMoves {
         self.off + self.ineffective
     }
 
-    /// Whether there is no move to speak of.
+    /// Whether there is no such move.
     pub fn is_empty(&self) -> bool {
         self.without() == 0 && self.unknown == 0
     }

@@ -1,4 +1,4 @@
-//! Rows and records: what a dry run says, in the order in which it is said.
+//! Rows and records: what a dry run reports, in that order.
 //!
 //! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then
 //! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes

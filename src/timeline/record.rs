@@ -1,4 +1,4 @@
-//! The records and who takes them.
+//! The records and the sinks that take them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
@@ -175,8 +175,8 @@ pub struct AxisSummary {
     pub end: State,
     /// Friction compensation at the start of the control (R1.22).
     pub start_up: State,
-    /// Whether the user was told that it is left away from its start-up state (FC401, FC407), or does not want to
-    /// hear it.
+    /// Whether it was reported that it is left away from its start-up state (FC401, FC407), or the user
+    /// silenced that.
     pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.
     pub changed_by: Vec<ChangedBy>,
@@ -298,7 +298,7 @@ impl<'a> Record<'a> {
 /// A diagnostic as a record of its own.
 #[derive(Debug, Clone, Copy)]
 pub struct DiagnosticRecord<'a> {
-    /// The number of the program and the executed block; `None` for what is said about the machine.
+    /// The number of the program and the executed block; `None` for messages about the machine.
     pub(super) block: Option<(u32, u64)>,
     pub(super) diagnostic: &'a Diagnostic,
 }

@@ -333,7 +333,7 @@ fn a_missing_program_is_the_root_of_what_it_would_have_written() {
     assert_eq!(count(&said, "FC311"), 0, "{said}");
     assert_eq!(count(&said, "FC901"), 1, "{said}");
     assert!(
-        said.contains("the program `meas.ecy`, which is not at hand"),
+        said.contains("the program `meas.ecy`, which is missing"),
         "{said}"
     );
     assert!(

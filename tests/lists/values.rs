@@ -65,7 +65,7 @@ fn a_reference_to_nothing_or_round_in_a_circle_is_said() {
         ["FC124 1:15", "FC124 4:20", "FC124 5:20"]
     );
     let said = messages(&report.diagnostics);
-    assert!(said[0].contains("leads round in a circle"), "{}", said[0]);
+    assert!(said[0].contains("leads back to itself"), "{}", said[0]);
     assert!(
         said[1].contains("which no line of this list gives"),
         "{}",

@@ -2,7 +2,7 @@
 //! C: `include/frictcomp.h` is made from this crate, `docs/c.md` shows how it is used.
 //!
 //! [`machine`] and [`compensation`] are what the handles of C point to, [`failure`] keeps panics inside
-//! and the last error at hand, and [`exports`] alone touches pointers.
+//! and the last error available, and [`exports`] alone touches pointers.
 
 #[cfg(panic = "abort")]
 compile_error!(

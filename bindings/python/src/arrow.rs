@@ -85,7 +85,7 @@ impl ArrowTable {
         })
     }
 
-    /// A stream of the batches for whoever takes it; dropped with the capsule if nobody does.
+    /// A stream of the batches for its consumer; dropped with the capsule if there is none.
     pub(crate) fn stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         let batches = self.batches.clone().into_iter().map(Ok);
         let reader = RecordBatchIterator::new(batches, self.schema.clone());

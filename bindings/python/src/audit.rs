@@ -203,7 +203,7 @@ fn table(report: &AuditReport) -> ArrowTable {
     ArrowTable::of(columns, &[&by[..], &inherited].concat())
 }
 
-/// What an audit is made of anew: the table, the records, the messages, the counts.
+/// What an audit is restored from: the table, the records, the messages, the counts.
 type PickledAudit<'py> = (
     Bound<'py, PyBytes>,
     String,
@@ -270,7 +270,7 @@ impl PyAudit {
         self.hazards
     }
 
-    /// Whether something is to be mended, or cannot be told.
+    /// Whether something needs mending, or is not known.
     #[getter]
     fn has_warnings(&self) -> bool {
         self.has_warnings

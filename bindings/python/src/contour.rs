@@ -55,7 +55,7 @@ struct ContourJob {
     run: Options,
 }
 
-/// What came of it.
+/// Its result.
 struct Driven {
     record: String,
     svg: String,
@@ -186,7 +186,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
     recorder.drawing(ContourPicture::new(plane))
 }
 
-/// What a contour is made of anew.
+/// What a contour is restored from.
 type PickledContour = (String, String, Vec<String>, Py<PyMessages>);
 
 #[pymethods]

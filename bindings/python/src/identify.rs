@@ -51,7 +51,7 @@ struct AxisRecordings {
     said: TorqueStatement,
 }
 
-/// What the caller says about the torque; it counts before what the channels tell.
+/// What the caller says about the torque; it takes precedence over the channels.
 #[derive(Clone, Copy)]
 struct TorqueStatement {
     kind: Option<TorqueKind>,
@@ -75,7 +75,7 @@ fn switched(word: &str) -> PyResult<Switched> {
 /// Finds the friction of an axis in a recording, and the points of a value list.
 ///
 /// ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
-/// was on meanwhile; without them the channels tell, where they do.
+/// was on meanwhile; without them the channels say it, where they do.
 ///
 /// ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
 /// the file does not. With ``circles`` the recordings are circles at two or more feeds.
@@ -220,7 +220,7 @@ impl AxisRecordings {
     }
 }
 
-/// What is wanted.
+/// What is requested.
 fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult<IdentifyOptions> {
     const MOST: usize = 20;
     const LARGEST: f64 = 50.0;
@@ -238,7 +238,7 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
     if let Some(percent) = max_error {
         if !(percent > 0.0 && percent <= LARGEST) {
             return Err(refused(format!(
-                "an error of {percent} % cannot be wanted; give per cent of the friction, 1 for instance"
+                "an error of {percent} % is not possible; give per cent of the friction, 1 for instance"
             )));
         }
         options.accuracy = percent / 100.0;

@@ -1,5 +1,5 @@
 //! The Python module `frictcomp._engine`: what `frictcomp` does, as Python classes and functions.
-//! What they do is said where Python's users read it, in `python/frictcomp/_engine.pyi`.
+//! What they do is documented where Python's users read it, in `python/frictcomp/_engine.pyi`.
 
 mod arrow;
 mod audit;

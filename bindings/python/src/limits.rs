@@ -99,7 +99,7 @@ pub(crate) fn options(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     limits.map_or_else(Options::default, |limits| limits.get().0)
 }
 
-/// The same where nobody wants to wait: unless limits are given, loops and calls end soon (R9.91).
+/// The same while a user waits: unless limits are given, loops and calls end soon (R9.91).
 pub(crate) fn brief(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     let given = limits.map(|limits| limits.get().0);
     given.unwrap_or_else(|| Options::default().with_limits(Limits::brief()))

@@ -81,7 +81,7 @@ pub(crate) struct PyMessage {
     reached_from_count: usize,
 }
 
-/// What was said.
+/// The messages.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct GivenMessages {
     /// The messages in their order.
@@ -111,14 +111,14 @@ impl GivenMessages {
         }
     }
 
-    /// So many more messages of a program are not listed.
+    /// How many more messages of a program are not listed.
     pub(crate) fn leave_out(&mut self, unsaid: &BTreeMap<Severity, u64>) {
         for (severity, more) in unsaid.iter().filter(|(_, more)| **more > 0) {
             *self.left_out.entry(severity.as_str().into()).or_default() += more;
         }
     }
 
-    /// So many messages there are, listed or not.
+    /// How many messages there are, listed or not.
     pub(crate) fn count_all(&mut self, counts: &BTreeMap<Severity, u64>) {
         for (severity, all) in counts {
             let word = severity.as_str();
@@ -436,7 +436,7 @@ impl PyMessages {
         self.count_of("warning")
     }
 
-    /// How many messages of a severity are not listed: a file says so many and no more.
+    /// How many messages of a severity are not listed: the list for each file is limited.
     #[getter]
     fn left_out(&self) -> BTreeMap<PickledWord, u64> {
         self.0.left_out.clone()

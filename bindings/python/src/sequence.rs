@@ -140,7 +140,7 @@ fn table(steps: &[Step]) -> ArrowTable {
     ArrowTable::of(columns, &nullable)
 }
 
-/// What a sequence is made of anew: the table, the records, the lines, the messages, the warnings.
+/// What a sequence is restored from: the table, the records, the lines, the messages, the warnings.
 type PickledSequence<'py> = (Bound<'py, PyBytes>, String, String, Py<PyMessages>, bool);
 
 #[pymethods]

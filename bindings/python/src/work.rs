@@ -18,12 +18,12 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// The stack of the thread: as much as the main thread of a program has elsewhere.
 const STACK: usize = 8 << 20;
 
-/// Whether the work is wanted no more.
+/// Whether the work was cancelled.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// `Break` where it is wanted no more.
+    /// `Break` where it was cancelled.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         if self.0.load(Ordering::Relaxed) {
             ControlFlow::Break(())

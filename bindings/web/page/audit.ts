@@ -39,7 +39,7 @@ function lead(found: Audit): string {
   }
   if (found.hazards > 0) {
     return `${programs}. ${counted(found.hazards, "pair")} of programs in which one leaves an axis away from `
-      + "home and the other moves it in that state, if it is run next.";
+      + "its start-up state and the other moves it in that state, if it is run next.";
   }
   if (found.warnings) {
     return `${programs}; of some it is not known what they leave.`;

@@ -4,7 +4,7 @@ use frictcomp::comp::State;
 
 use crate::rows::ExecutedRows;
 
-/// Stretches are not told apart that are shorter than the bar divided by this.
+/// Stretches shorter than the bar divided by this are not distinguished.
 const COLUMNS: usize = 512;
 
 /// What a stretch shows where several states are too close together.

@@ -30,7 +30,7 @@ extern "C" fn reserve(length: usize) -> *mut u8 {
     })
 }
 
-/// Takes a file: its path, so many bytes, and behind it what it holds. `named` is 1 for a file that the
+/// Takes a file: its path, of a number of bytes, and after it what it holds. `named` is 1 for a file that the
 /// user picked by itself.
 #[unsafe(no_mangle)]
 extern "C" fn put(path_length: usize, named: u32) {

@@ -39,7 +39,7 @@ struct DroppedFile {
 #[derive(Debug, Default)]
 pub(crate) struct Dropped {
     files: BTreeMap<PathBuf, DroppedFile>,
-    /// The disk with them, once somebody asked for it.
+    /// The disk with them, once it was asked for.
     disk: Option<Disk>,
 }
 

@@ -2,7 +2,7 @@
 //! questions of the page about them.
 //!
 //! The page and the engine share nothing but bytes (`border`). A question is JSON; an answer is JSON, a
-//! page, a picture or records, as the question wants.
+//! page, a picture or records, as the question asks.
 
 mod audits;
 mod bars;

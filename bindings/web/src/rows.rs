@@ -7,7 +7,7 @@ use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::interpreter::PossibleStates;
 use frictcomp::timeline::{Row, StateView};
 
-/// So many blocks are kept for the timeline.
+/// The most blocks that are kept for the timeline.
 pub(crate) const MOST_ROWS: usize = 4_000_000;
 
 /// One executed block.

@@ -427,7 +427,7 @@ impl ShownRun {
         Some(at + 1)
     }
 
-    /// So many items of a view from one on.
+    /// A number of items of a view from one on.
     pub(crate) fn items(&mut self, view: ShownBlocks, from: usize, count: usize) -> Vec<u8> {
         let end = self.total(view).min(from.saturating_add(count));
         let wanted: Vec<Option<usize>> = (from..end).map(|at| self.row_at(view, at)).collect();

@@ -1,4 +1,4 @@
-//! What the page is told while work takes long.
+//! What the page is sent during long work.
 
 #![allow(unsafe_code, reason = "the functions of the page are foreign")]
 
@@ -16,17 +16,17 @@ unsafe extern "C" {
     safe fn told(at: *const u8, length: usize);
 }
 
-/// Nobody watches.
+/// There is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn progress(_: f64, _: u32) {}
 
-/// Nobody watches.
+/// There is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn due() -> u32 {
     0
 }
 
-/// Nobody watches.
+/// There is no watcher.
 #[cfg(not(target_family = "wasm"))]
 fn told(_: *const u8, _: usize) {}
 

@@ -146,7 +146,7 @@ fn measure(command: &[&str], folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The most memory that a process had so far, where the system tells it.
+/// The most memory that a process had so far, where the system reports it.
 fn peak_kb(process: u32) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

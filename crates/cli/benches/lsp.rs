@@ -1,4 +1,4 @@
-//! How soon an editor hears of what one typed (R12.7): `cargo bench --bench lsp`.
+//! How soon an editor gets messages on what was typed (R12.7): `cargo bench --bench lsp`.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measures")]
 

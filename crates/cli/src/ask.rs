@@ -1,4 +1,4 @@
-//! `frictcomp ask`: asks the control what the documents leave open, and remembers its answers.
+//! `frictcomp ask`: programs that test on the control what its documents leave open, and their answers.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -31,14 +31,14 @@ use frictcomp_host::{
 use frictcomp_recordings::trace::ChannelSelection;
 use frictcomp_report::visible_line;
 
-/// Ask the control what its documents leave open: write NC programs that ask, read their answers,
-/// and remember them in `frictcomp.toml`
+/// Write NC programs that test on your control what its documents leave open, read the answers,
+/// and record them in `frictcomp.toml`
 ///
-/// Each program says at its head what it asks, what moves, and what to do before and after. Nothing
-/// moves farther than `--travel`.
+/// The head of each program says what it tests, what moves, and what to do before and after.
+/// Nothing moves farther than `--travel`.
 #[derive(Debug, Args)]
 pub(super) struct AskArgs {
-    /// The axis to ask about; by default the first one with P-AXIS-00522 = 1
+    /// The axis to test; by default the first one with P-AXIS-00522 = 1
     #[arg(long, value_name = "AXIS")]
     axis: Option<String>,
     /// Write the programs to this folder
@@ -144,7 +144,7 @@ impl AskArgs {
         outputs.finish()?;
         if axis.build.is_none() {
             Console::talk(
-                "no build is known, so that nothing will be confirmed: name it with `--build`",
+                "the build of the control is not known, so nothing will be confirmed: give it with `--build`",
             );
         }
         Ok(exit::CLEAN)
@@ -235,7 +235,7 @@ impl AskArgs {
         }
         if findings.iter().any(|finding| finding.build.is_none()) {
             Console::talk(
-                "no build is known, so that nothing is confirmed: name it with `--build`",
+                "the build of the control is not known, so nothing is confirmed: give it with `--build`",
             );
         }
         Ok(exit::CLEAN)
@@ -299,7 +299,7 @@ fn contradictions(answers: &[Answer]) -> Vec<Question> {
     found
 }
 
-/// The answers in words; what is not decidable for one reason is said once.
+/// The answers in words; what is not decidable for one reason is reported once.
 fn told(answers: &[Answer]) -> String {
     let mut text = String::new();
     let is_alike = |one: &Answer, other: &Answer| {

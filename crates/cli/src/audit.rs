@@ -47,7 +47,7 @@ pub(super) struct AuditArgs {
     /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// The kinds of compensation to look at; without a value all
+    /// The kinds of compensation to audit: `FRICT,LEAD`; without a value all
     #[arg(long, value_name = "KINDS", num_args = 0..=1, default_value = "FRICT")]
     #[arg(default_missing_value = "all", value_parser = settings::parse_kinds)]
     kinds: KindSet,
@@ -58,7 +58,7 @@ pub(super) struct AuditArgs {
     /// Write the changes of `--fix` to the programs
     #[arg(long, requires = "fix")]
     write: bool,
-    /// Say what happens in this order: a file with one program on each line
+    /// Follow the programs in the order of this file, one on each line
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "html", "jobs"])]
     sequence: Option<PathBuf>,
     /// Show long tables and lists in full
@@ -90,7 +90,7 @@ pub(super) struct AuditArgs {
 /// Number of runs of each program.
 const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
 
-/// Programs that are named of those that one block mends.
+/// How many of the programs that one block mends are named.
 const MOST_NAMES: usize = 20;
 
 /// Programs to change.
@@ -209,7 +209,7 @@ impl AuditArgs {
         failures.keep(ArchiveAuditor::new(inputs, machines, options))
     }
 
-    /// The exit status of states that are not known, which are said where they count (R2.98).
+    /// The exit status of states that are not known, which are reported where they count (R2.98).
     fn unknown_status<'a>(
         &self,
         unknown: impl Iterator<Item = (&'a str, Kind)>,
@@ -397,8 +397,8 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// One program a line, from the folder of the list; empty lines and lines with `#` or `;` in front
-/// say nothing.
+/// One program a line, relative to the folder of the list; empty lines and lines that begin with `#`
+/// or `;` are ignored.
 fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
     let text = read_text(order)?;
     let folder = order.parent().unwrap_or(Path::new(""));

@@ -190,7 +190,7 @@ impl Baseline {
         }
     }
 
-    /// Writes the file, or says what was known. `is_checked` tells whether a file was read.
+    /// Writes the file, or says what was known. `is_checked` says whether a file was read.
     pub(super) fn finish(
         self,
         console: Console,

@@ -64,7 +64,7 @@ impl AxisChannelArgs {
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct TorqueKindArgs {
     /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
-    /// the speed controller; by default what the name of the channel tells
+    /// the speed controller; by default taken from the name of the channel
     #[arg(long, value_name = "KIND")]
     pub(super) torque_kind: Option<TorqueKind>,
 }
@@ -74,7 +74,7 @@ pub(super) struct TorqueKindArgs {
 pub(super) struct TorqueArgs {
     #[command(flatten)]
     kind: TorqueKindArgs,
-    /// Whether friction compensation was on while recording; by default what a channel `comp` tells
+    /// Whether friction compensation was on while recording; by default taken from a channel `comp`
     #[arg(long, value_name = "STATE")]
     compensation: Option<SwitchState>,
 }

@@ -57,7 +57,7 @@ pub(super) struct CircleArgs {
     value_list: Vec<AxisList>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
     #[arg(
         long,
         value_name = "READING",
@@ -68,7 +68,7 @@ pub(super) struct CircleArgs {
     /// A recorded circle instead of a simulated one; give it twice for both directions
     #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
     trace: Vec<PathBuf>,
-    /// About which centre G(b) and H compare both directions: `common`, the mean of both
+    /// The centre about which G(b) and H compare both directions: `common`, the mean of both
     /// least-squares centres, or `own`
     #[arg(long, value_name = "CENTRE", default_value_t)]
     centre: PathCentre,

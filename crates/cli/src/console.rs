@@ -201,13 +201,13 @@ impl Console {
         self.stdout().painted(text, style)
     }
 
-    /// Says a line on stderr. When nobody listens, nothing is lost.
+    /// Writes a line to stderr; a closed stderr is no failure.
     pub(super) fn talk(line: &str) {
         clear();
         let _ = writeln!(stderr(ColorChoice::Never), "{}", leading(line));
     }
 
-    /// Says a line on stderr, unless the user wants only what counts.
+    /// Writes a line to stderr, unless the user asked only for what counts.
     pub(super) fn remark(self, line: &str) {
         if self.remarks == RemarkOutput::Said {
             Self::talk(line);
@@ -264,7 +264,7 @@ impl Console {
     }
 }
 
-/// Standard error, in the characters of those who read it.
+/// Standard error, in the code page of its reader.
 fn stderr(choice: ColorChoice) -> Box<dyn Write> {
     let stderr = io::stderr();
     match (CodePage::behind(&stderr), paint(choice)) {

@@ -14,7 +14,7 @@ use frictcomp_editor::dap::serve;
 /// changes of states; `docs/editors.md` has the settings of editors.
 #[derive(Debug, Args)]
 pub(super) struct DapArgs {
-    /// Talk over standard input and output, which is the only way: some editors say so
+    /// Accepted because some editors pass it; standard input and output are always used
     #[arg(long)]
     stdio: bool,
 }
@@ -22,6 +22,6 @@ pub(super) struct DapArgs {
 /// Runs the command.
 pub(super) fn run(_: &DapArgs) -> Result<u8, Failure> {
     serve(BufReader::new(io::stdin()), io::stdout())
-        .map_err(|error| Failure::new(format!("the connection to the editor broke: {error}")))?;
+        .map_err(|error| Failure::new(format!("the connection to the editor was lost: {error}")))?;
     Ok(exit::CLEAN)
 }

@@ -51,10 +51,10 @@ pub(super) struct DiffArgs {
     /// The kinds of compensation to compare: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
     pub(super) kinds: KindSet,
-    /// Compare the contours, too: where the simulated axes leave the path farther in the new version
+    /// Also compare the contours: where the simulated axes deviate more in the new version
     #[arg(long)]
     pub(super) contour: bool,
-    /// What a block may deviate more in the new version, in µm; by default 0.5
+    /// How much more a block may deviate in the new version, in µm; by default 0.5
     #[arg(long, value_name = "UM")]
     tolerance: Option<Tolerance>,
     #[command(flatten)]

@@ -70,8 +70,8 @@ fn compare(
     machines.look_ahead(&changed.inputs);
     if changed.is_machine_changed {
         console.remark(&format!(
-            "the configuration or a list differs from `{revision}`; both versions run on the machine \
-             of today"
+            "the configuration or a list differs from `{revision}`; both versions run on the current \
+             machine"
         ));
     }
     if let Some(remark) = unseen_remark(&changed) {
@@ -133,7 +133,7 @@ pub(super) fn unseen_remark(changed: &ChangedPrograms) -> Option<String> {
     };
     (!names.is_empty()).then(|| {
         format!(
-            "git does not follow {}{more}: a change there is not seen",
+            "git does not track {}{more}: changes there are not seen",
             names.join(", ")
         )
     })

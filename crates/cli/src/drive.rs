@@ -36,7 +36,7 @@ pub(super) struct DriveArgs {
     /// A device description, an ESI file, to name the process data objects that could be selected
     #[arg(long, value_name = "FILE")]
     esi: Vec<PathBuf>,
-    /// Which device of the network drives an axis; with `:2` its second axis
+    /// The device of the network that drives an axis; `:2` is its second axis
     #[arg(long, value_name = "AXIS=NAME", value_parser = parse_slave, requires = "eni")]
     slave: Vec<SlaveOfAxis>,
     #[command(flatten)]
@@ -110,7 +110,7 @@ fn drives(report: &ListsReport, evidence: &Evidence) -> Vec<DriveReport> {
     drives.collect()
 }
 
-/// What is said about a list: why it cannot be read, then what there is to say about its drives. What
+/// The messages about a list: why it cannot be read, then those about its drives. What
 /// the axis list alone makes certain is in both.
 fn collect(report: &ListsReport, drives: &[DriveReport], said: &mut Vec<Diagnostic>) {
     let of_list = report.diagnostics.iter();

@@ -64,7 +64,7 @@ impl ExecutionArgs {
             .with_limits(limits)
     }
 
-    /// The same where a program runs so many times and nobody wants to wait: unless a number of blocks
+    /// The same where a program runs this many times and a user waits: unless a number of blocks
     /// is given, loops and calls end soon (R9.91).
     pub(super) fn brief(&self, stop: StopPolicy, times: NonZeroU64) -> Options {
         let mut run = self.run(stop);

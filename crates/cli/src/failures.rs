@@ -1,11 +1,11 @@
-//! Failures among several things; the rest is done all the same (R9.77).
+//! Failures of parts of a command; the other parts are done all the same (R9.77).
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use frictcomp_host::HostError;
 
-/// Failures among several things.
+/// Failures of parts of a command.
 #[derive(Debug, Default)]
 pub(super) struct Failures(Vec<Failure>);
 
@@ -16,14 +16,14 @@ impl From<Vec<HostError>> for Failures {
 }
 
 impl Failures {
-    /// One more. One reason may stop many programs and is said once.
+    /// Adds a failure; a reason that stops many programs is reported once.
     pub(super) fn push(&mut self, failure: Failure) {
         if self.0.iter().all(|it| it.message != failure.message) {
             self.0.push(failure);
         }
     }
 
-    /// Those of another part of the work.
+    /// Adds the failures of another part of the work.
     pub(super) fn extend(&mut self, others: Self) {
         others.0.into_iter().for_each(|it| self.push(it));
     }

@@ -46,7 +46,7 @@ pub(super) struct GoldenArgs {
     /// Compare contours in place of timelines
     #[arg(long)]
     contour: bool,
-    /// What a figure of a contour may change, in µm; by default 0.5
+    /// How much a figure of a contour may change, in µm; by default 0.5
     #[arg(long, value_name = "UM")]
     tolerance: Option<Tolerance>,
     #[command(flatten)]

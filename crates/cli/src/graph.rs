@@ -24,10 +24,10 @@ use frictcomp_report::visible_line;
 /// The deepest call that is indented; deeper ones begin a tree of their own.
 const MAX_DEPTH: usize = 24;
 
-/// Show which programs call which, those that nobody calls, and calls of programs that are missing
+/// Show which programs call which, those that no program calls, and calls of missing programs
 ///
-/// Nothing is executed: a call counts whether it is reached or not. A call whose program only a run can
-/// tell, by the value of a variable, is named as such.
+/// Nothing is executed: a call counts whether it is reached or not. A call whose program depends on the
+/// value of a variable is marked as such.
 #[derive(Debug, Args)]
 pub(super) struct GraphArgs {
     /// Programs and folders of programs
@@ -90,7 +90,7 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
     Ok(exit::CLEAN)
 }
 
-/// A graph on its way out.
+/// A graph that is being written.
 struct GraphOutput {
     calls: CallGraph,
     /// Whether each program is a main program.
@@ -176,7 +176,7 @@ impl GraphOutput {
         for line in &program.open {
             let _ = writeln!(
                 out,
-                "{indent}a program that only a run can tell (line {line})"
+                "{indent}a program known only at run time (line {line})"
             );
         }
     }
@@ -185,7 +185,7 @@ impl GraphOutput {
         for circle in self.calls.circles() {
             let _ = match circle.as_slice() {
                 [one] => writeln!(out, "calls itself: {}", self.name(*one)),
-                several => writeln!(out, "call each other in a circle: {}", self.names(several)),
+                several => writeln!(out, "call each other in a cycle: {}", self.names(several)),
             };
         }
     }
@@ -256,7 +256,7 @@ impl GraphOutput {
         let uncalled = programs.iter().filter(|it| it.called_by.is_empty());
         let missing = programs.iter().map(|it| it.missing.len()).sum::<usize>();
         format!(
-            "{}, {}, {} that nobody calls; {} of missing programs",
+            "{}, {}, {} that no program calls; {} of missing programs",
             count(programs.len(), "program"),
             count(self.mains.iter().filter(|it| **it).count(), "main program"),
             uncalled.count(),

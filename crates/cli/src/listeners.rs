@@ -1,4 +1,4 @@
-//! A timeline on its way, and what hears the same records beside it.
+//! A timeline that is being written, and other readers of the same records.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -29,7 +29,7 @@ impl SharedReport {
         let _ = self.0.borrow_mut().flush();
     }
 
-    /// The timeline, when nobody shares it any more.
+    /// The timeline, once nothing else shares it.
     pub(super) fn into_report(self) -> Box<dyn Report> {
         self.0.into_inner()
     }

@@ -66,7 +66,7 @@ pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> S
 }
 
 impl ListingArgs {
-    /// A console that says as much as the user wants.
+    /// A console that says as much as the user asked for.
     pub(super) fn console(&self, console: Console) -> Console {
         if self.quiet { console.quiet() } else { console }
     }
@@ -91,7 +91,7 @@ impl ListingArgs {
     }
 }
 
-/// A list on its way out.
+/// A list that is being written.
 pub(super) struct Lister<'a> {
     args: &'a ListingArgs,
     listing: Listing<Box<dyn Write + Send>>,

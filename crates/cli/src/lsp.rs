@@ -12,7 +12,7 @@ use frictcomp_editor::lsp::{Shutdown, serve_stdio};
 /// the settings of editors.
 #[derive(Debug, Args)]
 pub(super) struct LspArgs {
-    /// Talk over standard input and output, which is the only way: some editors say so
+    /// Accepted because some editors pass it; standard input and output are always used
     #[arg(long)]
     stdio: bool,
 }

@@ -121,7 +121,7 @@ pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
     })
 }
 
-/// The sentence above what is said about programs that run without a described machine, where any of
+/// The sentence above the messages about programs that run without a described machine, where any of
 /// them switches friction compensation (R1.37).
 pub(super) fn undescribed_remark<'a>(
     inputs: impl IntoIterator<Item = &'a Input>,

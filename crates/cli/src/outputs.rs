@@ -116,7 +116,7 @@ impl Outputs {
         Ok(file.save(state, &mut self.files)?)
     }
 
-    /// Says who writes to standard output; there is one.
+    /// Says which output goes to standard output; there is one.
     pub(super) fn print(&mut self, who: &'static str) -> Result<(), Failure> {
         if let Some(other) = self.printing.replace(who) {
             return Err(Failure::new(format!(

@@ -304,7 +304,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     Ok(status.max(unrun.unwrap_or_default()))
 }
 
-/// Runs the programs; `None` where nobody read the timeline to its end, and there is no other output.
+/// Runs the programs; `None` where the timeline was not read to its end and there is no other output.
 fn play(
     start: &mut FirstProgram<'_>,
     report: Box<dyn Report>,

@@ -15,12 +15,12 @@ pub(super) struct SetVariable {
 /// Parses `V.E.PART=3`; a value that is no number is a text.
 pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
     let Some((name, value)) = text.split_once('=') else {
-        return Err("write it as NAME=VALUE, for instance V.E.PART=3".to_owned());
+        return Err("write it as NAME=VALUE, such as V.E.PART=3".to_owned());
     };
     let (name, value) = (name.trim(), value.trim());
     if !is_variable(name) {
         return Err(format!(
-            "`{name}` is not a variable; variables are `V.E.PART`, `P5` and `@P5`, for instance"
+            "`{name}` is not a variable; variables are, for example, `V.E.PART`, `P5` and `@P5`"
         ));
     }
     if value.is_empty() {

@@ -62,7 +62,7 @@ fn parse_ours(text: &str) -> Result<Code, String> {
 
 fn parse_severity(text: &str) -> Result<(Code, Severity), String> {
     let Some((code, level)) = text.split_once('=') else {
-        return Err("write it as CODE=LEVEL, for instance FC402=warning".to_owned());
+        return Err("write it as CODE=LEVEL, such as FC402=warning".to_owned());
     };
     let code = parse_ours(code)?;
     match level.trim() {

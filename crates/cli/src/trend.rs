@@ -78,7 +78,7 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
     report.dates.sort_by(|one, other| one.date.cmp(&other.date));
     if report.dates.len() < 2 {
         let message = format!(
-            "{} of the {} recordings in `{}` tell the friction of a date; a trend needs two",
+            "{} of the {} recordings in `{}` give the friction at a date; a trend needs two",
             report.dates.len(),
             paths.len(),
             shown_path(&args.folder)

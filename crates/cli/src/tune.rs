@@ -98,7 +98,7 @@ pub(super) struct TuneArgs {
     model: FrictionModel,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
     #[arg(
         long,
         value_name = "READING",
@@ -357,7 +357,7 @@ fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
     let mut accelerations = args.accelerations.iter();
     if let Some(acceleration) = accelerations.find(|it| !possible.contains(*it)) {
         let message = format!("an acceleration of {acceleration} mm/s² is not possible");
-        return Err(Failure::new(message).with_help("give v²/R in mm/s², 2.8 for instance"));
+        return Err(Failure::new(message).with_help("give v²/R in mm/s², such as 2.8"));
     }
     let circles: Vec<Circle> = args.radii.iter().flat_map(of_radius).collect();
     if circles.len() > MAX_CIRCLES {

@@ -24,7 +24,7 @@ use frictcomp_report::verify::{VerifyReport, render_json, render_text};
 ///
 /// The prediction is the additive current that the control computes from the list. Says at which
 /// speeds the list is too low or too high, whether its sign is inverted, and, where the following error
-/// was recorded, whether it acted and whether it comes early or late at reversals. The channels are
+/// was recorded, whether the list acted and whether it is early or late at reversals. The channels are
 /// named as for `identify`. The exit status is 1 where the list does not fit. Record without
 /// compensation, or record the torque that the drive measures.
 #[derive(Debug, Args)]
@@ -37,7 +37,7 @@ pub(super) struct VerifyArgs {
     #[command(flatten)]
     channels: AxisChannelArgs,
     /// The channel of the actual positions, beside that of the commanded ones: only the following error
-    /// tells whether the list is early or late
+    /// shows whether the list is early or late
     #[arg(long, value_name = "CHANNEL")]
     actual_position: Option<String>,
     /// The channel of the following error, commanded less actual position
@@ -45,7 +45,7 @@ pub(super) struct VerifyArgs {
     following_error: Option<String>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
     #[arg(
         long,
         value_name = "READING",

@@ -14,7 +14,7 @@ use frictcomp_host::{ChangedFile, Disk};
 /// Pause after a save before a run: editors write a file in several steps.
 const QUIET: Duration = Duration::from_millis(100);
 
-/// Files that are saved while somebody watches.
+/// The files that are watched for saves.
 pub(super) struct FileWatch {
     watcher: RecommendedWatcher,
     events: Receiver<notify::Result<Event>>,
@@ -76,7 +76,7 @@ impl FileWatch {
                 Some(Err(error)) => return Err(cannot(&error)),
                 None if saved.is_empty() => {
                     return Err(Failure::new(
-                        "the system no longer tells which files are saved",
+                        "the system no longer reports which files are saved",
                     ));
                 }
                 None => return Ok(saved.into_iter().map(ChangedFile::saved).collect()),

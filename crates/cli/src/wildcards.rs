@@ -13,7 +13,7 @@ const AS_WINDOWS: MatchOptions = MatchOptions {
 };
 
 /// The arguments, with the files that match in place of each that has a `*` or a `?`. What matches
-/// nothing stays, and is said to be no file.
+/// nothing stays, and is reported as no file.
 pub(super) fn expanded(arguments: Vec<OsString>) -> Vec<OsString> {
     arguments.into_iter().flat_map(matching).collect()
 }

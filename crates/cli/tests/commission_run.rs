@@ -491,7 +491,7 @@ fn other_recordings(folder: &Path) {
     assert!(text.contains("10 recordings, 9 of them known"), "{text}");
     assert!(
         text.contains(
-            "not accepted, the lists of before stay: F2000 is not recorded both off and on"
+            "not accepted, the earlier lists stay: F2000 is not recorded both off and on"
         ),
         "{text}"
     );
@@ -515,7 +515,7 @@ fn check_report(folder: &Path) {
         "Axis X",
         "Axis Y",
         "+++ m/lists/X-provisional-",
-        "No list of before was given",
+        "No earlier list was given",
         "class=\"own-page\"",
     ] {
         assert!(page.contains(words), "{words}");

@@ -41,7 +41,7 @@ fn every_word_that_a_user_meets_has_an_answer() {
         ("p-stup-00015", "axis list"),
         ("gruppe[0].achse[1].bezeichnung", "programs know an axis"),
         ("70310", "LEAD"),
-        ("fc139", "hardly meant"),
+        ("fc139", "implausible"),
         ("412", "flush"),
         ("50546", "FC411"),
         ("ineffective", "no value list"),

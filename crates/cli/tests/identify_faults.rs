@@ -509,7 +509,7 @@ fn the_command_writes_no_wrong_list() {
     let actual = [&channels[..], &["--torque-kind", "actual"]].concat();
     let (status, said, list) = play("named.csv", named.as_bytes(), &actual);
     assert_eq!((status, list.as_str()), (Some(2), ""), "{said}");
-    assert!(said.contains("is said to be `actual`"), "{said}");
+    assert!(said.contains("was given as `actual`"), "{said}");
     // A unit that is wrong by 1000.
     let demo = with_torques(|it| it);
     let channels = [
@@ -535,7 +535,7 @@ fn what_scope_scales_is_found_or_asked() {
     assert!(raw.contains("which are not in its samples"), "{raw}");
     let (_, open, _) = said("Offset\t0\t0\nScaleFactor\t1\t-1\n");
     assert!(
-        open.contains("FC519") && open.contains("nothing tells whether its samples contain"),
+        open.contains("FC519") && open.contains("not known whether its samples contain"),
         "{open}"
     );
     let (_, found, _) =

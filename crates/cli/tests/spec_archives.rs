@@ -112,7 +112,7 @@ fn calls_are_shown_as_a_tree() {
         "\
 a.nc
   meas.nc (line 2): missing
-  a program that only a run can tell (line 3)
+  a program known only at run time (line 3)
   sub.nc (line 1)
     one/drill.nc (line 2)
     two/drill.nc (line 3)
@@ -120,14 +120,14 @@ old.nc
 ring-a.nc
   ring-b.nc (line 1)
     ring-a.nc (line 1), see above
-call each other in a circle: ring-a.nc, ring-b.nc
+call each other in a cycle: ring-a.nc, ring-b.nc
 one name in several folders: one/drill.nc, two/drill.nc
 "
     );
     let said = talk(&bench, &["graph", "."]);
     assert!(
         said.contains(
-            "7 programs, 4 main programs, 2 that nobody calls; 1 call of missing programs"
+            "7 programs, 4 main programs, 2 that no program calls; 1 call of missing programs"
         ),
         "{said}"
     );

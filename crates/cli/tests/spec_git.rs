@@ -244,7 +244,7 @@ fn another_configuration_concerns_all_its_programs() {
     );
     let said = talk(&bench, &["diff", "--git", "HEAD"]);
     assert!(
-        said.contains("both versions run on the machine of today"),
+        said.contains("both versions run on the current machine"),
         "{said}"
     );
     git(&bench, &["checkout", "-q", "frictcomp.toml"]);
@@ -329,12 +329,12 @@ fn what_git_does_not_follow_is_named() {
     bench.write("a.nc", &caller("made.nc"));
     let said = talk(&bench, &["check", "--changed", "."]);
     assert!(
-        said.contains("git does not follow `made.nc`: a change there is not seen"),
+        said.contains("git does not track `made.nc`: changes there are not seen"),
         "{said}"
     );
     commit(&bench);
     let said = talk(&bench, &["diff", "--git", "HEAD", "."]);
-    assert!(said.contains("git does not follow `made.nc`"), "{said}");
+    assert!(said.contains("git does not track `made.nc`"), "{said}");
     assert!(!talk(&bench, &["check", "--changed", "b.nc"]).contains("does not follow"));
 }
 

@@ -35,7 +35,7 @@ pub struct XmlError {
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,
-    /// The fault.
+    /// What is wrong, in words.
     pub reason: String,
 }
 
@@ -331,7 +331,7 @@ fn expanded(reference: &BytesRef<'_>) -> Result<String, String> {
     text.ok_or_else(|| format!("the entity `{name}` is not expanded"))
 }
 
-/// A file on its way from its first element to its last.
+/// A file that is being read, from its first element to its last.
 struct Walk<'a> {
     root: &'a str,
     found: &'a mut dyn FnMut(OpenDevice),

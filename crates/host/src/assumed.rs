@@ -74,7 +74,7 @@ pub(super) fn assume_axes<'a>(
 }
 
 /// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
-/// pipes may name axes that nobody sees ahead.
+/// pipes may name axes that cannot be seen ahead.
 fn check_occurs(name: &str, programs: Option<&AxesOfPrograms>) -> Result<(), HostError> {
     let may_occur = match programs {
         Some(programs) if programs.may_hold(name) => true,

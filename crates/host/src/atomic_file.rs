@@ -285,7 +285,7 @@ fn place(path: &Path) -> PathBuf {
     whole.unwrap_or_else(|| path.to_owned())
 }
 
-/// A new file in a folder, which nobody takes for one that was left.
+/// A new file in a folder, which is not taken for one that was left.
 fn create(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX).rand_bytes(LETTERS);

@@ -126,7 +126,7 @@ impl ArchiveAuditor {
         self.options.workers.min(most)
     }
 
-    /// `Break` where the watcher wants the work to stop.
+    /// `Break` where the watcher stops the work.
     pub(super) fn flow(&self) -> ControlFlow<()> {
         if self.machines.iter().any(|it| it.watch.is_stopped()) {
             return ControlFlow::Break(());

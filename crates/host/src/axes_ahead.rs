@@ -38,7 +38,7 @@ impl AxesAhead {
                 Input::File(path) if path.is_file() => {
                     let file = File::open(path);
                     let looked = file.and_then(|file| whole_lines(file, |it| scan.feed(it)));
-                    // What cannot be read is said when it is run.
+                    // What cannot be read is reported when it is run.
                     ahead.is_open |= looked.is_err();
                 }
                 Input::Open(open) => scan.feed(open.text.as_bytes()),

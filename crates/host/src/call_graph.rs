@@ -40,7 +40,7 @@ pub struct GraphProgram {
     pub calls: Vec<FoundCall>,
     /// The calls of programs that were not found.
     pub missing: Vec<MissingCall>,
-    /// The lines of calls whose program only a run can tell.
+    /// The lines of calls whose program is known only at run time.
     pub open: Vec<u32>,
     /// The positions of the programs that call it, each once.
     pub called_by: Vec<usize>,
@@ -137,7 +137,7 @@ impl CallGraph {
         &self.programs
     }
 
-    /// Whether each program is a main program of its own: nobody calls it, it may end a main program,
+    /// Whether each program is a main program of its own: no program calls it, it may end a main program,
     /// or it is called in a circle that no main program reaches (R17.2). The programs that the
     /// configuration runs around main programs become calls of these.
     pub fn mains(&mut self, workers: NonZeroUsize) -> Vec<bool> {
@@ -188,7 +188,7 @@ impl CallGraph {
         program.calls.extend(around);
     }
 
-    /// The programs that call each other in a circle, or themselves, by their positions.
+    /// The programs that call each other in a cycle, or themselves, by their positions.
     pub fn circles(&self) -> Vec<Vec<usize>> {
         let edges = self.edges();
         let mut circles = callers_first(&edges);

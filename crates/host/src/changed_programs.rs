@@ -44,7 +44,7 @@ struct Changes<'a> {
 
 impl ChangedPrograms {
     /// Those of the inputs, and what cannot be read. Where a configuration or a list differs, every
-    /// program of its machine is one; so is a program with a call that only a run can tell, where any
+    /// program of its machine is one; so is a program with a call known only at run time, where any
     /// program differs.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl<'a> Changes<'a> {
     }
 }
 
-/// The name of a file without its extension, in lower case: the control does not tell the cases apart.
+/// The name of a file without its extension, in lower case: the control ignores case.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default();
     stem.to_string_lossy().to_lowercase()

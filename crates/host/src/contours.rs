@@ -130,7 +130,7 @@ pub fn drive_contour<S: ContourSink>(
 /// Facts known before anything is driven.
 struct Ahead {
     moving: MovingAxes,
-    /// The trace of no axis: it counts cycles, where somebody watches.
+    /// The trace of no axis: it counts cycles, where there is a watcher.
     trace: Option<ProgramTrace<Cycles>>,
     cycle_s: f64,
 }

@@ -30,7 +30,7 @@ fn decode_wide(bytes: &[u8]) -> Option<String> {
 }
 
 /// The UTF-16 of a text, as Notepad and PowerShell write it, and the length of its byte order mark.
-/// Where an editor has left the mark away, two letters tell: no text of letters begins with such
+/// Where an editor has left the mark out, two letters decide: no text of letters begins with such
 /// zeros.
 pub(crate) fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
     match bytes {

@@ -124,7 +124,7 @@ impl Disk {
         Kind::Memory(Arc::new(MemoryDisk::new(texts))).into()
     }
 
-    /// The text that is at hand for a file; `None` for a file of the system's own.
+    /// The text that stands in for a file; `None` for a file of the system's own.
     pub fn text(&self, path: &Path) -> Option<&Arc<String>> {
         match &self.kind {
             Kind::System(open) if open.is_empty() => None,

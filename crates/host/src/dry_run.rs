@@ -52,7 +52,7 @@ impl<'a> RunContext<'a> {
     }
 }
 
-/// Runs one program in a session. `Break` when the sink wants no more.
+/// Runs one program in a session. `Break` when the sink takes no more.
 ///
 /// # Errors
 /// The program cannot be read.
@@ -136,7 +136,7 @@ pub struct Programs<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RunSummary {
-    /// `Break` when the sink wanted no more.
+    /// `Break` when the sink took no more.
     pub flow: ControlFlow<()>,
     /// Number of programs that did not run when the session stopped.
     pub unrun: usize,

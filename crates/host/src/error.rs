@@ -36,10 +36,10 @@ pub enum HostError {
     Unwritable {
         /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// The reason, in words.
         reason: String,
     },
-    /// A file that somebody else changed while it was worked on.
+    /// A file that was changed from outside while it was worked on.
     #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
     ChangedMeanwhile(PathBuf),
     /// A file that cannot take its place after others have taken theirs.
@@ -61,10 +61,10 @@ pub enum HostError {
     /// A full disk.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
-    /// A folder where a program is wanted.
+    /// A folder where a program is expected.
     #[error("`{}` is a folder, not a program", shown_path(.0))]
     FolderAsProgram(PathBuf),
-    /// A folder where a list is wanted.
+    /// A folder where a list is expected.
     #[error("`{}` is a folder, not a list", shown_path(.0))]
     FolderAsList(PathBuf),
     /// A folder of which a part may not be read.
@@ -91,7 +91,7 @@ pub enum HostError {
         /// The lines that are the reason.
         diagnostics: Vec<Diagnostic>,
     },
-    /// An axis list where a start-up list is wanted.
+    /// An axis list where a start-up list is expected.
     #[error("{message}")]
     NotAStartupList {
         /// Path of the file.
@@ -105,7 +105,7 @@ pub enum HostError {
     /// A folder in no repository, or in one that git does not trust.
     #[error("`{}` is in no git repository that can be read: {reason}", shown_path(.folder))]
     NoRepository {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
         /// Reason given by git.
         reason: String,
@@ -122,16 +122,16 @@ pub enum HostError {
     /// A file that is there already and stays as it is.
     #[error("`{}` already exists and is not changed", shown_path(.0))]
     AlreadyThere(PathBuf),
-    /// Start-up lists of which nobody says which one the machine has.
+    /// Several start-up lists, without a choice of the one that the machine has.
     #[error("there are several start-up lists: {}", listed(.0))]
     SeveralStartupLists(Vec<PathBuf>),
-    /// A link to a file that nobody handed over.
+    /// A link to a file that was not handed over.
     #[error("`{}` is a link that leads out of the given folders", shown_path(.0))]
     LeadsOut(PathBuf),
     /// A program without a place beside it.
     #[error("standard input has no `.{0}` file beside it")]
     NothingBeside(&'static str),
-    /// `X[` where the name of an axis is wanted.
+    /// `X[` where the name of an axis is expected.
     #[error("`{0}` is not an axis name")]
     AxisName(String),
     /// `XX` on a machine with X, Y and Z.
@@ -176,7 +176,7 @@ pub enum HostError {
         /// The kind of file.
         what: &'static str,
     },
-    /// A folder where the state is wanted.
+    /// A folder where the state is expected.
     #[error("`{}` cannot hold a state: it is not a regular file", shown_path(.0))]
     StateNotRegular(PathBuf),
     /// A state that another run has locked.
@@ -187,7 +187,7 @@ pub enum HostError {
     State {
         /// Path of the file.
         path: PathBuf,
-        /// The fault.
+        /// What is wrong, in words.
         reason: String,
     },
     /// A value list that the control would not take.

@@ -121,7 +121,7 @@ impl ProgramFinder {
         Err(refused.or_else(near).unwrap_or(NoProgram::Absent))
     }
 
-    /// A file that is called so but for its extension, which the control wants to be written.
+    /// A file that differs only in its extension, which the control expects in the call.
     fn with_extension(&mut self, folders: &[PathBuf], name: &str) -> Option<NoProgram> {
         let stem = format!("{}.", name.to_lowercase());
         for folder in folders {
@@ -161,7 +161,7 @@ impl ProgramFinder {
         }
     }
 
-    /// The path of that name below a folder; the control's disk does not tell upper from lower
+    /// The path of that name below a folder; the control's disk does not distinguish upper from lower
     /// case.
     fn existing(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let exact = folder.join(name);

@@ -25,7 +25,7 @@ use frictcomp::text::shown_path;
 /// Depth below the folder at which a start-up list is looked for.
 const DEPTH: usize = 4;
 
-/// What a folder tells about its machine: the start-up list that is given or lies there, otherwise
+/// What a folder says about its machine: the start-up list that is given or lies there, otherwise
 /// the axes of the programs.
 ///
 /// # Errors

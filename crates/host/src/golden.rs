@@ -103,7 +103,7 @@ impl GoldenResults {
     }
 
     /// Compares the result of today with the one that was agreed on. `now` gives the result of
-    /// today, and is told what was agreed on.
+    /// today, and is given what was agreed on.
     ///
     /// # Errors
     /// The file cannot be read, or is a link that leads out of the folders (R9.77); or there is no
@@ -124,7 +124,7 @@ impl GoldenResults {
     }
 
     /// Writes the files that drifted, folder by folder as the iterator is asked: all of a folder or
-    /// none (R9.77). `now` gives the result of a program, and is told what was agreed on.
+    /// none (R9.77). `now` gives the result of a program, and is given what was agreed on.
     ///
     /// # Errors
     /// A file is one that the work reads.

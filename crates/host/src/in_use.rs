@@ -13,7 +13,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Time between attempts.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Another program has the file open and lets nobody else have it, or has locked a part of it.
+/// Another program has the file open without sharing it, or has locked a part of it.
 const IN_USE: [i32; 2] = [32, 33];
 
 /// So says the system, too, where a file is to be replaced that another program has open.

@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
 /// The files that are not whole yet. A handler of signals reaches nothing else.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// The exit status of a process that is stopped, where the host wants its files taken away.
+/// The exit status of a process that is stopped, where the host has its files taken away.
 static STATUS: OnceLock<u8> = OnceLock::new();
 
 /// Takes the unfinished files away when the process is stopped, which then ends as it would have.
@@ -19,11 +19,11 @@ pub fn clean_up_when_stopped(status: u8) {
     let _ = STATUS.set(status);
 }
 
-/// The unfinished files; nobody stops the run while this is held.
+/// The unfinished files; nothing stops the run while this is held.
 pub(super) struct Unfinished(MutexGuard<'static, BTreeSet<PathBuf>>);
 
 impl Unfinished {
-    /// Waits until nobody else changes them.
+    /// Waits until nothing else changes them.
     pub(super) fn lock() -> Self {
         static WATCH: Once = Once::new();
         if let Some(status) = STATUS.get() {

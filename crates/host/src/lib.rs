@@ -1,5 +1,5 @@
 //! Everything that touches files or threads and is no command line: for the command line, an editor,
-//! Python, and whoever runs programs from a disk.
+//! Python, and other hosts that run programs from a disk.
 //!
 //! [`Machines`] finds the machine of a program from `frictcomp.toml` or the control's lists;
 //! [`find_programs`] walks folders, an [`Input`] is one program, [`run_alone`] and [`run_program`]

@@ -60,7 +60,7 @@ impl<R: Read> LineReader<R> {
         Self::with_buffer(reader, BUFFER)
     }
 
-    /// The lines of a reader that gives so many bytes. A short one gets a small buffer: big ones that
+    /// The lines of a reader of a number of bytes. A short one gets a small buffer: big ones that
     /// come and go with each of many files are given back to the system in between, which takes
     /// longer than to read them.
     pub(super) fn of_length(reader: R, length: u64) -> Self {
@@ -92,7 +92,7 @@ impl<R: Read> LineReader<R> {
         lines
     }
 
-    /// Whether more bytes are needed to tell how the text is encoded.
+    /// Whether more bytes are needed to find how the text is encoded.
     fn is_undecided(&self) -> bool {
         let first = &self.buffer[self.unread.clone()];
         first.len() < BYTE_ORDER_MARK.len() || first.len() < TELLING && first.contains(&0)

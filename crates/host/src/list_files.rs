@@ -59,7 +59,7 @@ pub fn read_list(path: &Path, disk: &Disk) -> Result<SourceFile, HostError> {
     Ok(SourceFile::new(shown_path(path), text))
 }
 
-/// The path as it is spelt on the disk. The control's disk does not tell upper from lower case.
+/// The path as it is spelt on the disk. The control's disk does not distinguish upper from lower case.
 fn as_spelt(path: &Path, disk: &Disk) -> Option<PathBuf> {
     if disk.entry(path).is_ok() {
         let real = disk.real(path).ok().filter(|_| cfg!(windows));

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A text that is at hand, and the file that it stands in for, which may hold another one or not be
+/// A text, and the file that it stands in for, which may hold another one or not be
 /// there at all.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

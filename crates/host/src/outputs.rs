@@ -24,7 +24,7 @@ pub struct OutputFiles {
     swept: BTreeSet<PathBuf>,
 }
 
-/// A result on its way to a file or a device. Its copies are the same file.
+/// A result that is being written to a file or a device. Its copies are the same file.
 #[derive(Debug, Clone)]
 pub struct OutputFile {
     path: Arc<Path>,
@@ -114,7 +114,7 @@ impl OutputFiles {
         self.registry.check(&self.claims, self.compared)
     }
 
-    /// Everything is written: every file takes its place, and `placed` hears of each.
+    /// Everything is written: every file takes its place, and `placed` is called for each.
     ///
     /// # Errors
     /// A file cannot be written, or is an input that became known meanwhile.

@@ -44,7 +44,7 @@ pub(super) fn normal(path: &Path) -> PathBuf {
 }
 
 /// The path with the letters that its last parts have on the disk, as its real path shows them: where
-/// a disk does not tell upper from lower case, a path is right in any.
+/// a disk does not distinguish upper from lower case, a path is right in any.
 pub(super) fn spelt_as(path: &Path, real: &Path) -> PathBuf {
     let mut parts: Vec<&OsStr> = path.iter().collect();
     let lower = |part: &OsStr| part.to_string_lossy().to_lowercase();

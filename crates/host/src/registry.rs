@@ -203,7 +203,7 @@ enum Identity {
 #[cfg(unix)]
 type FileKey = (u64, u64);
 
-/// The open file, which is how the system tells.
+/// The open file, by which the system identifies it.
 #[cfg(windows)]
 type FileKey = same_file::Handle;
 

@@ -75,7 +75,7 @@ struct SimulationRuns<'a> {
 }
 
 impl SimulationRuns<'_> {
-    /// Refuses a run that nobody wants any more.
+    /// Refuses a run that was cancelled.
     fn wanted(&self) -> Result<(), CircleError> {
         if self.watch.is_stopped() {
             return Err(CircleError::Stopped);

@@ -112,7 +112,7 @@ impl StateFile {
         }
     }
 
-    /// The axes that the last run left; none where the file cannot be read, which is said when it
+    /// The axes that the last run left; none where the file cannot be read, which is reported when it
     /// is loaded.
     pub fn axes(path: &Path) -> Vec<String> {
         let axes = Self::read(path).map_or_else(|_| Vec::new(), |saved| saved.axes);
@@ -174,7 +174,7 @@ impl StateFile {
     pub fn save(&self, state: &SavedState, outputs: &mut OutputFiles) -> Result<(), HostError> {
         let text = serde_json::to_string_pretty(state)
             .map_err(|error| HostError::write(&self.path, error.into()))?;
-        // Whoever looks at the file sees what it holds (R9.76).
+        // A reader of the file sees what it holds (R9.76).
         let text = shown_json(&text);
         let content = text.strip_suffix("\n}").unwrap_or(&text);
         outputs.begin(&self.path)?.bytes(&seal(content.as_bytes()))

@@ -7,7 +7,7 @@ use super::input::Input;
 use super::pieces::whole_lines;
 use frictcomp::syntax::{Scan, SwitchedAxes};
 
-/// The axes whose friction compensation the programs switch, sorted. What cannot be read is said
+/// The axes whose friction compensation the programs switch, sorted. What cannot be read is reported
 /// when it is run; of what comes through a pipe nothing is known yet.
 pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
     let mut found = Vec::new();

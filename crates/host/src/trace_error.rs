@@ -13,7 +13,7 @@ use frictcomp_recordings::trace::{NotAligned, SelectError, TraceProblem};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// A file that is no trace, or not the one that is wanted.
+    /// A file that is no trace, or not the expected one.
     #[error("{}", said(.path, .problem))]
     Problem {
         /// Path of the file.
@@ -51,7 +51,7 @@ pub enum TraceError {
     NoState {
         /// Path of the file.
         path: PathBuf,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
         /// Value at that place.
         value: f64,

@@ -32,10 +32,10 @@ const PIECE: usize = 1 << 18;
 /// Kinds of files that Scope writes and that are not read.
 const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
 
-/// Reads those channels of a trace that `choose` wants.
+/// Reads those channels of a trace that `choose` selects.
 ///
 /// # Errors
-/// The file cannot be read, is no trace, or not one with the channels that are wanted.
+/// The file cannot be read, is no trace, or not one with the requested channels.
 pub fn read_trace(
     path: &Path,
     choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
@@ -262,7 +262,7 @@ pub fn read_turns(
 /// Reads motion and torque of one axis.
 ///
 /// # Errors
-/// The file cannot be read, has not the channels that are wanted, or none that belong together.
+/// The file cannot be read, lacks the requested channels, or has none that belong together.
 pub fn read_axis(
     path: &Path,
     selection: &ChannelSelection,
@@ -416,7 +416,7 @@ fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
     pick
 }
 
-/// The samples of a channel in the unit that is wanted, each of them a number.
+/// The samples of a channel in the requested unit, each of them a number.
 fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f64>, TraceError> {
     let values = numbers_of(path, recording, pick.channel)?.iter();
     Ok(values.map(|value| value * pick.unit.factor).collect())

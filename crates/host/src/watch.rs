@@ -1,4 +1,4 @@
-//! The progress of long work, for whoever watches (R9.75).
+//! The progress of long work, for a watcher (R9.75).
 
 use std::fmt;
 use std::fs::File;
@@ -14,7 +14,7 @@ const STEP: u64 = 1 << 14;
 
 /// Watcher of long work.
 pub trait Watcher: fmt::Debug + Send + Sync {
-    /// Whether it is time to hear how far the work is. Asked often, and by several threads.
+    /// Whether it is time to report how far the work is. Asked often, and by several threads.
     fn is_due(&self) -> bool;
 
     /// Hears how far the work is.
@@ -136,12 +136,12 @@ impl Watch {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Whether somebody watches.
+    /// Whether there is a watcher.
     pub fn is_on(&self) -> bool {
         self.watcher.is_some()
     }
 
-    /// Whether who watches wants the work to stop.
+    /// Whether the watcher stops the work.
     pub fn is_stopped(&self) -> bool {
         self.watcher.as_ref().is_some_and(|it| it.is_stopped())
     }

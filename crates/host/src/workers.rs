@@ -20,7 +20,7 @@ pub fn processors() -> NonZeroUsize {
 }
 
 /// Does each piece of work once, on all processors. Which of them does it makes no difference to the
-/// results. `done` hears how many results are there.
+/// results. `done` is called with the number of results so far.
 pub(super) fn map<T: Sync, R: Send>(
     pieces: &[T],
     work: impl Fn(&T) -> R + Sync,

@@ -11,7 +11,7 @@ use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, Tra
 
 const ROWS: usize = 600_000;
 const CHANNELS: usize = 10;
-/// So many bytes come at a time, as from a file.
+/// Bytes that come at a time, as from a file.
 const PIECE: usize = 1 << 18;
 /// The goal in s.
 const GOAL_S: f64 = 2.0;

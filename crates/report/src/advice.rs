@@ -37,7 +37,7 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
             Some("Stopped by a budget: these are the states at the stop; the rest did not run.")
         }
         _ if errors > 0 => {
-            Some("The control stops at the first error: correct it, then look at the states again.")
+            Some("The control stops at the first error: correct it, then check the states again.")
         }
         _ => None,
     }

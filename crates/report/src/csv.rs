@@ -14,14 +14,14 @@ use super::visible::{any_byte, is_command, visible, visible_line};
 /// Last column of a row that is not a block.
 const JOIN: &[u8] = b"join";
 
-/// The last row: what is said at program end joins its codes.
+/// The last row: messages at program end join its codes.
 #[derive(Debug, Default)]
 struct Held {
     row: Vec<u8>,
     codes: String,
     /// The field of the last column.
     branch: Vec<u8>,
-    /// Whether it is written even if nothing more is said about it.
+    /// Whether it is written even without another message about it.
     wanted: bool,
 }
 

@@ -130,7 +130,7 @@ fn offset_words(found: &Identified) -> &'static str {
         "It is no part of the list. `getriebe[i].torque_offset` (P-AXIS-00324) is documented from 0 on, so \
          a negative one cannot be set there.\n"
     } else {
-        "It is no part of the list; it may belong into `getriebe[i].torque_offset` (P-AXIS-00324).\n"
+        "It is no part of the list; it may belong in `getriebe[i].torque_offset` (P-AXIS-00324).\n"
     }
 }
 

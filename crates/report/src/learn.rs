@@ -95,9 +95,9 @@ pub struct LearnedAxis {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NextStep {
-    /// Recordings are wanted in this folder, with these lists.
+    /// Recordings are needed in this folder, with these lists.
     Record {
-        /// The folder.
+        /// Path of the folder.
         folder: String,
         /// The lists of X and Y.
         lists: [String; 2],

@@ -20,7 +20,7 @@ pub struct TrendReport {
     pub dates: Vec<DatedFriction>,
     /// What changed between them.
     pub changes: Vec<FrictionChange>,
-    /// Files that tell nothing, each with its reason.
+    /// Files that give no friction, each with its reason.
     pub left_out: Vec<(String, String)>,
 }
 
@@ -31,7 +31,7 @@ pub struct DatedFriction {
     pub date: String,
     /// The days since 1970-01-01.
     pub day: f64,
-    /// The file.
+    /// Name of the file.
     pub file: String,
     /// The parameters.
     pub levels: FrictionLevels,

@@ -48,7 +48,7 @@ impl Default for View {
 }
 
 impl View {
-    /// Whether a block changed a selected kind, or something is said about it.
+    /// Whether a block changed a selected kind, or there is a message about it.
     pub(super) fn is_eventful(self, row: &Row<'_>) -> bool {
         !row.diagnostics.is_empty()
             || row

@@ -41,7 +41,7 @@ pub fn command_line(advice: &Advice) -> Option<String> {
         }
         Advice::GiveStart(axes) => {
             let start: Vec<String> = axes.iter().map(|axis| start_word(axis)).collect();
-            format!("give it with `--start {}` for instance", start.join(","))
+            format!("give it, for example with `--start {}`", start.join(","))
         }
         Advice::AllowOutside => {
             "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"

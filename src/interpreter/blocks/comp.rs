@@ -345,10 +345,13 @@ impl Interpreter {
             }
             CompensationError::ReadAsRefused { rule, .. } => {
                 diagnostic = diagnostic.with_help(format!(
-                    "`[reading]` of the configuration says so under `\"{rule}\"`; the documents do not"
+                    "`\"{rule}\"` in `[reading]` selects this reading; the documents leave it open"
                 ));
             }
-            CompensationError::Spindle { .. } => {}
+            CompensationError::Spindle { .. } => {
+                diagnostic =
+                    diagnostic.with_help("name an axis; a spindle in axis mode has its axis name");
+            }
         }
         diagnostic
     }
@@ -368,9 +371,9 @@ impl Interpreter {
             // R1.43
             return diagnostic.with_help(match &slave.master {
                 Some(master) => format!(
-                    "`{name}` follows `{master}` as its static gantry slave; programs know only `{master}`"
+                    "`{name}` follows `{master}` as its static gantry slave; programs address only `{master}`"
                 ),
-                None => format!("`{name}` is the slave of a static gantry, which no program knows"),
+                None => format!("`{name}` is the slave of a static gantry, which programs do not address"),
             });
         }
         let near = if configured {

@@ -194,7 +194,7 @@ impl Interpreter {
         let what = if friction {
             "the program writes a parameter of friction compensation into the machine data"
         } else {
-            "the control transfers the whole list of the axis again, over what NC commands had set"
+            "the control transfers the whole axis list again, which may undo NC commands"
         };
         let message = match named.as_slice() {
             [] if !friction => return,
@@ -202,7 +202,7 @@ impl Interpreter {
             named => format!("{what}; {} is unknown from here on", named.join(", ")),
         };
         let fault = Fault::new(Code::Fc314, hash.span, message)
-            .with_help("set the state after it, with `X[COMP ON FRICT]` for instance");
+            .with_help("set the state after it, for example with `X[COMP ON FRICT]`");
         let diagnostic = at.diagnostic(fault);
         self.scratch.diagnostics.push(diagnostic);
     }

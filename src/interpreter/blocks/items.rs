@@ -19,7 +19,7 @@ use crate::syntax::ast::{Block, Flow, Item, Operand};
 use crate::syntax::{FastPath, Fault, hash_name};
 use crate::text::Span;
 
-/// Messages about one block that are said one by one (R2.85).
+/// Messages about one block that are reported one by one (R2.85).
 pub(in crate::interpreter) const MAX_SAID: usize = 1000;
 
 impl Interpreter {
@@ -122,7 +122,7 @@ impl Interpreter {
         }
     }
 
-    /// Whether the control stops at what was said about the block.
+    /// Whether the control stops at a message about the block.
     #[inline]
     pub(in crate::interpreter) fn is_halted(&self) -> bool {
         self.options.stop == StopPolicy::FirstError && self.scratch.diagnostics.iter().any(stops)

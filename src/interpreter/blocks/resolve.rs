@@ -40,7 +40,7 @@ impl Interpreter {
         requests
     }
 
-    /// Looks for the wanted program.
+    /// Looks for the program.
     pub(in crate::interpreter) fn resolve(
         &mut self,
         wanted: WantedCall,

@@ -241,7 +241,7 @@ impl BlockScratch {
             "`JUMPS` leaves {number} programs, but only {here} {programs} can be left here; the main program continues"
         );
         let fault = Fault::new(Code::Fc317, span, message)
-            .with_help("`M17 [MAIN]` says that the main program is meant");
+            .with_help("write `M17 [MAIN]` to return to the main program");
         self.diagnostics.push(at.diagnostic(fault));
     }
 }

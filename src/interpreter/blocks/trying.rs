@@ -121,7 +121,7 @@ impl Interpreter {
         said
     }
 
-    /// Does something of a block for what is said of it, and leaves all else as it is.
+    /// Does something of a block for its messages, and leaves all else as it is.
     fn try_out(
         &mut self,
         cause: &str,

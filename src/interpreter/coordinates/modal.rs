@@ -166,7 +166,7 @@ impl Modal {
         }
     }
 
-    /// Whether it describes so many axes.
+    /// Whether it describes a number of axes.
     pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
         [self.positions.len(), self.references.len(), suspended] == [axes; 3]

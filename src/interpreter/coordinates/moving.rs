@@ -50,7 +50,7 @@ pub struct MovedAxis {
     pub axis: AxisIndex,
     /// The words that move it.
     pub span: Span,
-    /// How.
+    /// How it moves.
     pub kind: MotionKind,
     /// Whether it moves for sure.
     pub certainty: Certainty,

@@ -1,5 +1,5 @@
 //! The functions of a control on the path or its velocity that a commanded trace follows in a simpler way,
-//! which is said (R5.1).
+//! which is reported (R5.1).
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
@@ -95,13 +95,13 @@ impl Simplification {
     pub fn instead(self) -> &'static str {
         match self {
             Self::Contouring => {
-                "rounds corners within their tolerance by curves of its own, where the control has polynomials (`G61`, `G261`, `#CONTOUR MODE`)"
+                "rounds corners within their tolerance with its own curve, the control with polynomials (`G61`, `G261`, `#CONTOUR MODE`)"
             }
             Self::HighSpeed => {
-                "joins short blocks within their tolerance by a curve of its own, where the control has another one (`#HSC`)"
+                "joins short blocks within their tolerance with its own curve, the control with another one (`#HSC`)"
             }
             Self::Slope => {
-                "keeps the acceleration profile of the channel list, where the program selects one that is not known here (`#SLOPE`)"
+                "keeps the acceleration profile of the channel list, because the selected one is not known (`#SLOPE`)"
             }
             Self::VelocityWeight => {
                 "keeps the velocity limits of the axes, which the program weights (`G127`, `G128`)"
@@ -121,10 +121,12 @@ impl Simplification {
             Self::FeedRamp => {
                 "changes to the new feed at once, the control along the block (`G193`, `G293`)"
             }
-            Self::CornerDeceleration => "knows no slower feed in corners than its own (`G13`)",
+            Self::CornerDeceleration => "keeps F in corners, where the control reduces it (`G13`)",
             Self::ToolFeed => "keeps F where the control adapts it to the tool radius (`G11`)",
-            Self::FeedGroup => "refers F to X, Y and Z, whatever `#FGROUP` says",
-            Self::PathLimits => "knows no limits but those of the axes (`#VECTOR LIMIT`)",
+            Self::FeedGroup => "applies F to X, Y and Z, whatever `#FGROUP` selects",
+            Self::PathLimits => {
+                "keeps only the limits of the axes, not those of the path (`#VECTOR LIMIT`)"
+            }
             Self::ForeignFeed => {
                 "keeps the programmed F, which the control adapts (`#GEO FEED ADAPT`)"
             }

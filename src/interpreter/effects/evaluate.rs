@@ -382,7 +382,7 @@ impl BlockScratch {
             "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
         );
         let fault = Fault::new(Code::Fc412, span, message)
-            .with_help("read it before G41 or G42, into a parameter for instance");
+            .with_help("read it before G41 or G42, for example into a parameter");
         self.diagnostics.push(at.diagnostic(fault));
     }
 }

@@ -2,7 +2,7 @@
 //! (TF5200 programming manual, 206977419 and its neighbours).
 //!
 //! A name stands for the machine's axis of that name until the program says otherwise. An axis that
-//! is given back keeps its compensation: what another channel does with it is said where the
+//! is given back keeps its compensation: what another channel does with it is reported where the
 //! programs of that channel are checked.
 
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! One block as a whole: its words, what it does after them, and what it tells.
+//! One block as a whole: its words, what it does after them, and what it reports.
 
 use std::ops::ControlFlow;
 
@@ -99,7 +99,7 @@ impl Interpreter {
             && self.state.effort.level() <= self.options.limits.work
     }
 
-    /// Executes a block and tells the observer. `Continue` where the next block follows.
+    /// Executes a block and informs the observer. `Continue` where the next block follows.
     pub(in crate::interpreter) fn execute(
         &mut self,
         at: &BlockContext<'_>,

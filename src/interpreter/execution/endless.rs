@@ -270,11 +270,11 @@ impl Interpreter {
         };
         let message = match why {
             Enough::Repeated => format!(
-                "this loop ends only where {decides}, says so; the dry run leaves it after {passes}"
+                "when this loop ends depends on {decides}; the dry run leaves it after {passes}"
             ),
             Enough::TooMany(_) => format!(
-                "this loop may end where {decides}, says so; the dry run leaves it after {passes}, \
-                 what it could change is unknown"
+                "whether this loop ends may depend on {decides}; the dry run leaves it after {passes}, \
+                 and what it could change is unknown"
             ),
         };
         let said = Diagnostic::new(

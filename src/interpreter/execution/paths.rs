@@ -2,7 +2,7 @@
 //!
 //! At a condition that only the machine knows the run parts: each way goes on with its own copy of
 //! what the control has. The way that stands before the others in the text is executed first; ways
-//! that come to the same block are joined there. So each block is executed once for all ways that
+//! that reach the same block are joined there. So each block is executed once for all ways that
 //! lead to it, whatever the conditions before it (R14.4).
 
 use std::collections::BTreeMap;
@@ -86,7 +86,7 @@ impl Interpreter {
         joined
     }
 
-    /// Another way comes to the block that is executed next.
+    /// Another way reaches the block that is executed next.
     pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
         let mut mine = self.state.leave_path();
         let parted = Self::what_parts(&mine, &other);
@@ -102,7 +102,7 @@ impl Interpreter {
         self.tell_join(&before, parted);
     }
 
-    /// The condition that tells two ways apart.
+    /// The condition that separates two ways.
     fn what_parts(mine: &Path, other: &Path) -> Option<u32> {
         let (mine, theirs) = (&mine.track.reach, &other.track.reach);
         let both: Vec<u32> = mine.conditions().chain(theirs.conditions()).collect();
@@ -182,7 +182,7 @@ impl Interpreter {
 }
 
 impl State {
-    /// A condition that is asked on some ways only is said to be so, whatever its own answer.
+    /// A condition that is asked on some ways only is reported as such, whatever its own answer.
     pub(in crate::interpreter) fn limit_to_reach(
         &self,
         said: &mut Diagnostic,

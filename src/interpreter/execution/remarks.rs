@@ -1,4 +1,4 @@
-//! Lines that no run comes to: `%` lines, and comments that speak to this tool and stand above no block
+//! Lines that no run reaches: `%` lines, and comments to this tool that no block follows
 //! (R9.24).
 
 use std::sync::Arc;

@@ -124,7 +124,7 @@ impl Interpreter {
         };
         let place = self.programs.index(frame.unit).block_place(frame.next);
         self.show_ways();
-        // A run stops at blocks; whoever wants to stop does so at the next one.
+        // A run stops at blocks: a request to stop takes effect at the next one.
         let _ = observer.event(Event::Joined(Joined {
             seq: self.state.seq,
             place: &place,

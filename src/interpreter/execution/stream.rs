@@ -56,7 +56,7 @@ impl Interpreter {
     /// until a block makes the rest count; from there on it is held in memory.
     ///
     /// Control blocks and labels are checked when the rest is read, where a program in memory is
-    /// refused before its first block; [`crate::syntax::FlowScan`] tells which program may have any.
+    /// refused before its first block; [`crate::syntax::FlowScan`] says which program may have any.
     /// An observer that stops it ends it: see [`RunOutcome::Stopped`].
     pub fn stream(
         &mut self,

@@ -14,7 +14,7 @@ use crate::text::{Span, TextLines};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CallSite {
-    /// The name of the program; `None` where only a run can tell it.
+    /// The name of the program; `None` where it is known only at run time.
     pub name: Option<String>,
     /// The line of its block, from 1.
     pub line: u32,
@@ -52,7 +52,7 @@ pub fn call_sites(text: &str, programs: &ConfiguredPrograms) -> Vec<CallSite> {
     sites.found
 }
 
-/// Whether M02 or M30 stands in a text, or an M function that only a run can tell.
+/// Whether M02 or M30 is in a text, or an M function known only at run time.
 ///
 /// ```
 /// use frictcomp::interpreter::holds_program_end;
@@ -195,7 +195,7 @@ impl Sites<'_> {
         }
     }
 
-    /// A function, whose number is `None` where only a run can tell it.
+    /// A function, whose number is `None` where it is known only at run time.
     fn function(&mut self, letter: char, number: Option<i64>) {
         if self.by_word.is_empty() {
             return;

@@ -2,7 +2,7 @@
 
 use crate::text::SourceFile;
 
-/// Why a called program is not at hand.
+/// Why a called program is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoProgram {
@@ -21,7 +21,7 @@ pub trait Finder {
     /// The text of the program called `name`, asked for by the file `caller`.
     ///
     /// # Errors
-    /// It is not at hand.
+    /// It is missing.
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram>;
 }
 

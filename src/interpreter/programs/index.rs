@@ -109,7 +109,7 @@ pub(in crate::interpreter) struct Index {
     /// The names that several local subprograms have, each with the section of the second.
     pub(in crate::interpreter) repeated: HashMap<String, usize>,
     pub(in crate::interpreter) remarks: HashMap<EntryIndex, Remark>,
-    /// Comments that speak to this tool and stand above no block.
+    /// Comments to this tool that no block follows.
     pub(in crate::interpreter) lost: LostRemarks,
     /// Ends of the branches of each `#IF`.
     pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
@@ -277,7 +277,7 @@ impl Index {
         self.interpreted.get(&entry).copied()
     }
 
-    /// The comment line above a block that speaks to this tool.
+    /// The comment line above a block that is addressed to this tool.
     pub(in crate::interpreter) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
         self.remarks.get(&entry).cloned()
     }

@@ -22,7 +22,7 @@ const HASH_BYTE: usize = 60;
 /// A macro, whose code is parsed each time.
 const MACRO: usize = 4000;
 
-/// A comment that speaks to this tool.
+/// A comment that is addressed to this tool.
 const REMARK: usize = 1000;
 
 /// Characters of the text, which is looked through for such comments, that make a unit.

@@ -174,7 +174,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A part of the block that was read anew, with spans of its own.
+    /// A part of the block that was read again, with spans of its own.
     pub(in crate::interpreter) fn part(
         &self,
         text: &'a str,
@@ -208,7 +208,7 @@ impl<'a> BlockContext<'a> {
 }
 
 impl BlockContext<'_> {
-    /// The span in the block of what stands here, for what is said when the whole block is known.
+    /// The span in the block of what stands here, for messages once the whole block is known.
     pub(in crate::interpreter) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
     }

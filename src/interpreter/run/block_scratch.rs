@@ -136,7 +136,7 @@ impl BlockScratch {
         self.changes.clear();
     }
 
-    /// Hands what the block asked over to what is told of it.
+    /// Hands what the block asked to what is reported of it.
     #[inline]
     pub(in crate::interpreter) fn gather_asked(&mut self) {
         let asked = self.asked.get_mut();

@@ -29,7 +29,7 @@ impl ChannelAxes {
         self.names.get(name).copied()
     }
 
-    /// Whether it names no axis beyond so many.
+    /// Whether it names no axis beyond a number.
     pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
             AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {

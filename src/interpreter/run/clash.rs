@@ -1,6 +1,6 @@
 //! Answers that contradict each other while a value of the machine stays as it is (R14.1).
 //!
-//! A value of the machine is asked for anew each time. A way that needs two answers which no single value
+//! A value of the machine is asked for each time. A way that needs two answers which no single value
 //! gives is possible all the same, but only if the value changes in between.
 
 use std::collections::BTreeSet;

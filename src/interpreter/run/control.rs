@@ -41,7 +41,7 @@ pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
     pub(in crate::interpreter) cycles: ModalCycles,
-    /// The called files of which it was said what is wrong with them.
+    /// The called files whose faults were reported.
     pub(in crate::interpreter) refused: BTreeSet<usize>,
     /// Set while the configured end program runs.
     pub(in crate::interpreter) ending: Option<EndedBy>,

@@ -124,7 +124,7 @@ impl Couplings {
         }
     }
 
-    /// Whoever follows another one by such a command may do so, or not; so may these axes.
+    /// An axis that follows another one by such a command may do so, or not; so may these axes.
     pub(in crate::interpreter) fn havoc_followers(&mut self, axes: &[AxisIndex]) {
         let followers = std::mem::take(&mut self.followers);
         let followers = followers.into_values().flatten().map(|(axis, _)| axis);
@@ -245,7 +245,7 @@ impl Couplings {
         Vec::new()
     }
 
-    /// Whether it names no other axes than so many.
+    /// Whether it names no axes beyond a number.
     pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
         let pairs = self.followers.values().flatten();

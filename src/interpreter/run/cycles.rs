@@ -25,7 +25,7 @@ pub(in crate::interpreter) struct Repeated {
 /// Program that a modal cycle calls.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum RepeatedCall {
-    /// A program that is at hand.
+    /// A program that was found.
     Program(ProgramId),
     /// The same, or nothing: it is not known whether the cycle is in force.
     Perhaps(ProgramId),

@@ -113,7 +113,7 @@ pub struct Executed<'a> {
     pub text: &'a str,
     /// Whether comments stand in the text.
     pub comments: Comments,
-    /// The comment line directly above that speaks to this tool.
+    /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
     /// Its block number, where it is known.
     pub number: Option<i64>,
@@ -235,7 +235,7 @@ pub struct ProgramEnd {
 pub struct Ended<'a> {
     /// Number of executed blocks.
     pub seq: u64,
-    /// Why.
+    /// Why it ended.
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,

@@ -79,12 +79,12 @@ pub struct Interpreter {
     pub(in crate::interpreter) shown: ShownWays,
     /// Messages on ways that joined before the current block.
     pub(in crate::interpreter) met: Vec<Diagnostic>,
-    /// The same where it was said before, or where nothing differs.
+    /// The same where it was reported before, or where nothing differs.
     pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
     /// What the control refuses in blocks of called programs, each with its file, until it is known
     /// whether the dry run executes them.
     pub(in crate::interpreter) held: Vec<((usize, EntryIndex), Diagnostic)>,
-    /// The answers among which somebody may choose where no way is followed.
+    /// The answers among which the user may choose where no way is followed.
     pub(in crate::interpreter) offered: Vec<WayCondition>,
     /// The places of the chosen answers to the next such conditions.
     pub(in crate::interpreter) chosen: VecDeque<usize>,

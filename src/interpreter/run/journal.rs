@@ -58,7 +58,7 @@ impl Journal {
         }
     }
 
-    /// Something happened that the list does not tell.
+    /// Something happened that the list does not have.
     pub(in crate::interpreter) fn begin_anew(&mut self) {
         self.written.clear();
         self.epoch += 1;

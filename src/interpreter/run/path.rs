@@ -188,7 +188,7 @@ impl RunTrack {
         self.open_loops.retain(|(of, ..)| *of <= depth);
     }
 
-    /// Another way comes to the same block.
+    /// Another way reaches the same block.
     fn join(&mut self, other: &Self) {
         let Self {
             loops,
@@ -243,7 +243,7 @@ pub(in crate::interpreter) struct Path {
 }
 
 impl Path {
-    /// Another way comes to the same block: what differs becomes unknown. Returns how many values do.
+    /// Another way reaches the same block: what differs becomes unknown. Returns how many values do.
     pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
         self.undo_differing(&mut other);
         self.join_readings(&other);

@@ -31,7 +31,7 @@ impl Split {
         }
     }
 
-    /// Whether it names none but the first conditions, so many.
+    /// Whether it names no conditions beyond a number.
     pub(in crate::interpreter) fn fits(&self, conditions: usize) -> bool {
         self.conditions().all(|it| (it as usize) < conditions)
     }
@@ -112,7 +112,7 @@ impl PossibleKinds {
         self.0.clear();
     }
 
-    /// Whether it names no other axes than so many, and no other conditions.
+    /// Whether it names no axes and no conditions beyond a number of each.
     pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
         let mut splits = self.0.iter();
         splits.all(|((axis, _), split)| axis.get() < axes && split.fits(conditions))
@@ -123,7 +123,7 @@ impl PossibleKinds {
         self.0.values().flat_map(Split::conditions)
     }
 
-    /// A condition is asked anew.
+    /// A condition is asked again.
     pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         for split in self.0.values_mut() {
             split.havoc(condition);

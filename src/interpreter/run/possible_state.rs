@@ -19,7 +19,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, Membership, State};
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct PossibleStates {
-    /// The axis.
+    /// Index of the axis on the machine.
     pub axis: AxisIndex,
     /// The kind.
     pub kind: Kind,

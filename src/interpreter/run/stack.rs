@@ -165,7 +165,7 @@ impl CallStack {
         self.0.iter().find(|frame| frame.level == level)
     }
 
-    /// The program so many calls deep, the main program being the first.
+    /// The program at a call depth, the main program being the first.
     pub(in crate::interpreter) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut CallFrame> {
         self.0.get_mut(depth.checked_sub(1)?)
     }

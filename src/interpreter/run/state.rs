@@ -14,7 +14,7 @@ use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::readings::QuestionSet;
 
-/// Number of different words of a program of which something is said once.
+/// Number of different words of a program that are reported once.
 const MAX_ONCE: usize = 1000;
 
 /// Everything that a run depends on.
@@ -37,7 +37,7 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) effort: WorkBudget,
     /// Words and commands that were passed over.
     pub(in crate::interpreter) opaque: BTreeMap<String, u64>,
-    /// The words of the program of which something was said that is said once (R2.94).
+    /// The words of the program that were reported, once each (R2.94).
     pub(in crate::interpreter) once: BTreeSet<String>,
     /// The axes that occurred.
     pub(in crate::interpreter) occurred: Vec<bool>,
@@ -55,7 +55,7 @@ pub(in crate::interpreter) struct State {
 }
 
 impl State {
-    /// Whether a word is met for the first time in the program, of those of which something is said once.
+    /// Whether a word that is reported once is met for the first time in the program.
     pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;
         words.len() < MAX_ONCE && words.insert(word.to_owned())

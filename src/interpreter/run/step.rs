@@ -31,7 +31,7 @@ pub(in crate::interpreter) enum ControlStep {
 
 /// Why the next block is not the one that follows.
 pub(in crate::interpreter) enum NextBlock {
-    /// The observer wants to stop.
+    /// The observer stops the run.
     Paused,
     Step(ControlStep),
 }
@@ -78,7 +78,7 @@ pub(in crate::interpreter) struct Destination {
     pub(in crate::interpreter) entry: Option<EntryIndex>,
 }
 
-/// A block of a main program that is read line by line, and what is said where it never comes.
+/// A block of a main program that is read line by line, and the message where it never comes.
 #[derive(Clone, Debug)]
 pub(in crate::interpreter) struct AwaitedBlock {
     pub(in crate::interpreter) label: LabelName,

@@ -56,7 +56,7 @@ impl Untouched {
         }
     }
 
-    /// A condition is asked anew.
+    /// A condition is asked again.
     pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         self.0.values_mut().for_each(|ways| ways.havoc(condition));
     }
@@ -66,7 +66,7 @@ impl Untouched {
         self.0.values().flat_map(WaySet::conditions)
     }
 
-    /// Whether it names no other axes than so many, and no other conditions.
+    /// Whether it names no axes and no conditions beyond a number of each.
     pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
             && self.conditions().all(|it| (it as usize) < conditions)

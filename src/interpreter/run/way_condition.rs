@@ -78,7 +78,7 @@ pub enum WayCondition {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub struct BlockCondition {
-    /// The file.
+    /// Path of the file.
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,

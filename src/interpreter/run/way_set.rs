@@ -135,7 +135,7 @@ impl WaySet {
         }
     }
 
-    /// The same whatever the answer to a condition: it is asked anew.
+    /// The same whatever the answer to a condition: it is asked again.
     pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         for way in &mut self.0 {
             way.retain(|answer| answer.condition != condition);

@@ -90,7 +90,7 @@ pub(in crate::interpreter) struct OpenPath {
     pub(in crate::interpreter) latest: u64,
     pub(in crate::interpreter) cause: Arc<str>,
     pub(in crate::interpreter) standing: PathState,
-    /// Blocks that it executes on its way to the target.
+    /// Blocks that it executes before it reaches the target.
     pub(in crate::interpreter) tails: Vec<Remainder>,
 }
 
@@ -185,7 +185,7 @@ impl Ways {
         !self.open.is_empty()
     }
 
-    /// Those of another way that comes to the same block.
+    /// Those of another way that reaches the same block.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         let Self {
             open,
@@ -318,7 +318,7 @@ impl Ways {
         self.open.iter().chain(self.end.as_deref())
     }
 
-    /// Whether what is kept for each way describes so many axes.
+    /// Whether what is kept for each way describes a number of axes.
     pub(in crate::interpreter) fn fit(&self, axes: usize) -> bool {
         let standings = self.all().map(|way| &way.standing);
         standings

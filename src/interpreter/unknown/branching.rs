@@ -28,7 +28,7 @@ const MAX_OPEN: usize = 40;
 /// Conditions that ways may name.
 pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
 
-/// Conditions on values of the program whose answers are remembered; older ones are asked anew.
+/// Conditions on values of the program whose answers are remembered; older ones are asked again.
 const MAX_ASKED: usize = 64;
 
 /// Number of questions at a place before its earlier answers are dropped.
@@ -91,7 +91,7 @@ impl Goal {
     }
 }
 
-/// The answers to a condition, so many.
+/// The answers to a condition, by their number.
 pub(in crate::interpreter) fn answers(
     condition: u32,
     count: usize,

@@ -36,7 +36,7 @@ use crate::syntax::ast::{
 use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number};
 use crate::text::Span;
 
-/// A region on its way to be known.
+/// A region that is being analysed.
 struct MayEffects<'a> {
     run: &'a Interpreter,
     region: Region,

@@ -31,7 +31,7 @@ impl Interpreter {
         let last = self.state.last.as_ref().map(Last::place);
         let place = last.or_else(start)?;
         let message = format!(
-            "the program ends here and never comes to {wanted}, at which it is to be started"
+            "the program ends here without reaching {wanted}, at which it is to be started"
         );
         let said = Diagnostic::new(Code::Fc413, place, message).raised(Severity::Error);
         Some(said.with_help(
@@ -157,14 +157,14 @@ impl Interpreter {
             "`{kind}` of axis `{name}` is {executed} here if the block search executes the COMP commands \
              that it passes, and {decoded} if it only decodes them"
         );
-        let to = if before.compensation.state(axis, kind) == State::Active {
+        let to = if matches!(executed, State::Active | State::Ineffective) {
             "ON"
         } else {
             "OFF"
         };
         Diagnostic::new(Code::Fc413, at.place(Span::new(0, at.text.trim_end().len())), message).with_help(format!(
-            "the control's documents leave this open; write `{name}[COMP {to} {kind}]` after this block, or \
-             look at `V.A.{kind}_COMP_ACTIVE.{name}` before the start"
+            "the control's documents leave this open; repeat `{name}[COMP {to} {kind}]` after this block, or \
+             check `V.A.{kind}_COMP_ACTIVE.{name}` before the start"
         ))
     }
 }

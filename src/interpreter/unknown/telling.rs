@@ -62,7 +62,7 @@ impl Interpreter {
     }
 
     /// Completes the message about a part of the program, or withholds it where nothing differs or
-    /// where it was said before.
+    /// where it was reported before.
     #[cold]
     pub(in crate::interpreter) fn tell_undecided(&mut self, undecided: Undecided) {
         let Undecided {

@@ -8,7 +8,7 @@ use crate::syntax::is_command;
 /// The name of a skip level as a cause.
 const SKIP: &str = "skip level ";
 
-/// The name of a program that is not at hand as a cause.
+/// The name of a missing program as a cause.
 const PROGRAM: &str = "program ";
 
 /// The signal of a probe as a cause (R2.91).
@@ -24,7 +24,7 @@ pub(in crate::interpreter) fn decided_level(name: &str) -> Option<u8> {
     name.strip_prefix(SKIP)?.parse().ok()
 }
 
-/// A program that is not at hand as what decides (R2.83, R2.95).
+/// A missing program as what decides (R2.83, R2.95).
 pub(in crate::interpreter) fn program(name: &str) -> Arc<str> {
     format!("{PROGRAM}{name}").into()
 }
@@ -36,7 +36,7 @@ pub(in crate::interpreter) fn unknown_value(name: &str) -> String {
     } else if name == PROBE {
         format!("{name}, which only the machine knows")
     } else if let Some(program) = name.strip_prefix(PROGRAM) {
-        format!("the program `{program}`, which is not at hand")
+        format!("the program `{program}`, which is missing")
     } else if name.starts_with("V.S.") {
         format!("`{name}`, which a program before this one may have left")
     } else if is_settable(name) {
@@ -65,7 +65,7 @@ pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
         return Advice::SetSkip(level);
     }
     if name == PROBE {
-        return "set afterwards what must not depend on it, `X[COMP ON FRICT]` for instance".into();
+        return "set the state afterwards, for example with `X[COMP ON FRICT]`".into();
     }
     if let Some(program) = name.strip_prefix(PROGRAM) {
         return format!("give frictcomp `{program}`, or say in `[machine.external_keeps]` that it keeps parameters").into();

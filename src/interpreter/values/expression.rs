@@ -51,7 +51,7 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
 pub(in crate::interpreter) enum ParameterSource {
     /// A call gave some, and no others.
     ByCall,
-    /// The program is a cycle that runs without a call: whoever calls it gives them.
+    /// The program is a cycle that runs without a call: its caller gives them.
     FromOutside,
 }
 

@@ -1,7 +1,7 @@
 //! Names of parameters and variables: as the run keeps them, and as programs and users write them.
 //!
 //! The letters before the name, `V.E.`, may be written in any case. The name itself may not:
-//! upper and lower case are told apart (TF5200 External variables, P-EXTV-00001).
+//! upper and lower case are distinguished (TF5200 External variables, P-EXTV-00001).
 
 use std::borrow::Cow;
 

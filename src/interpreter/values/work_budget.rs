@@ -18,7 +18,7 @@ const PER_BLOCK: u64 = 500;
 /// Units of work that a byte of an executed block brings with it.
 const PER_BYTE: u64 = 4;
 
-/// Units of repeated work that a message needs, whether it is said once more or not.
+/// Units of repeated work that a message needs, whether it is reported again or not.
 const PER_MESSAGE: u64 = 1500;
 
 /// Units of repeated work that a unit of other work needs.

@@ -7,7 +7,7 @@ use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
 use crate::syntax::code_of;
 
-/// A message shows a block with so many characters.
+/// Characters of a block that a message shows.
 const MAX_SHOWN: usize = 60;
 
 pub(super) fn lint(

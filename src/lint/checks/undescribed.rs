@@ -18,6 +18,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     );
     Some(
         Diagnostic::new(Code::Fc408, place(taken.executed, command.span), message)
-            .with_axis(name.clone()),
+            .with_axis(name.clone())
+            .with_help("describe the machine in `frictcomp.toml`"),
     )
 }

@@ -179,7 +179,7 @@ pub struct Assignment {
     pub target: Target,
     /// The new value.
     pub value: Operand,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 
@@ -196,7 +196,7 @@ pub struct Hash {
     pub declarations: Vec<Declaration>,
     /// The places that the command writes with values that only the machine knows.
     pub written: Vec<Target>,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 

@@ -21,7 +21,7 @@ pub struct Call {
     pub words: Vec<(u8, Operand)>,
     /// Whether it is repeated.
     pub repetition: Repetition,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 
@@ -74,7 +74,7 @@ pub struct GCall {
     pub number: u32,
     /// The values; one that is left out is `None`.
     pub arguments: Vec<Option<Operand>>,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 
@@ -91,7 +91,7 @@ pub struct SequenceCall {
     pub end_tag: bool,
     /// Number of passes; one where it is left out.
     pub passes: Option<Operand>,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 
@@ -102,7 +102,7 @@ pub struct Return {
     pub levels: ReturnLevels,
     /// To which block, where that is not the next one.
     pub target: Option<BlockReference>,
-    /// The whole.
+    /// Span of its whole text.
     pub span: Span,
 }
 
@@ -113,6 +113,6 @@ pub enum ReturnLevels {
     One,
     /// To the main program.
     Main,
-    /// Over so many programs.
+    /// From so many programs.
     Number(Operand),
 }

@@ -27,7 +27,7 @@ pub struct Expression {
 pub struct Target {
     /// The nodes; the last one is a parameter or variable.
     pub place: Expression,
-    /// Its text.
+    /// Span of its text.
     pub span: Span,
 }
 

@@ -1,4 +1,4 @@
-//! A block on its way from pairs to its tree, and what its parts have in common.
+//! A block that is being lowered from pairs to its tree, and what its parts have in common.
 
 use pest::iterators::Pair;
 
@@ -11,7 +11,7 @@ use crate::syntax::upper_case::in_upper_case;
 use crate::syntax::{expression, unread::not_known};
 use crate::text::Span;
 
-/// A block on its way.
+/// A block that is being lowered.
 pub(super) struct BlockLowering<'a> {
     pub(super) code: &'a str,
     /// The code as the parser reads it.
@@ -120,11 +120,16 @@ pub(super) fn trimmed(span: Span, code: &str) -> Span {
 pub(super) fn not_understood(span: Span, code: &str) -> Fault {
     let found = span.of(code).trim();
     let shown: String = found.chars().take(40).collect();
-    Fault::new(
+    let fault = Fault::new(
         Code::Fc207,
         span,
         format!("`{shown}` is not understood here"),
-    )
+    );
+    let before = code.get(..span.start as usize).unwrap_or_default();
+    if found == "O" && before.ends_with(|letter: char| letter.is_ascii_digit()) {
+        return fault.with_help("write the digit `0` in place of the letter `O`");
+    }
+    fault
 }
 
 pub(super) fn not_closed(at: usize) -> Fault {

@@ -186,7 +186,7 @@ class Messages:
     def warnings(self) -> int: ...
     @property
     def left_out(self) -> dict[str, int]:
-        """How many messages of a severity are not listed: a file says so many and no more."""
+        """How many messages of a severity are not listed: the list for each file is limited."""
     @property
     def remark(self) -> str | None:
         """That no machine is described, where that matters."""
@@ -218,7 +218,7 @@ class ProgramRun:
         """The name after ``%``."""
     @property
     def by(self) -> str | None:
-        """Why it ended: ``M30`` or ``M2``, ``text`` without either, ``error``, ``budget``.
+        """Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
 
         None where an interrupt or the end of the session came first.
         """
@@ -360,7 +360,7 @@ class Audit:
         """The pairs of a program that leaves an axis away from its start-up state and one that inherits it."""
     @property
     def has_warnings(self) -> bool:
-        """Whether something is to be mended, or cannot be told."""
+        """Whether something needs mending, or is not known."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
@@ -690,7 +690,7 @@ def identify(
     """Finds the friction of an axis in a recording, and the points of a value list.
 
     ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
-    was on meanwhile; without them the channels tell, where they do.
+    was on meanwhile; without them the channels say it, where they do.
 
     ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
     the file does not. With ``circles`` the recordings are circles at two or more feeds.

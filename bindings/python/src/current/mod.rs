@@ -61,7 +61,7 @@ struct Cycles {
     stop: Stop,
 }
 
-/// What came of it.
+/// Its result.
 struct ProgramsCurrents {
     axes: Vec<NamedAxis>,
     cycles: Cycles,

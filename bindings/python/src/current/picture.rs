@@ -13,7 +13,7 @@ use crate::states::STATES;
 /// Cycles at which something begins.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Marks {
-    /// Cycles at which the trace begins anew.
+    /// Cycles at which the trace begins again.
     begins: Vec<usize>,
     /// Cycles at which a block begins, with its number and its line.
     blocks: Vec<(usize, Option<i64>, u32)>,
@@ -23,7 +23,7 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// The trace begins anew with a cycle.
+    /// The trace begins again with a cycle.
     pub(super) fn begin(&mut self, cycle: usize) {
         self.begins.push(cycle);
     }

@@ -29,7 +29,7 @@ struct RecordingJob {
     reading: Reading,
 }
 
-/// What came of it.
+/// Its result.
 struct RecordingCurrents {
     t: Vec<f64>,
     cycles: AxisCycles,

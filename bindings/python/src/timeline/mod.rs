@@ -35,7 +35,7 @@ pub(crate) struct PyProgramRun {
     file: String,
     /// The name after ``%``.
     name: Option<String>,
-    /// Why it ended: ``M30`` or ``M2``, ``text`` without either, ``error``, ``budget``.
+    /// Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
     ///
     /// None where an interrupt or the end of the session came first.
     by: Option<PickledWord>,
@@ -70,7 +70,7 @@ impl PyProgramRun {
     }
 }
 
-/// What a timeline is made of anew: what was recorded, the blocks, the messages.
+/// What a timeline is restored from: what was recorded, the blocks, the messages.
 type PickledTimeline<'py> = (String, Bound<'py, PyBytes>, Py<PyMessages>);
 
 /// The timeline of a run: one row for each executed block.

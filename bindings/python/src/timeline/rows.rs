@@ -81,7 +81,7 @@ struct Changes {
     to: StringBuilder,
 }
 
-/// The codes of the messages about the blocks. What is said at the end of a program joins those of
+/// The codes of the messages about the blocks. Messages at the end of a program join those of
 /// its last block, as in CSV.
 #[derive(Default)]
 struct Codes {

@@ -80,7 +80,7 @@ impl ReadingArgs {
         said
     }
 
-    /// Checks that the recordings whose programs are said are there.
+    /// Checks that the recordings whose programs are given exist.
     pub(super) fn check_roles(&self, paths: &[PathBuf]) -> Result<(), Failure> {
         let is_there = |file: &str| paths.iter().any(|it| it.ends_with(file));
         let absent = self.role.iter().find(|(file, _)| !is_there(file));

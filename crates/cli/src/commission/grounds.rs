@@ -10,7 +10,7 @@ use frictcomp_physics::simulation::Preset;
 use frictcomp_report::commission::{InputFile, PlanFile};
 
 impl CommissionRunArgs {
-    /// The plans, the lists of stage 2, those of before, and the file of the plant.
+    /// The plans, the lists of stage 2, the earlier ones, and the file of the plant.
     pub(super) fn inputs(&self, plans: &[PlanFile]) -> Result<Vec<InputFile>, Failure> {
         let rounds = (1..).take(plans.len() + 1);
         let paths = rounds.map(|round| self.folder.join(plan_name(round)));

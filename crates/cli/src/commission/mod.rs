@@ -1,4 +1,4 @@
-//! `frictcomp commission`: from measuring programs to a list that is proved.
+//! `frictcomp commission`: from measuring programs to a proven list.
 
 mod channels;
 mod friction;

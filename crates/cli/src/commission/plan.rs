@@ -33,7 +33,7 @@ pub(crate) struct PlanArgs {
     /// The axes: two linear ones, or one alone
     #[arg(long, value_name = "AXES", value_delimiter = ',', required = true)]
     axis: Vec<String>,
-    /// The travel of each axis that is free, in mm or degrees: `X0..300,Y-50..150`
+    /// The free travel of each axis, in mm or degrees: `X0..300,Y-50..150`
     #[arg(
         long,
         value_name = "AXIS FROM..TO",
@@ -49,7 +49,7 @@ pub(crate) struct PlanArgs {
     /// The radius of the circles in mm; by default 100, or the largest that fits
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// The way in which the torque repeats, a pitch of the screw: `X=10,Y=10`; each run covers it
+    /// The distance over which the torque repeats, such as the pitch: `X=10,Y=10`; each run covers it
     #[arg(long, value_name = "AXIS=MM", value_delimiter = ',')]
     pitch: Vec<String>,
     /// The slowest speed in mm/s or °/s
@@ -153,8 +153,8 @@ fn write(
     let is_other = read_text(&plan).is_ok_and(|there| there != render_json(report));
     if is_other && console.replaces(Replaces::Results) == Replaces::Results {
         let message = format!("`{}` holds another plan", shown(&plan));
-        let help = "its recordings would be taken for those of the new one; plan in another folder, or use \
-                    `--force` where there are none";
+        let help = "its recordings would count for the new plan; plan in another folder, or use `--force` if there \
+                    are none";
         return Err(Failure::new(message).with_help(help));
     }
     let mut outputs = Outputs::new(registry, console);

@@ -1,4 +1,4 @@
-//! A recording, told by its signature, and the result of its program.
+//! A recording, recognised by its signature, and the result of its program.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use frictcomp_recordings::commission::{
 use frictcomp_recordings::identify::AxisRecording;
 
 impl ReadingArgs {
-    /// The number of the program and what its recording tells. What cannot be read is a result, too: the
+    /// The number of the program and what its recording shows. What cannot be read is a result, too: the
     /// other recordings are read all the same.
     pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, RecordingOutcome) {
         let recorded = match self.recognise(path, plans) {

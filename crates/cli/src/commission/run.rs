@@ -225,7 +225,7 @@ fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>)
     sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
 }
 
-/// A provisional list for each axis of stage 1 whose friction was recorded and nothing speaks against.
+/// A provisional list for each axis of stage 1 whose friction was recorded and that has no reason against it.
 fn lists(
     args: &CommissionRunArgs,
     plans: &[PlanFile],
@@ -262,7 +262,8 @@ fn list_text(
     found: &FrictionFound,
 ) -> String {
     let remarks = [
-        "Provisional: for stage 2 of the commissioning, until recorded circles show it".to_owned(),
+        "Provisional: for stage 2 of the commissioning, until recorded circles confirm it"
+            .to_owned(),
         format!("SHA-256 of the recording: {}", result.sha256),
     ];
     let made = IdentifiedFrom {

@@ -8,10 +8,10 @@ use super::channels::ReadingArgs;
 use crate::result::ResultFormat;
 use frictcomp::comp::CncBuild;
 
-/// Take the recordings of measuring programs: friction, lists, circles before and after
+/// Evaluate the recordings of the measuring programs: friction, lists, circles before and after
 ///
-/// Reads the plans in a folder and every recording in its folder `recordings`, which is told by its
-/// signature. Says what is missing and what is not used, writes a provisional list of each axis to the folder
+/// Reads the plans in a folder and every recording in its folder `recordings`, recognised by its
+/// signature. Reports what is missing and what is not used, writes a provisional list of each axis to the folder
 /// `lists`, and judges the lists of stage 2 by the circles with and without them. Run it again with more
 /// recordings: what is known already is kept in `results.json`.
 #[derive(Debug, Args)]
@@ -21,7 +21,7 @@ pub(crate) struct CommissionRunArgs {
     pub(super) folder: PathBuf,
     #[command(flatten)]
     pub(super) reading: ReadingArgs,
-    /// The plant as it is known before, `stiff`, `mid`, `soft` or a TOML file: moved mass, position loop and the
+    /// The plant as known beforehand, `stiff`, `mid`, `soft` or a TOML file: moved mass, position loop and the
     /// force of a drive unit. Contact, Kp, friction and delay are fitted to circles off and on, and lists are
     /// tuned on the fitted plant
     #[arg(long, value_name = "PLANT")]

@@ -57,7 +57,7 @@ pub(crate) struct CurrentArgs {
     #[arg(long, value_name = "V", requires = "trace", value_parser = parse_dead_band)]
     #[arg(allow_negative_numbers = true)]
     pub(super) dead_band: Option<DeadBand>,
-    /// Where the documents leave something open: `standstill=zero`, `below=origin`,
+    /// How to read what the documents leave open: `standstill=zero`, `below=origin`,
     /// `delay=reversal`, `start=every`, with commas between them
     #[arg(
         long,

@@ -20,6 +20,6 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
         (Some(program), ..) => program::run(program, args, console),
         (None, Some(trace), Some(list)) => recorded::run(trace, list, args, console),
         // The arguments are declared so that one of them is there.
-        _ => Err(Failure::new("there is neither a program nor a trace")),
+        _ => Err(Failure::new("give a program or a trace")),
     }
 }

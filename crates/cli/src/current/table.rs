@@ -1,4 +1,4 @@
-//! The currents of a program as CSV, on their way out.
+//! Writing of the currents of a program as CSV.
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -24,7 +24,7 @@ pub(super) struct TableOptions<'a> {
     pub(super) watch: Arc<Watch>,
 }
 
-/// The rows of the result on their way out.
+/// The rows of the result that are being written.
 pub(super) struct CurrentRows {
     columns: Vec<CurrentColumn>,
     writer: BufWriter<Box<dyn Write + Send>>,
@@ -33,7 +33,7 @@ pub(super) struct CurrentRows {
     watch: Arc<Watch>,
     program: String,
     tracker: LineTracker,
-    /// Times and lines at which the trace begins, and begins anew.
+    /// Times and lines at which the trace begins, and begins again.
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
     seen: Vec<Vec<State>>,
@@ -66,7 +66,7 @@ impl CurrentRows {
         table
     }
 
-    /// Returns the times and lines at which the trace begins, and begins anew.
+    /// Returns the times and lines at which the trace begins, and begins again.
     pub(super) fn begins(&self) -> &[(f64, u32)] {
         &self.begins
     }

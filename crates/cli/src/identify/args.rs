@@ -1,4 +1,4 @@
-//! The arguments of `identify`, and what one recording tells by them.
+//! The arguments of `identify`, and what one recording gives with them.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "STATE=FILE", value_parser = parse_state)]
     #[arg(conflicts_with_all = ["circles", "html"])]
     pub(super) recording: Vec<(String, PathBuf)>,
-    /// The state in which the machine works, for which the list is; by default `warm`
+    /// The state in which the machine works and for which the list is made; by default `warm`
     #[arg(
         long,
         value_name = "STATE",
@@ -114,7 +114,7 @@ impl IdentifyArgs {
     }
 }
 
-/// Why nothing was identified, with what the channels themselves tell.
+/// Why nothing was identified, with what the channels themselves show.
 pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
     findings.iter().fold(error.into(), |failure: Failure, it| {
         failure.with_help(format!("{}: {}", it.code, it.message))

@@ -139,7 +139,7 @@ fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
     }
     if let Some(percent) = args.max_error {
         if !(percent > 0.0 && percent <= LARGEST) {
-            let message = format!("an error of {percent} % cannot be wanted");
+            let message = format!("an error of {percent} % is not possible");
             return Err(
                 Failure::new(message).with_help("write per cent of the friction, `--max-error 1`")
             );

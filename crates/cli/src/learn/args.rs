@@ -22,7 +22,7 @@ use frictcomp_report::learn::LearningFile;
 ///
 /// The folder holds `round-1`, `round-2` and so on, each with the lists `X.lis` and `Y.lis` and the circles that were
 /// recorded with them: at least six feeds, each recorded twice. The recordings judge the lists; a
-/// reference plant gives only the direction of the next step. Run it after each round: it says what became of the lists,
+/// reference plant gives only the direction of the next step. Run it after each round: it judges the lists
 /// and writes those of the next round. `learning.json` keeps the rounds with the SHA-256 of lists and recordings.
 #[derive(Debug, Args)]
 pub(crate) struct LearnArgs {
@@ -32,11 +32,11 @@ pub(crate) struct LearnArgs {
     /// The reference plant: `stiff`, `mid`, `soft`, or a TOML file as for `tune`
     #[arg(long, value_name = "PLANT")]
     pub(super) plant: String,
-    /// To begin: the measured friction as `identify` or `commission run` wrote it, one list for both axes or `X=LIST` and
+    /// For the first round: the measured friction as `identify` or `commission run` wrote it, one list for both axes or `X=LIST` and
     /// `Y=LIST`; no list adds more than 1.3 times this
     #[arg(long, value_name = "LIST")]
     pub(super) friction: Vec<AxisList>,
-    /// To begin: the lists of the first round, such as `tune` wrote them; by default those of `--friction`
+    /// The lists of the first round, for example from `tune`; by default those of `--friction`
     #[arg(long, value_name = "LIST", requires = "friction")]
     pub(super) value_list: Vec<AxisList>,
     /// The friction model
@@ -44,7 +44,7 @@ pub(crate) struct LearnArgs {
     pub(super) model: FrictionModel,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
-    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    /// How to read what the documents leave open: `standstill=zero,below=origin,delay=reversal`
     #[arg(
         long,
         value_name = "READING",

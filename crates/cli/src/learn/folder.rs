@@ -1,4 +1,4 @@
-//! The folder of a learning: rounds with lists and recordings, and the file that knows them.
+//! The folder of `learn`: rounds with lists and recordings, and the file that records them.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use frictcomp_report::learn::{
     LearningFile, LearningRound, MeasuredFriction, Prediction, RecordedFile,
 };
 
-/// The file that knows the rounds.
+/// The file that records the rounds.
 const FILE: &str = "learning.json";
 
 /// The files of the lists within a round.
@@ -72,7 +72,7 @@ impl LearningFolder {
         Ok(Some(folder))
     }
 
-    /// The file that knows the rounds.
+    /// The file that records the rounds.
     pub(super) fn json(&self) -> PathBuf {
         self.path.join(FILE)
     }
@@ -180,7 +180,7 @@ impl LearningFolder {
         };
         let changed = other(kept, there).or_else(|| other(there, kept));
         let message = format!(
-            "`{}` was added, changed or removed after round {} came from the recordings",
+            "`{}` was added, changed or removed after round {} was made from the recordings",
             changed.map_or_else(String::new, |it| shown(&it)),
             at + 2
         );

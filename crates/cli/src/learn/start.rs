@@ -1,4 +1,4 @@
-//! The beginning of a learning: the measured friction, and the lists of the first round.
+//! The start of learning: the measured friction, and the lists of the first round.
 
 use std::path::Path;
 

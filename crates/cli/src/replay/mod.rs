@@ -1,4 +1,4 @@
-//! `frictcomp replay`: what the machine did, from a recording, beside the dry run.
+//! `frictcomp replay`: a recording of what the machine did, compared with the dry run.
 
 mod page;
 mod shown;
@@ -24,17 +24,17 @@ use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_replay;
 
-/// Lay what a machine did, from a recording, beside the dry run of its programs
+/// Compare a recording of what a machine did with the dry run of its programs
 ///
-/// The recording holds per axis whether friction compensation is active: `frict_comp.f_is_active`, or
-/// `V.A.FRICT_COMP_ACTIVE.<axis>` sampled by the PLC; as CSV the columns `t`, `active_<axis>` and, where
-/// they are there, `line` or `block`, `program` and `pos_<axis>`. Conditions that only the machine knows
-/// are decided by the recording where one way fits.
+/// The recording says for each axis whether friction compensation is active: `frict_comp.f_is_active`,
+/// or `V.A.FRICT_COMP_ACTIVE.<axis>` sampled by the PLC; as CSV the columns `t`, `active_<axis>` and, if
+/// present, `line` or `block`, `program` and `pos_<axis>`. Where only one way through a condition fits,
+/// the recording decides it.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// The recorded trace
     recording: PathBuf,
-    /// The programs that ran meanwhile, in their order
+    /// The programs that ran while it was recorded, in their order
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
     /// The channel of the times: its name, comment or CNC object
@@ -58,7 +58,7 @@ pub(super) struct ReplayArgs {
     /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
-    /// What positions may differ by where no blocks were recorded, in mm or degrees
+    /// How much positions may differ where no blocks were recorded, in mm or degrees
     #[arg(long, value_name = "MM", default_value_t = 0.1, value_parser = parse_tolerance)]
     tolerance: f64,
     #[command(flatten)]

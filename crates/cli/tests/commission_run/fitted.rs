@@ -214,7 +214,7 @@ fn check_tables(folder: &Path, found: &Value) {
     };
     let number = |value: &Value| format!("{:.1}", value.as_f64().expect("a number"));
     for words in [
-        "Said, and shown by no recording: the recorded torque is the actual one.",
+        "Stated, but shown by no recording: the recorded torque is the actual one.",
         "the force of a drive unit are those of mid.",
     ] {
         assert!(page.contains(words), "{words}");
@@ -285,7 +285,7 @@ fn a_plant_is_rejected(folder: &Path) {
         std::fs::write(&path, results.to_string()).expect("written");
         let (status, text) = run(folder, &[&PLANT[..], &["--html", "report.html"]].concat());
         assert!(
-            text.contains("the plant is rejected, and the lists of before stay:")
+            text.contains("the plant is rejected, and the earlier lists stay:")
                 && !text.contains("tuned list m/lists"),
             "{text}"
         );

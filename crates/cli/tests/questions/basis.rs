@@ -100,7 +100,7 @@ fn the_start_of_the_control_is_named_where_it_decides() {
 fn an_audit_names_the_readings_that_decide_it() {
     let bench = bench();
     let rests =
-        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` asks the control)";
+        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` writes the test)";
     bench.write("moves.nc", "G1 X1 F100\nM30\n");
     let alone = bench.stdout(&["audit", "moves.nc"]);
     assert!(!alone.contains("Rests on"), "{alone}");
@@ -223,7 +223,7 @@ fn every_format_says_the_basis() {
     let said =
         |bench: &Bench| String::from_utf8(bench.call(&["check", "a.nc"]).stderr).expect("text");
     let assumed =
-        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` asks the control)";
+        "Rests on R1.28, assumed: a reset keeps the state (`frictcomp ask` writes the test)";
     assert!(said(&bench).contains(assumed), "{}", said(&bench));
     let run = bench.stdout(&["run", "a.nc"]);
     assert!(run.contains(assumed), "{run}");

@@ -93,7 +93,7 @@ fn the_page_of_differences_is_that_of_the_data() {
         .expect("text");
     }
     text.push_str(
-        "\n## Open questions\n\nBoth readings are there, `[reading]` selects one, and `frictcomp ask` asks the \
+        "\n## Open questions\n\nfrictcomp knows both readings; `[reading]` selects one, and `frictcomp ask` tests it on the \
          control.\n\n| rule | question | readings | taken | why | depends on it | asked by |\n\
          |---|---|---|---|---|---|---|\n",
     );

@@ -39,7 +39,7 @@ pub(super) struct Source {
     pub(super) path: String,
 }
 
-/// A breakpoint as a client wants it.
+/// A breakpoint as a client requests it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SourceBreakpoint {

@@ -68,7 +68,7 @@ impl Breakpoint {
         let undecided = match self.condition.as_ref().map(|it| it.holds(here)) {
             None | Some(Ok(true)) => None,
             Some(Ok(false)) => return,
-            // Where nobody knows, the run had better stop.
+            // Where that is not known, the run had better stop.
             Some(Err(why)) => Some(why),
         };
         self.met += 1;
@@ -83,7 +83,7 @@ impl Breakpoint {
 }
 
 impl Breakpoints {
-    /// Sets the lines of a file, and gives for each wanted breakpoint the line of the block that it
+    /// Sets the lines of a file, and gives for each requested breakpoint the line of the block that it
     /// stands on, or why there is none.
     pub(super) fn set_lines(
         &mut self,

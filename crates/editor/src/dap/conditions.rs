@@ -15,7 +15,7 @@ impl Condition {
         let is_expression = parse_expression(text, &mut Block::default()).is_some();
         let refused = || {
             format!(
-                "the condition `{text}` is no expression of the language; `P1 == 5` is one, for instance"
+                "the condition `{text}` is not an expression of the language; write for example `P1 == 5`"
             )
         };
         is_expression
@@ -77,7 +77,7 @@ impl HitCount {
         });
         found.ok_or_else(|| {
             format!(
-                "`{text}` is no number of hits; `5`, `>= 5`, `<= 5` and `% 5` are, for instance"
+                "`{text}` is not a number of hits; write for example `5`, `>= 5`, `<= 5` or `% 5`"
             )
         })
     }

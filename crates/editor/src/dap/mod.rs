@@ -1,4 +1,4 @@
-//! The debug adapter: a program block by block, as the Debug Adapter Protocol wants it (R12.9).
+//! The debug adapter: a program block by block, by the Debug Adapter Protocol (R12.9).
 //!
 //! The interpreter of `stepper` stands before the block that is shown, and returns there by a snapshot
 //! when the block itself shows that the run should have stopped before it. What the adapter sends is

@@ -58,7 +58,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
             Incoming::Garbled(why) => {
                 server.print(
                     "stderr",
-                    &format!("a message that is no request was passed over: {why}"),
+                    &format!("a message that is not a request was ignored: {why}"),
                 )?;
                 continue;
             }
@@ -87,7 +87,7 @@ impl DapClient {
         Some(self.waiting.remove(0))
     }
 
-    /// Whether it wants something that cannot wait until the run stops by itself.
+    /// Whether it requests something that cannot wait until the run stops by itself.
     fn interrupts(&mut self) -> bool {
         self.waiting.extend(self.receiver.try_iter());
         self.waiting
@@ -134,7 +134,7 @@ struct DapServer<W> {
     stop_on_entry: bool,
     /// Whether the request moved the run to another block by itself.
     moved: Moved,
-    /// Whether the client was told that the run has ended.
+    /// Whether the client was informed that the run has ended.
     is_over: bool,
 }
 
@@ -294,7 +294,7 @@ impl<W: Write> DapServer<W> {
         let place = self.stepper()?.answers().position(|it| it == wanted.name);
         match (place, wanted.value.trim()) {
             (Some(place), "1" | "true") => self.choose(place)?,
-            _ => return Err("a side is taken with the value 1".to_owned()),
+            _ => return Err("set 1 to take this side".to_owned()),
         }
         Ok(json!({ "value": "taken" }))
     }
@@ -499,7 +499,7 @@ fn capabilities() -> Value {
                 "description": "Stops after a block that changes the friction compensation of an axis.",
                 "default": true,
                 "supportsCondition": true,
-                "conditionDescription": "the axes, X Y for instance; all of them without a condition",
+                "conditionDescription": "the axes, such as X Y; all of them without a condition",
             },
             {
                 "filter": UNKNOWN_VALUES,

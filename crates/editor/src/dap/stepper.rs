@@ -1,6 +1,6 @@
 //! The run of a program that is looked at block by block.
 //!
-//! An interpreter tells of a block when it has executed it; a debugger stands before a block. So the
+//! An interpreter reports a block when it has executed it; a debugger stands before a block. So the
 //! stepper keeps a copy of the run from some blocks ago: when a block says that the run should have
 //! stopped before it, the copy goes to the block again.
 
@@ -60,7 +60,7 @@ pub(super) enum RunTarget {
 /// Why the run stands where it does.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Halt {
-    /// It has come as far as it was to go.
+    /// It has reached its goal.
     Arrived,
     /// A breakpoint stands on the line; what is to be said about it.
     Breakpoint(String),
@@ -70,7 +70,7 @@ pub(super) enum Halt {
     Unknown(BTreeSet<String>),
     /// An error of the control.
     Error(String),
-    /// The client wants something.
+    /// The client has a request.
     Interrupted,
     /// The program has ended.
     Ended(EndedBy),
@@ -247,7 +247,7 @@ pub(super) struct Stepper {
     here: Interpreter,
     /// The same in the program that this block belongs to.
     settled: Interpreter,
-    /// Whether the client was told that the run stands before that block.
+    /// Whether the client was informed that the run stands before that block.
     is_shown: bool,
     trail: Trail,
     position: RunPosition,
@@ -338,7 +338,7 @@ impl Stepper {
         self.machine.find(name).is_some() || self.used.contains(name)
     }
 
-    /// The client is told that the run stands before the block: it goes on without stopping there again.
+    /// The client is informed that the run stands before the block: it goes on without stopping there again.
     pub(super) fn show(&mut self) {
         self.is_shown = true;
     }
@@ -387,7 +387,7 @@ impl Stepper {
         self.look_ahead();
     }
 
-    /// Takes what was said since the last call.
+    /// Takes the messages since the last call.
     pub(super) fn take_said(&mut self) -> Vec<OutputText> {
         std::mem::take(&mut self.said)
     }
@@ -464,7 +464,7 @@ impl Stepper {
         halt
     }
 
-    /// Goes back to a copy of the run and executes so many blocks.
+    /// Goes back to a copy of the run and executes a number of blocks.
     fn return_to(&mut self, anchor: Interpreter, blocks: u64) {
         self.here = anchor;
         let mut left = blocks;

@@ -76,7 +76,7 @@ pub(super) struct ProgramRun {
 pub(super) struct AxisEnd {
     /// Its position in the machine.
     pub(super) at: usize,
-    /// Its name.
+    /// Name of the axis.
     pub(super) axis: String,
     /// The state at the end.
     pub(super) end: State,
@@ -197,7 +197,7 @@ pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions
         .with_wording(Some(editor))
 }
 
-/// The budgets of a program in an editor: who raises the number of blocks lets loops and calls go on for
+/// The budgets of a program in an editor: a larger number of blocks lets loops and calls go on for
 /// longer, too.
 pub(super) fn limits(max_blocks: u64) -> Limits {
     let limits = Limits::brief().with_blocks(max_blocks);

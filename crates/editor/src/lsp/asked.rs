@@ -15,7 +15,7 @@ use frictcomp_host::CONFIG_NAME;
 pub(super) enum ServerRequest {
     /// The settings of the user.
     Settings,
-    /// To tell of files that change.
+    /// To report files that change.
     NewsOfFiles,
     /// To ask again for what is shown.
     Refresh,
@@ -26,8 +26,8 @@ impl ServerRequest {
     pub(super) fn refused(self) -> &'static str {
         match self {
             Self::Settings => "the client does not give its settings",
-            Self::NewsOfFiles => "the client does not tell of files that change",
-            Self::Refresh => "the client does not ask again for what is shown",
+            Self::NewsOfFiles => "the client does not report changed files",
+            Self::Refresh => "the client does not refresh what is shown",
         }
     }
 }
@@ -42,7 +42,7 @@ pub(super) fn settings(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     outgoing.register(method, params, ServerRequest::Settings)
 }
 
-/// Asks to be told of lists, configurations and programs that change.
+/// Asks for notices of lists, configurations and programs that change.
 pub(super) fn news_of_files(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
     let programs = format!("**/*.{{{endings}}}");

@@ -185,7 +185,7 @@ pub(super) fn resolved(view: &RequestView, mut lens: CodeLens) -> CodeLens {
     lens
 }
 
-/// From which programs a program is reached: those at the top, which nobody calls.
+/// From which programs a program is reached: those at the top, which no program calls.
 fn reached(view: &RequestView, uri: &Uri) -> String {
     let none = || "called by no program of the project".to_owned();
     let Some(project) = view.calls.project(&view.documents.disk()) else {
@@ -200,7 +200,7 @@ fn reached(view: &RequestView, uri: &Uri) -> String {
     let is_top = |at: &&usize| programs[**at].called_by.is_empty();
     let mut top: Vec<usize> = reaching.iter().filter(is_top).copied().collect();
     if top.is_empty() {
-        // All of them call each other in a circle.
+        // All of them call each other in a cycle.
         top = reaching;
     }
     let names = top.iter().take(MOST_NAMED).filter_map(|at| {

@@ -30,7 +30,7 @@ pub(super) struct Checks {
 }
 
 impl Checks {
-    /// A text has to be checked. A check that is on its way gives way: its text is out of date, or
+    /// A text has to be checked. A check that is running gives way: its text is out of date, or
     /// another one is looked at.
     pub(super) fn expect(&mut self, uri: &str, why: Outdated) {
         let now = Instant::now();

@@ -33,7 +33,7 @@ impl LspClient {
         (client, wrong)
     }
 
-    /// Whether it tells of files that change, where it is asked to.
+    /// Whether it reports files that change, where it is asked to.
     pub(super) fn watches_files(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let watching = workspace.and_then(|it| it.did_change_watched_files.as_ref());

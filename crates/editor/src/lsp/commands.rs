@@ -70,7 +70,7 @@ impl Sources for Texts {
     }
 }
 
-/// The run of a program, as far as the client wants it.
+/// The run of a program, until the client cancels it.
 struct Digest<'a> {
     digest: RunDigest,
     view: &'a RequestView,

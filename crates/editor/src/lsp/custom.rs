@@ -48,7 +48,7 @@ pub(super) struct BlockStates {
 /// An axis at a block. In a loop or a subprogram there may be several states.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct AxisStates {
-    /// Its name.
+    /// Name of the axis.
     pub(super) axis: String,
     /// The states before the block, those of the first pass first.
     pub(super) before: Vec<State>,
@@ -89,7 +89,7 @@ pub(super) struct Timeline {
 /// An axis over the lines of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct AxisTimeline {
-    /// Its name.
+    /// Name of the axis.
     pub(super) axis: String,
     /// Its states, from the first line to the last.
     pub(super) segments: Vec<StateSegment>,

@@ -20,7 +20,7 @@ pub(super) enum Kind {
     List,
     /// A `frictcomp.toml`.
     Configuration,
-    /// Anything else: nothing is said about it (R12.14).
+    /// Anything else: it gets no messages (R12.14).
     Other,
 }
 
@@ -272,7 +272,7 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
 }
 
 /// Whether texts of this URI are those of a user: files, and texts that were never saved. Versions that
-/// an editor takes from git, for instance, would tell every message twice (R12.12).
+/// an editor takes from git, for instance, would show every message twice (R12.12).
 pub(super) fn is_of_a_user(uri: &Uri) -> bool {
     let scheme = uri.0.split(':').next().unwrap_or_default();
     ["file", "untitled"]

@@ -10,7 +10,7 @@ use super::requests::{Handler, Needs};
 use super::view::RequestView;
 use super::worker::Worker;
 
-/// A question on its way to who answers it.
+/// A question that waits for its answer.
 pub(super) struct RoutedRequest {
     /// The number that the client gives it.
     pub(super) id: RequestId,
@@ -63,7 +63,7 @@ impl Lanes {
 }
 
 impl RoutedRequest {
-    /// The answer; `None` where nobody waits for it any more.
+    /// The answer; `None` where it is no longer awaited.
     fn answer(self) -> Option<Response> {
         if self.view.cancel.is_set() {
             return None;

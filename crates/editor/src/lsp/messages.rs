@@ -211,7 +211,7 @@ pub(super) struct PublishedDiagnostics {
     shown: MessagesByUri,
 }
 
-/// Key of a message: its place, its cause, and the rest that tells it from others.
+/// Key of a message: its place, its cause, and the rest that distinguishes it from others.
 type MessageKey = (u32, u32, String, String);
 
 impl PublishedDiagnostics {

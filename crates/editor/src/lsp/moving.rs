@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Motion of an axis in a block, over all passes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AxisMoves {
-    /// Its name.
+    /// Name of the axis.
     pub(super) axis: String,
     /// Number of motions.
     pub(super) times: u64,

@@ -1,4 +1,4 @@
-//! Symbols, definitions, references, folding and renaming, where nobody else offers them (R12.6).
+//! Symbols, definitions, references, folding and renaming, where no other extension offers them (R12.6).
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use super::settings::Settings;
 use super::uri::uri_of;
 use super::view::RequestView;
 
-/// An open program with its outline, where this kind of navigation is wanted.
+/// An open program with its outline, where this kind of navigation is on.
 fn outlined<'a>(
     view: &'a RequestView,
     text: &TextDocumentIdentifier,

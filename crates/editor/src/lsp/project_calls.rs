@@ -113,7 +113,7 @@ impl ProjectCalls {
         self.folder.is_some()
     }
 
-    /// A file was saved: the calls are found anew when they are asked for.
+    /// A file was saved: the calls are found again when they are asked for.
     pub(super) fn forget(&self) {
         // The calls may be on their way: the server does not wait for them.
         self.saves.fetch_add(1, Ordering::Relaxed);

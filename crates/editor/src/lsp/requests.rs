@@ -36,7 +36,7 @@ pub(super) enum Needs {
     Simulation,
 }
 
-/// A question, and who answers it.
+/// A question, and what answers it.
 struct Known {
     method: &'static str,
     needs: Needs,

@@ -1,4 +1,4 @@
-//! The loop that listens to the client, and to who works for it (R12.1).
+//! The loop that listens to the client and to its workers (R12.1).
 //!
 //! It never works itself: checks and answers are made on other threads, from copies of the texts that
 //! stay as they are.
@@ -441,7 +441,7 @@ impl<'c> LspServer<'c> {
 
     fn response(&mut self, response: Response) {
         let Some(asked) = self.queue.outgoing.complete(response.id) else {
-            return self.send(log("an answer came to nothing that was asked".to_owned()));
+            return self.send(log("an answer matches no request".to_owned()));
         };
         match (asked, response.response_result) {
             (ServerRequest::Settings, Ok(Value::Array(given))) => {

@@ -69,7 +69,7 @@ impl Stdio {
     }
 }
 
-/// Hands on messages until the client closes its end or nobody listens.
+/// Hands on messages until the client closes its end or the receiver is gone.
 fn read_all(input: &mut dyn BufRead, incoming: &Sender<Message>, complaints: &Sender<Message>) {
     while let Ok(Some(body)) = read_body(input) {
         match serde_json::from_slice(&body) {

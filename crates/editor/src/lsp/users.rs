@@ -102,7 +102,7 @@ fn remove<K: Ord>(index: &mut BTreeMap<K, Uris>, key: &K, uri: &str) {
     }
 }
 
-/// The name of a file without its extension, in lower case: the control does not tell the cases apart.
+/// The name of a file without its extension, in lower case: the control ignores case.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default();
     stem.to_string_lossy().to_lowercase()

@@ -27,7 +27,7 @@ pub(super) struct RequestView {
     pub(super) shown: MessagesByUri,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
-    /// Whether the client still wants to know.
+    /// Whether the client still waits for it.
     pub(super) cancel: Cancel,
 }
 

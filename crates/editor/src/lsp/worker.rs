@@ -31,7 +31,7 @@ impl<J: Send + 'static> Worker<J> {
     }
 }
 
-/// Says that nobody waits for a piece of work any more.
+/// Says that a piece of work is no longer awaited.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cancel(Arc<AtomicBool>);
 
@@ -41,7 +41,7 @@ impl Cancel {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether nobody waits.
+    /// Whether it is no longer awaited.
     pub(super) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -80,7 +80,7 @@ fn a_side_is_a_variable_where_a_client_knows_no_targets() {
     let set =
         |name: &str, value: &str| json!({ "variablesReference": 5, "name": name, "value": value });
     let refused = client.ask("setVariable", &set("not V.E.A == 1 (line 2)", "2"));
-    assert_eq!(refused["message"], "a side is taken with the value 1");
+    assert_eq!(refused["message"], "set 1 to take this side");
     client.granted("setVariable", &set("not V.E.A == 1 (line 2)", "1"));
     assert!(client.scope("Sides").is_empty());
     assert_eq!(client.go("continue"), ("exception".to_owned(), 5));

@@ -29,7 +29,7 @@ pub struct Answer {
 pub enum AnswerVerdict {
     /// The control follows the reading.
     Reading(Alternative),
-    /// It cannot be told from this.
+    /// This does not decide it.
     Undecidable,
 }
 
@@ -116,7 +116,7 @@ pub fn read_answers(
             judge(question, &run)
         } else {
             Err(format!(
-                "the programs that asked have the fingerprint {}, those of today {asked}; write them anew",
+                "the programs that asked have the fingerprint {}, this version writes {asked}; write them again",
                 run.print
             ))
         };
@@ -174,8 +174,7 @@ fn judge(question: Question, run: &AskedRun) -> Judged {
         }
         _ => {
             require(values, ("start", true), STARTS)?;
-            let otherwise =
-                "COMP OFF FRICT had no effect; the value list or the axis is not as it must be";
+            let otherwise = "COMP OFF FRICT had no effect; the axis or its value list is not as the program requires";
             require(values, ("off", false), otherwise)?;
             let answer = value(values, "answer")?;
             let goes_back = matches!(question, Question::Restart | Question::MachineData);
@@ -235,7 +234,7 @@ fn judge_refusable(question: Question, values: &Values) -> Judged {
     if question == Question::LowerCase {
         require(values, ("start", true), STARTS)?;
     } else {
-        let otherwise = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program asks";
+        let otherwise = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program requires";
         require(values, ("init", false), otherwise)?;
     }
     if let Some(number) = values.get("error") {

@@ -282,15 +282,15 @@ fn objects(axis: &AskedAxis) -> String {
 /// Returns the text beside the programs: the whole procedure, and the notes that need no program.
 pub fn readme(axis: &AskedAxis) -> String {
     let mut text = String::from(
-        "Programs that ask the control what its documents leave open.\n\n\
-         Each program says at its head what it asks, what moves, and what to do before and after.\n\
+        "Programs that test on the control what its documents leave open.\n\n\
+         The head of each program says what it tests, what moves, and what to do before and after.\n\
          Programs leave their answers in message.txt, in the folder of the control's start-up list with\n\
          type 0x04, else in its main folder. Collect it, or several of them, and run\n\n\
          \u{20}   frictcomp ask --read message.txt\n\n\
          The last program of a question brings the axis back to its state at the start of the control.\n\
          Where a program stopped with an error, run the last one of its question, or restart the control.\n\n\
-         What you see yourself is one line of two below. Copy it into a text file, which is read in the\n\
-         same way:\n\n",
+         Where only you see the answer, copy one of the two lines of its question below into a text file,\n\
+         which is read in the same way:\n\n",
     );
     for question in Question::ALL {
         let facts = question.facts();
@@ -314,7 +314,7 @@ pub fn readme(axis: &AskedAxis) -> String {
     }
     if axis.number.is_none() {
         text.push_str(
-            "R2.70 is not asked: frictcomp.toml does not say the logical number of the axis.\n",
+            "R2.70 is not asked: frictcomp.toml does not give the logical number of the axis.\n",
         );
     }
     text

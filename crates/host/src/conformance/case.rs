@@ -21,7 +21,7 @@ use frictcomp::text::shown_path;
 pub struct CaseError {
     /// The file of the case.
     pub file: PathBuf,
-    /// The fault.
+    /// What is wrong, in words.
     pub message: String,
 }
 
@@ -65,7 +65,7 @@ pub enum Expectation {
         program: String,
         /// Moment of the examination.
         after: Moment,
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// The kind.
         kind: Kind,
@@ -81,7 +81,7 @@ pub enum Expectation {
     },
     /// The additive current at a constant velocity, long after the last reversal (chapter 4).
     Current {
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// In units of the list, µm/s or 0.001°/s.
         velocity: f64,

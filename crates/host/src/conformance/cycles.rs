@@ -8,7 +8,7 @@ use frictcomp_physics::current::{Added, AdditiveCurrent, Switched};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ExpectedCycles {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// Commanded positions in 0.1 µm or 0.0001°, one a CNC cycle.
     pub positions: Vec<f64>,

@@ -12,7 +12,7 @@ const MAX_BETWEEN: usize = 1000;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ReplayPlace {
-    /// The file.
+    /// Path of the file.
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,

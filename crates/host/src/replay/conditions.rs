@@ -30,7 +30,7 @@ enum ConditionKey {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TriedCondition {
-    /// The file.
+    /// Path of the file.
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,

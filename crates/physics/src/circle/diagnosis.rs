@@ -122,7 +122,7 @@ pub struct DiagnosisGrounds {
 
 /// What figures suggest: peaks at the crossings of each direction, steps of each axis, and the
 /// ellipse. `compensation` says whether friction compensation was on when the paths were made; of
-/// recorded paths it may be unknown, and nothing is said that their noise or another shape may make.
+/// recorded paths it may be unknown, and nothing is named that their noise or another shape could have caused.
 pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagnosis> {
     let shapes: Vec<(Direction, &PathShape)> = Direction::ALL
         .into_iter()

@@ -62,7 +62,7 @@ pub struct AxisShape {
     /// The largest deviation that decays; positive is outwards.
     #[serde(rename = "peak")]
     pub peak_um: f64,
-    /// Whether the peak has decayed early enough to tell what stays.
+    /// Whether the peak has decayed early enough to show what stays.
     pub is_settled: bool,
 }
 

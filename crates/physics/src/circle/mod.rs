@@ -5,7 +5,7 @@
 //! in both directions; their [`RadialProfile`]s give the [`Figures`]. A [`RecordedCircle`] gives
 //! the same of a real machine, and [`tune`] searches the parameters of a value list. What a path
 //! does at its [`Crossing`]s and what of it stays is its [`PathShape`], from which
-//! [`diagnose`] tells friction, backlash and axes that do not match.
+//! [`diagnose`] names friction, backlash and axes that do not match.
 
 mod centre;
 mod compare;

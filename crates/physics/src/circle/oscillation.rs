@@ -13,7 +13,7 @@ const LEAST_STEPS: f64 = 2.5;
 /// Above the frequencies that keep their phase over the turn, an oscillation keeps it so long, in s.
 const IN_PHASE_S: f64 = 1.0;
 
-/// A shorter stretch of the path tells no frequency, in s.
+/// A shorter stretch of the path shows no frequency, in s.
 const SHORTEST_S: f64 = 0.1;
 
 /// An oscillation in time.

@@ -1,5 +1,5 @@
 //! The path away from its crossings, where no peak disturbs it: what is left there has a shape
-//! that tells its cause (R5.24).
+//! that shows its cause (R5.24).
 //!
 //! A centre that is off shifts the path by its first harmonic; axes whose gains, scales or angle
 //! are wrong make an ellipse, the second harmonic. An axis with backlash lags by half of it

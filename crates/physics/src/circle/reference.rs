@@ -131,9 +131,9 @@ impl CircleError {
     /// Advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Radius(_) => "give the radius in mm, 100 for instance",
-            Self::Feed(_) => "write feeds in mm/min, 1000 for instance",
-            Self::CycleTime(_) => "give the time of a cycle in ms, 1 for instance",
+            Self::Radius(_) => "give the radius in mm, such as 100",
+            Self::Feed(_) => "write feeds in mm/min, such as 1000",
+            Self::CycleTime(_) => "give the time of a cycle in ms, such as 1",
             Self::TooLong { .. } => "choose a smaller radius or a higher feed",
             Self::NoGlitch { .. } => "choose a larger radius or a lower feed",
             Self::NotFollowed { .. } => {

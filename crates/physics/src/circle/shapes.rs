@@ -8,7 +8,7 @@ use super::periodic::{Joint, Periodic, Screw};
 use super::series::AngleSeries;
 use super::turning::CosineSine;
 
-/// Shapes that both directions tell, with their places in a row, and how many times its unknown each is.
+/// Shapes that both directions show, with their places in a row, and how many times its unknown each is.
 const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
     (6, ShapeTerm::Scale, 2.0),
     (7, ShapeTerm::Squareness, 2.0),
@@ -19,7 +19,7 @@ const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
     (12, ShapeTerm::Play(PlaneAxis::Y), 1.0),
 ];
 
-/// Those that one direction tells.
+/// Those that one direction shows.
 const OF_ONE: [(usize, ShapeTerm, f64); 2] = [
     (9, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
     (10, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),

@@ -6,10 +6,10 @@ use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::profile::{PER_DEGREE, RadialProfile, UM_PER_M};
 
-/// The path is averaged over so many s.
+/// Seconds over which the path is averaged.
 const AVERAGED_S: f64 = 0.008;
 
-/// Swings are counted for so many s after a crossing, or for as many degrees.
+/// Seconds after a crossing in which swings are counted, or degrees.
 const AFTER_S: f64 = 0.3;
 const AFTER_DEG: f64 = 14.0;
 

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::profile::PER_DEGREE;
 
-/// The window begins so many degrees before a crossing.
+/// Degrees before a crossing at which the window begins.
 const BEFORE_DEG: i32 = 8;
 
 /// After a crossing the window is at least this wide, in degrees.
@@ -30,7 +30,7 @@ pub(super) struct CrossingWindow {
 }
 
 impl CrossingWindow {
-    /// The window of a path that takes so many seconds a turn; ±8° where nobody knows them. `None`
+    /// The window of a path that takes so many seconds a turn; ±8° where that is not known. `None`
     /// where it would reach the next crossing.
     pub(super) fn of(turn_s: Option<f64>) -> Option<Self> {
         let turning = turn_s.map_or(0.0, |turn_s| 360.0 / turn_s);

@@ -13,7 +13,7 @@ use frictcomp::timeline::{EndedBy, Record, Row, Sink};
 pub struct Version {
     kinds: KindSet,
     pub(super) switches: Vec<Switch>,
-    /// An error or a bound of which the end will tell whether it stopped the program.
+    /// An error or a bound of which the end will show whether it stopped the program.
     candidate: Option<Obstacle>,
     pub(super) obstacle: Option<Obstacle>,
     /// The file of the program.

@@ -3,7 +3,7 @@
 //! The path of an executed program is driven by simulated axes three times: with friction
 //! compensation as the program switches it, with all of it on, and with all of it off. A
 //! [`ProgramContour`] takes the records of a session, measures how far the axes are from the path,
-//! and tells a [`ContourSink`] every reversal with the glitch that it leaves.
+//! and gives a [`ContourSink`] every reversal with the glitch that it leaves.
 //!
 //! Memory does not grow with the length of a program, except for what a sink keeps. Deviations are
 //! in µm, positions in mm, times in s.

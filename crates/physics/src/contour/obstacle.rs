@@ -16,7 +16,7 @@ pub enum ContourObstacle {
     LeftOut(u64),
     /// It ends before the program does.
     Ended(Code),
-    /// For so many seconds positions are not those of the machine.
+    /// Seconds in which positions are not those of the machine.
     NotOfTheMachine(f64),
     /// This share of the cutting time runs below 80 % of F because of assumed limits (R11.23).
     AssumedLimits(f64),

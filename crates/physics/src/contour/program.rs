@@ -77,7 +77,7 @@ pub trait ContourSink {
         let _ = switch;
     }
 
-    /// Whether it wants no more.
+    /// Whether it takes no more.
     fn is_closed(&self) -> bool {
         false
     }
@@ -415,7 +415,7 @@ impl<S: ContourSink> TraceSink for Tracer<S> {
 }
 
 impl<S: ContourSink> Tracer<S> {
-    /// Drives the cycles that are ready, but the last so many.
+    /// Drives the cycles that are ready, except a number of the last ones.
     fn advance(&mut self, keep: usize) -> ControlFlow<()> {
         while self.ready.len() > keep.max(1) {
             let Some(cycle) = self.ready.pop_front() else {

@@ -135,7 +135,7 @@ impl ReversalFinder {
         }
     }
 
-    /// The trace begins anew: no axis has a direction.
+    /// The trace begins again: no axis has a direction.
     pub(super) fn restart(&mut self, mut take: impl FnMut((WindowEvent, ContourReversal))) {
         self.open.drain(..).for_each(|open| take(open.finish()));
         self.directions.fill(0.0);

@@ -71,7 +71,7 @@ pub struct AdditiveCurrent {
     line: VecDeque<f64>,
     /// The last positions, where the build-up is postponed.
     positions: VecDeque<f64>,
-    /// By what the output is multiplied on its way to the drive.
+    /// Factor of the output before it is sent to the drive.
     torque_scale: f64,
     saturated: u64,
     at_rest: u64,

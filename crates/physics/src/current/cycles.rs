@@ -99,7 +99,7 @@ pub enum CyclesError {
         /// The row, counted from 1 below the header.
         row: usize,
     },
-    /// Rows that are so far apart that nobody can want the cycles between them.
+    /// Rows that are too far apart for the cycles between them.
     #[error("the times of the trace are {} s apart, too far for cycles of {} ms", ReadableNumber(*.length_s), milliseconds(*.cycle_s))]
     TooLong {
         /// From the first time to the last.

@@ -82,7 +82,7 @@ impl Followers {
         (!self.samples.is_empty()).then_some(&*self.samples)
     }
 
-    /// Begins anew: whatever moves next is a first start. The cycles that are left are forgotten.
+    /// Begins again: whatever moves next is a first start. The cycles that are left are forgotten.
     pub fn restart(&mut self) {
         for axis in &mut self.axes {
             axis.waiting.clear();

@@ -15,7 +15,7 @@ use frictcomp::interpreter::BlockEnd;
 use frictcomp::machine::SlopeProfile;
 
 /// Number of segments planned together. The path is planned to a stop after the last one; half of
-/// the plan is kept, the rest is planned anew when more segments are known.
+/// the plan is kept, the rest is planned again when more segments are known.
 const CAPACITY: usize = 4096;
 
 /// Known path that is not sampled yet.

@@ -4,7 +4,7 @@
 //! The rows of a session say what each block moves. A [`TrajectoryPlanner`] makes segments of a
 //! path from them, plans the path velocity with full look-ahead within the limits of all axes, and
 //! hands a [`Sample`] a cycle to a [`TraceSink`], with the [`Cause`] of each: memory is the same for a
-//! program of any length. What cannot be followed is left out and told, see [`SkippedMotion`].
+//! program of any length. What cannot be followed is left out and reported, see [`SkippedMotion`].
 //! What is modelled, and how a control differs, is in `docs/motion.md`.
 //!
 //! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and

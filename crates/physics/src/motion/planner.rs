@@ -416,7 +416,7 @@ impl TrajectoryPlanner {
         });
     }
 
-    /// A motion before the trace begins. Once it has begun, what made it break off was said.
+    /// A motion before the trace begins. Once it has begun, what made it break off was reported.
     fn note_before(&mut self, row: &Row<'_>, travel: &Travel) {
         if self.has_lost || !self.stand.is_empty() {
             return;
@@ -426,7 +426,7 @@ impl TrajectoryPlanner {
         self.remarks.note_before(row, names);
     }
 
-    /// The axes that matter to a motion, and of which nobody knows where they stand before it.
+    /// The axes that matter to a motion, and of which it is not known where they stand before it.
     fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
         let ends = travel.from.iter().zip(&travel.to).enumerate();
         let matters = |axis, to: &Option<f64>| {

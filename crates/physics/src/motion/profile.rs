@@ -188,7 +188,7 @@ impl VelocityProfile {
             state.jerk = jerk;
             state.seconds = seconds;
             if seconds <= 0.0 {
-                // Nothing happens in it, and nobody looks at it.
+                // Nothing happens in it, and nothing reads it.
                 *place = state;
                 continue;
             }

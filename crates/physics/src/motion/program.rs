@@ -81,7 +81,7 @@ impl<S: TraceSink> ProgramTrace<S> {
         }
     }
 
-    /// The session is over: the rest of the trace goes out. `Break` where the sink wanted no more.
+    /// The session is over: the rest of the trace goes out. `Break` where the sink took no more.
     pub fn finish(&mut self) -> ControlFlow<()> {
         if self.over.is_continue() {
             self.over = self.planner.finish(&mut self.sink);

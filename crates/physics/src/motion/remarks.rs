@@ -57,7 +57,7 @@ pub(super) struct MotionRemarks {
     before: Option<BeforeTrace>,
 }
 
-/// The motions before the trace begins, because nobody knows where the axes stand.
+/// The motions before the trace begins, because it is not known where the axes stand.
 struct BeforeTrace {
     /// The first of them.
     place: Place,
@@ -146,7 +146,7 @@ impl MotionRemarks {
         self.say_once(key, &RemarkPlace::of(row), remark);
     }
 
-    /// Something that holds for the rest of the program: only the first is said.
+    /// Something that holds for the rest of the program: only the first is reported.
     pub(super) fn say(&mut self, at: &RemarkPlace<'_>, remark: MotionRemark<'_>) {
         self.say_once((remark.code, Arc::from(""), 0, ""), at, remark);
     }

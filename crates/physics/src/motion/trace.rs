@@ -1,4 +1,4 @@
-//! The commanded trace, and who takes it.
+//! The commanded trace, and its sinks.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -87,7 +87,7 @@ pub(super) struct Dwell<'a> {
 
 /// Takes a commanded trace.
 pub trait TraceSink {
-    /// The trace begins, or begins anew after something that is not known. The axes stand still.
+    /// The trace begins, or begins again after something that is not known. The axes stand still.
     fn begin(&mut self, time_s: f64, cause: &Arc<Cause>) -> ControlFlow<()>;
 
     /// Takes the next cycle; `Break` ends the trace.

@@ -45,9 +45,9 @@ pub enum PlanError {
     /// An axis that cannot move as fast.
     #[error("{feed} {unit}/min is faster than `{axis}` moves, {limit} {unit}/min")]
     TooFast {
-        /// The axis.
+        /// Name of the axis.
         axis: String,
-        /// The wanted feed.
+        /// The requested feed.
         feed: f64,
         /// The feed that it reaches.
         limit: f64,
@@ -61,7 +61,7 @@ pub enum PlanError {
          travel are {room:.1} {unit}"
     )]
     NoRoom {
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// The feed in mm/min or °/min.
         feed: f64,
@@ -99,7 +99,7 @@ pub enum PlanError {
         feed: f64,
         /// The radius.
         radius: f64,
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// Acceleration or jerk, with the unit.
         quantity: &'static str,
@@ -108,7 +108,7 @@ pub enum PlanError {
         /// The bound.
         limit: f64,
     },
-    /// More rounds than signatures can tell.
+    /// More rounds than signatures can distinguish.
     #[error("{0} rounds are more than signatures can tell apart")]
     Rounds(u16),
     /// Stage 2 on an axis that takes no list.
@@ -143,7 +143,7 @@ impl PlanError {
             Self::TooTight { .. } => "give a larger radius, or leave that feed out".to_owned(),
             Self::Rounds(_) => "go on in a folder of its own".to_owned(),
             Self::Unconfigured(axis) => format!(
-                "set `kenngr.frict_comp 1` in the axis list of {axis}, restart the control, and describe it in `frictcomp.toml`"
+                "set `lr_param.frict_comp 1` in the axis list of {axis}, restart the control, and describe it in `frictcomp.toml`"
             ),
         }
     }

@@ -14,10 +14,10 @@ use crate::identify::{Track, count, moving_average, noise_of, samples_in, solve_
 /// Samples that are further apart do not show a glitch: twice the time that is asked for.
 pub(super) const COARSEST_S: f64 = 0.002_05;
 
-/// Signals are averaged over so many s.
+/// Seconds over which signals are averaged.
 const AVERAGED_S: f64 = 0.008;
 
-/// Friction shows for so many s after a start or a reversal.
+/// Seconds after a start or a reversal in which friction shows.
 const AFTER_S: f64 = 0.15;
 
 /// Slower than that in mm/s or °/s is standstill.
@@ -34,14 +34,12 @@ const KNOTS_S: [f64; 11] = [
 /// The part of the way that a following error may be beyond what its loops explain.
 const UNEXPLAINED: f64 = 0.01;
 
-/// Why a following error tells nothing.
+/// Why a following error shows nothing.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotFollowed {
     /// Neither the following error nor both positions.
-    #[error(
-        "neither the following error nor the actual position beside the commanded one is in it"
-    )]
+    #[error("it has neither the following error nor the actual position beside the commanded one")]
     Absent,
     /// Samples that are too far apart.
     #[error("a sample every {step_ms} ms does not show what a reversal does; record every ms")]
@@ -290,7 +288,7 @@ impl<'a> CommandedMotion<'a> {
 
     /// The answer that fits the settled samples best; `None` where nothing decides it.
     fn answer(&self, errors: &[f64]) -> Option<Vec<f64>> {
-        /// Keeps what no motion tells at 0.
+        /// Keeps what no motion determines at 0.
         const NEARLY: f64 = 1e-9;
         let size = 3 + KNOTS_S.len();
         let mut rows = vec![vec![0.0; size + 1]; size];

@@ -1,4 +1,4 @@
-//! The result of a recorded measuring program, and what speaks against using it (R16.2, R16.9).
+//! The result of a recorded measuring program, and the reasons against using it (R16.2, R16.9).
 
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +33,7 @@ const UNSCALED: i16 = 1000;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FrictionFound {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// Speed in mm/s or °/s, friction and its standard error, slowest first.
     pub speeds: Vec<[f64; 3]>,

@@ -26,7 +26,7 @@ const ALIKE_UM: f64 = 1.5;
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedTurn {
-    /// The file.
+    /// Name of the file.
     pub file: String,
     /// The turn.
     pub circle: RecordedCircle,
@@ -62,7 +62,7 @@ pub enum LearnError {
     /// Circles of 50 and of 100 mm.
     #[error("`{file}` has a radius of {found_mm:.1} mm, and others have {radius_mm:.1} mm")]
     Radius {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// Its radius.
         found_mm: f64,
@@ -72,7 +72,7 @@ pub enum LearnError {
     /// Recordings at two places, as of two machines.
     #[error("the centre of `{file}` is {distance_mm:.1} mm from that of `{other}`")]
     Apart {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// The first recording.
         other: String,
@@ -101,7 +101,7 @@ pub enum LearnError {
     /// A recording with turns that are not alike.
     #[error("the turns of `{file}` are not alike: {worse}")]
     Turns {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// The turn that leaves most.
         worse: WorseTurn,

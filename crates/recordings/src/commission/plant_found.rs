@@ -1,4 +1,4 @@
-//! The plant that was fitted to recorded circles, what it predicts, and what speaks against it (R16.3, R16.9).
+//! The plant that was fitted to recorded circles, what it predicts, and the reasons against it (R16.3, R16.9).
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ const FITTED_FEEDS: usize = 4;
 /// The fastest of them is at least so many times as fast as the slowest: a decade, as fast as it was driven.
 const DECADE: f64 = 9.8;
 
-/// Of so many feeds one is held out.
+/// Feeds of which one is held out.
 const HELD_OUT: usize = 3;
 
 /// A prediction may miss the recording by this part of it …
@@ -56,7 +56,7 @@ pub struct PlantFound {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct PlantAxis {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// Stiffness of the contact in N/m.
     pub contact: Extent,
@@ -80,7 +80,7 @@ pub struct PlantAxis {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PredictedGlitch {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The planned feed in mm/min.
     pub feed: f64,
@@ -95,7 +95,7 @@ pub struct PredictedGlitch {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedGlitch {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The planned feed in mm/min.
     pub feed: f64,
@@ -123,7 +123,7 @@ pub struct ComparedGlitch {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TunedList {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The file, as it is shown.
     pub file: String,

@@ -10,7 +10,7 @@ use super::strokes::StrokesFound;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordingResult {
-    /// The file.
+    /// Name of the file.
     pub file: String,
     /// The SHA-256 of its bytes.
     pub sha256: String,
@@ -58,7 +58,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// Whether it stands for its program: nothing speaks against it, and it was driven at the planned feeds or
+    /// Whether it counts for its program: there is no reason against it, and it was driven at the planned feeds or
     /// near them. A first pass at 10 % override is none.
     pub fn is_used(&self) -> bool {
         self.against().is_empty() && self.reversals().all(|it| it.is_near())
@@ -164,7 +164,7 @@ pub fn without_effect(recorded: &[BeforeAfter]) -> Vec<f64> {
 }
 
 /// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest
-/// first. Programs are told by their numbers. Of several recordings those count that were driven at the feed of
+/// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
 /// the program, else those next to it; of those the smallest glitch without and the largest with compensation.
 pub fn before_after(
     results: &[RecordingResult],
@@ -221,7 +221,7 @@ pub fn refuse_strangers(results: &mut [RecordingResult]) {
         if let Some(same) = earlier.iter().find(|it| it.sha256 == result.sha256) {
             result
                 .found
-                .refuse(format!("it is `{}` once more", same.file));
+                .refuse(format!("it is a copy of `{}`", same.file));
             continue;
         }
         let RecordingOutcome::Circles(found) = &mut result.found else {

@@ -77,7 +77,7 @@ pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
     found.collect()
 }
 
-/// The number that strokes back and forth tell.
+/// The number that strokes back and forth encode.
 fn read(window: &[Move]) -> Option<Signature> {
     let mut bits = 0_u16;
     for stroke in window.chunks(2) {

@@ -22,7 +22,7 @@ const LEAST_SEEN: f64 = 0.5;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StrokesFound {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The unit of the glitches: µm, or 0.001° of an axis that turns.
     pub unit: String,

@@ -251,7 +251,7 @@ impl<'a> Judgement<'a> {
         )
     }
 
-    /// Why the recording does not tell a reading from another.
+    /// Why the recording does not distinguish a reading from another.
     fn not_told(&self, question: Question, margin: &Margin) -> String {
         if let Some(reason) = not_moved(question, self.list, &self.motion) {
             return reason;

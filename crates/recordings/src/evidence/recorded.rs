@@ -7,13 +7,13 @@ use frictcomp_physics::current::{
 /// The longest CNC cycle that is taken from the step of a recording.
 const LONGEST_CYCLE_S: f64 = 0.0045;
 
-/// The CNC cycle where neither the user nor the recording tells it.
+/// The CNC cycle where neither the user nor the recording gives it.
 const USUAL_CYCLE_S: f64 = 0.001;
 
-/// A step of so many cycles is still one sample a cycle.
+/// Cycles of a step that is still one sample a cycle.
 const ONE_CYCLE: f64 = 1.25;
 
-/// A step of so many usual ones is a gap.
+/// Usual steps from which a step is a gap.
 const GAP: f64 = 5.5;
 
 /// Samples with their times in seconds.

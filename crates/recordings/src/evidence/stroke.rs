@@ -20,7 +20,7 @@ pub(super) struct StrokeSwitch {
 
 /// The way out of a stroke.
 pub(super) struct StrokeOut {
-    /// Time, part of the stroke and speed of each cycle until the axis is on its way back.
+    /// Time, part of the stroke and speed of each cycle until the axis moves back.
     out: Vec<(f64, f64, f64)>,
     /// Whether compensation was on at its beginning.
     pub(super) begins_on: bool,

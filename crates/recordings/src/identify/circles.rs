@@ -46,7 +46,7 @@ impl OnCircles {
     }
 }
 
-/// Speeds of points, at most so many.
+/// Speeds of points, up to a number of them.
 const POINTS: u32 = 10;
 
 /// The slowest point in mm/s.

@@ -39,7 +39,7 @@ const LEAST_ERROR: f64 = 0.002;
 /// A fit with more left over is not used.
 pub(super) const WORST_CHI_SQUARE: f64 = 2.0;
 
-/// Residuals beyond so many standard errors weigh less (Huber).
+/// Standard errors beyond which residuals weigh less (Huber).
 const HUBER: f64 = 1.345;
 
 /// Steps of vs on its logarithmic grid.

@@ -185,7 +185,7 @@ pub(super) fn check_pairs(
     Ok(said)
 }
 
-/// The same for the points that circles tell.
+/// The same for the points from circles.
 pub(super) fn check_points(
     points: &[[f64; 2]],
     samples: &AxisSamples,
@@ -278,7 +278,7 @@ fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, 
     )))
 }
 
-/// Whether the torque has the sign of the acceleration, where it is strong enough to tell.
+/// Whether the torque has the sign of the acceleration, where it is strong enough to show.
 fn accelerates_rightly(samples: &AxisSamples) -> bool {
     /// A correlation that noise does not make.
     const CLEAR: f64 = 0.2;
@@ -370,12 +370,12 @@ pub(super) fn check_compensation(
         )),
         (_, Some(Switched::On)) => Err(refused(
             Code::Fc521,
-            "friction compensation was on, and the torque is not known to hold what it adds".to_owned(),
+            "friction compensation was on, and the torque is not known to contain what it adds".to_owned(),
             "if it is the actual torque of the drive, say so; else record that",
         )),
         (_, None) => Ok(Some(TraceFinding::new(
             Code::Fc521,
-            "nothing tells whether the torque holds what compensation adds, nor whether compensation \
+            "it is not known whether the torque contains what compensation adds, nor whether compensation \
              was off: if it was on, friction is larger than this"
                 .to_owned(),
             "say which torque it is, or confirm that friction compensation was off",
@@ -383,7 +383,7 @@ pub(super) fn check_compensation(
     }
 }
 
-/// What the recording shows stands against what is said of it: no list unless it matters to none.
+/// The recording contradicts what is given about it: no list unless it does not matter.
 fn contradicted(
     contradiction: Contradiction,
     measured: &Measured,
@@ -391,7 +391,7 @@ fn contradicted(
     let (message, help, is_harmless) = match contradiction {
         Contradiction::Kind(said) => (
             format!(
-                "the torque is said to be `{}`, and the name of its channel tells the output of the speed \
+                "the torque was given as `{}`, but its channel is named as the output of the speed \
                  controller, which lacks what compensation adds",
                 said.as_str()
             ),
@@ -399,7 +399,7 @@ fn contradicted(
             measured.compensation == Some(Switched::Off),
         ),
         Contradiction::Compensation => (
-            "compensation is said to have been off, and the recorded state shows it on".to_owned(),
+            "compensation was given as off, but the recorded state shows it on".to_owned(),
             "record with compensation off, or name the state of this axis",
             measured.kind == Some(TorqueKind::Actual),
         ),

@@ -67,7 +67,7 @@ const WORDS: [(TorqueKind, &[&str]); 3] = [
 ];
 
 impl TorqueKind {
-    /// The kind that name, symbol or comment of a channel tell.
+    /// The kind that name, symbol or comment of a channel give.
     pub fn of(channel: &Channel) -> Option<Self> {
         let texts = [&channel.name, &channel.symbol, &channel.comment];
         let plain = texts.map(|text| text.to_lowercase().replace(['_', ' ', '.', '-'], ""));
@@ -96,9 +96,9 @@ impl FromStr for TorqueKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Contradiction {
-    /// The channel bears the name of the speed controller's output, and is said to be another torque.
+    /// The channel has the name of the speed controller's output, and is given as another torque.
     Kind(TorqueKind),
-    /// The recorded state shows compensation on, and it is said to have been off.
+    /// The recorded state shows compensation on, and it is given as off.
     Compensation,
 }
 
@@ -108,7 +108,7 @@ pub enum Contradiction {
 pub struct Measured {
     /// Kind of torque; `None` where it is not known.
     pub kind: Option<TorqueKind>,
-    /// Whether friction compensation was on; `None` where nothing tells.
+    /// Whether friction compensation was on; `None` where that is not known.
     pub compensation: Option<Switched>,
     /// The rated torque in the unit of the channel, where it is known.
     pub rated: Option<f64>,

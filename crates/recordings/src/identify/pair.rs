@@ -62,7 +62,7 @@ pub(super) struct PairedSpeeds {
 }
 
 impl PairedSpeeds {
-    /// The pairs of a recording of so many seconds, with their offset and their drift.
+    /// The pairs of a recording of a length in s, with their offset and their drift.
     pub(super) fn of(samples: &AxisSamples, segments: &[Segment], duration_s: f64) -> Self {
         let groups = speeds_of(segments);
         let step = resolution(&samples.torques);

@@ -206,7 +206,7 @@ impl AxisChannels {
         (!taken.is_empty()).then(|| format!("taken by their names: {}", taken.join(", ")))
     }
 
-    /// FC519 for every unit that nobody named, unless the channel has the short name that says it.
+    /// FC519 for every unit that was not given, unless the channel has the short name that says it.
     fn unit_findings(&self, recording: &TraceRecording) -> Vec<TraceFinding> {
         let finding = |(quantity, pick): (ChannelQuantity, Pick)| {
             let channel = &recording.channels()[pick.channel.get()];

@@ -19,7 +19,7 @@ pub struct Ripple {
     pub amplitude: f64,
 }
 
-/// Residuals are averaged over so many mm at least, and there are not more of them.
+/// Millimetres over which residuals are averaged at least, and the most averages.
 const MOST: usize = 20_000;
 
 /// More frequencies are not tried.

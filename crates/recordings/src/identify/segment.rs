@@ -19,7 +19,7 @@ const STEADY: f64 = 0.03;
 /// … or within this part of them …
 const STEADY_PART: f64 = 0.01;
 
-/// … or within so many standard deviations of the averaged noise.
+/// … or within this many standard deviations of the averaged noise.
 const STEADY_SIGMA: f64 = 5.0;
 
 /// Slower segments are ignored, in mm/s.
@@ -209,7 +209,7 @@ impl<'a> SteadySpeeds<'a> {
     }
 }
 
-/// Speeds from positions that are so many samples apart.
+/// Speeds from positions that are a number of samples apart.
 fn slopes(samples: &AxisSamples, width: usize) -> Vec<f64> {
     let last = samples.positions.len() - 1;
     (0..=last)

@@ -50,10 +50,10 @@ const SHIFTS: std::ops::RangeInclusive<i32> = -4..=8;
 /// Parts of a sample, between which signals are followed.
 const PARTS: usize = 4;
 
-/// A reversal is looked at from so many s before it …
+/// Seconds before a reversal from which it is looked at …
 const BEFORE_S: f64 = 0.04;
 
-/// … for so many s, at most.
+/// … and for how many seconds at most.
 const AFTER_S: f64 = 0.15;
 
 /// With less of it, a reversal shows nothing.

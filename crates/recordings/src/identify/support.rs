@@ -36,7 +36,7 @@ pub(super) struct Support {
 const PLACES: u32 = 200;
 
 /// The points, ascending, the first at standstill and the last at the fastest speed. The largest error
-/// of the lines is the smallest that so many points can have (dynamic programming).
+/// of the lines is the smallest that a number of points can have (dynamic programming).
 pub(super) fn support(
     curve: &FrictionCurve,
     speeds: SpeedRange,

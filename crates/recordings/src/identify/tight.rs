@@ -9,10 +9,10 @@ use super::track::AxisSamples;
 /// Parts of the travel.
 const PARTS: f64 = 20.0;
 
-/// Residuals are averaged over so many s.
+/// Seconds over which residuals are averaged.
 const BLOCK_S: f64 = 0.01;
 
-/// A place needs so many blocks in each direction.
+/// Blocks in each direction that a place needs.
 const FEWEST: f64 = 8.0;
 
 /// Number of standard errors that is significant.

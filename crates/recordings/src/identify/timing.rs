@@ -1,8 +1,8 @@
 //! Whether the additive current of a list acted while a recording was made, and whether it came early
 //! or late (R6.22).
 //!
-//! The total of the torque is friction, whoever supplies it, and the build-up of the loops looks like a
-//! lag: only the following error tells what the list did. The output of the loops is linear in the
+//! The total of the torque is friction, whatever supplies it, and the build-up of the loops looks like a
+//! lag: only the following error shows what the list did. The output of the loops is linear in the
 //! following error, its derivative and its integral; what is left of the torque is what was added.
 
 use serde::{Serialize, Serializer};
@@ -17,7 +17,7 @@ const NOT_ACTING: f64 = 0.2;
 /// A list whose share is larger, up to as much above 1, acted.
 const ACTING: f64 = 0.8;
 
-/// The following error is looked at for so many s after a reversal …
+/// Seconds after a reversal for which the following error is looked at …
 const AFTER_S: f64 = 0.15;
 
 /// … and for as long before it.
@@ -56,7 +56,7 @@ pub enum Timing {
     Off(ActingShare),
     /// Another list acted: the interval excludes both that this one acted and that none did.
     Other(ActingShare),
-    /// The interval is too wide to tell which of them it is.
+    /// The interval is too wide to say which of them it is.
     Unclear(ActingShare),
     /// The list acted.
     On {
@@ -145,7 +145,7 @@ impl Timing {
         }
     }
 
-    /// `early` or `late`, where the following error tells.
+    /// `early` or `late`, where the following error shows it.
     pub fn early_or_late(&self) -> Option<&'static str> {
         let Self::On {
             swing_um, error_um, ..

@@ -185,7 +185,7 @@ impl AxisSamples {
 
     /// Whether the position goes where the velocity says.
     fn check_motion(&self) -> Result<(), TrackError> {
-        /// Distances in mm below which nothing is said.
+        /// Distances in mm below which nothing is reported.
         const LEAST: f64 = 0.5;
         let reached = integrated(&self.velocities, &self.times_s);
         let travel = |positions: &[f64]| -> f64 {

@@ -109,7 +109,7 @@ pub(super) fn scope_scale(
             Some(TraceFinding::new(
                 Code::Fc519,
                 format!(
-                    "{scale}, and nothing tells whether its samples contain them; these are taken as they are"
+                    "{scale}, and it is not known whether its samples contain them; these are taken as they are"
                 ),
                 "compare a sample with what the control shows, or export with the factor 1 and the offset 0",
             )),

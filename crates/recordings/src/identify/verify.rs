@@ -67,10 +67,10 @@ const REST: f64 = 0.05;
 /// Velocities with less noise in mm/s are commanded ones.
 const QUIET: f64 = 0.002;
 
-/// The velocity is averaged over so many s.
+/// Seconds over which the velocity is averaged.
 const AVERAGED_S: f64 = 0.01;
 
-/// Samples around reversals say nothing of the scale, so many s after them.
+/// Seconds after a reversal in which samples say nothing of the scale.
 const AFTER_S: f64 = 0.05;
 
 /// A range with fewer samples has no scale.

@@ -8,13 +8,13 @@ use frictcomp::diagnostic::Code;
 /// A Stribeck velocity is seen from this part of it on.
 const SEEN_FROM: f64 = 1.0;
 
-/// Without a fit, slower speeds than that in mm/s are wanted.
+/// Without a fit, slower speeds than that in mm/s are needed.
 const SLOW: f64 = 0.5;
 
 /// Fewer speeds show no curve.
 const FEWEST: usize = 4;
 
-/// Ripple of this part of the friction is said.
+/// Ripple of this part of the friction is reported.
 const RIPPLE: f64 = 0.01;
 
 /// Everything there is to say, in the order of the codes.
@@ -48,7 +48,7 @@ fn slow_speeds(found: &Identified, _: &IdentifyOptions) -> Option<TraceFinding> 
     }
     let record = (slowest / 4.0).min(wanted / 2.0).clamp(0.1, SLOW);
     let unseen = if slowest > wanted {
-        "; Fs and vs cannot be told from it"
+        "; Fs and vs cannot be determined from it"
     } else {
         ""
     };
@@ -86,7 +86,7 @@ fn periodic(found: &Identified, _: &IdentifyOptions) -> Option<TraceFinding> {
                 "the torque repeats every {:.3} mm by ±{:.3} drive units",
                 ripple.period, ripple.amplitude
             ),
-            "this is no friction; compare the period with the pitch of the screw or the poles of the motor, \
+            "this is not friction; compare the period with the pitch of the screw or the poles of the motor, \
              and let every segment cover some periods",
         )
     })

@@ -49,7 +49,7 @@ pub enum NotAligned {
     /// Fewer samples than anything can be said about.
     #[error("the channel `{channel}` has too few samples: {samples}")]
     Short {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
         /// Number of samples.
         samples: usize,
@@ -70,7 +70,7 @@ impl NotAligned {
     }
 }
 
-/// A gap that is so many steps long is not bridged.
+/// Steps of a gap from which it is not bridged.
 const BRIDGED: f64 = 5.0;
 
 impl TraceRecording {

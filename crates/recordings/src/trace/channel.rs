@@ -31,7 +31,7 @@ pub struct Channel {
     pub sample_time_s: Option<f64>,
     /// Scope draws the channel with a factor or an offset.
     pub is_drawn_scaled: bool,
-    /// The factor and the offset, with what tells whether the samples contain them.
+    /// The factor and the offset, with what shows whether the samples contain them.
     pub drawn: Option<ScopeDrawing>,
     /// `Unit ScaleFactor` and `Unit Offset` of Scope, where they are not 1 and 0.
     pub unit_scale: Option<[f64; 2]>,
@@ -59,11 +59,11 @@ pub enum Contains {
     Scale,
     /// The samples are those of the variable.
     Raw,
-    /// Nothing in the file tells.
+    /// Nothing in the file shows it.
     Open,
 }
 
-/// Fewer different values tell nothing.
+/// Fewer different values show nothing.
 const TELLING: usize = 8;
 
 #[allow(clippy::cast_possible_truncation)] // what a variable of the control holds

@@ -16,7 +16,7 @@ pub(super) struct FileLine {
 pub(super) enum TimeScale {
     /// As Scope does: ms from the first point, or FILETIME, 100 ns since the year 1601.
     Scope,
-    /// In a unit that makes so many seconds.
+    /// In a unit of a length in seconds.
     Seconds(f64),
 }
 

@@ -17,7 +17,7 @@ pub enum TraceProblem {
     /// A text without a row of numbers.
     #[error("it holds no row of numbers")]
     NoRows,
-    /// `0,001,5,2`, where nobody can tell the numbers apart.
+    /// `0,001,5,2`, where the numbers cannot be told apart.
     #[error(
         "line {line} has {cells} cells below {columns} columns: a decimal comma cannot be told from the separator `,`"
     )]
@@ -52,7 +52,7 @@ pub enum TraceProblem {
     Number {
         /// The line of the file.
         line: u64,
-        /// The column.
+        /// Name of the column.
         column: String,
         /// Text at that place.
         text: String,
@@ -62,7 +62,7 @@ pub enum TraceProblem {
     Switch {
         /// The line of the file.
         line: u64,
-        /// The column.
+        /// Name of the column.
         column: String,
         /// Text at that place.
         text: String,
@@ -95,7 +95,7 @@ pub enum TraceProblem {
     Xml {
         /// The line of the file.
         line: u64,
-        /// The fault.
+        /// What is wrong, in words.
         reason: String,
     },
     /// A requested item does not exist.
@@ -168,7 +168,7 @@ pub enum SelectError {
         "`{channel}` has the unit scale {factor} and the unit offset {offset}, so its samples are not in `{unit}`"
     )]
     UnitScaled {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
         /// The unit in the header.
         unit: String,

@@ -25,7 +25,7 @@ use super::xml::Xml;
 pub struct TraceReader<'a> {
     demand: Demand<'a>,
     letters: Letters,
-    /// The first bytes, until there are enough to tell what the file is.
+    /// The first bytes, until there are enough to recognise the file.
     first: Vec<u8>,
     form: FileForm,
 }
@@ -43,7 +43,7 @@ const ENOUGH: usize = 1024;
 const GZIP: &[u8] = b"\x1f\x8b";
 
 impl<'a> TraceReader<'a> {
-    /// A reader that asks once which channels are kept, and takes so many rows.
+    /// A reader that asks once which channels are kept, with a limit of rows.
     pub fn new(
         most_rows: usize,
         choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send + 'a,
@@ -62,7 +62,7 @@ impl<'a> TraceReader<'a> {
     /// Takes the next bytes.
     ///
     /// # Errors
-    /// They belong to no trace, or not to one with the channels that are wanted.
+    /// They belong to no trace, or not to one with the requested channels.
     pub fn feed(&mut self, piece: &[u8]) -> Result<(), TraceProblem> {
         if !matches!(self.form, FileForm::Unknown) {
             return self.give(piece);
@@ -77,7 +77,7 @@ impl<'a> TraceReader<'a> {
     /// The bytes are over: the channels with their samples.
     ///
     /// # Errors
-    /// What came is no trace, or not one with the channels that are wanted.
+    /// What came is no trace, or not one with the requested channels.
     pub fn finish(mut self) -> Result<TraceRecording, TraceProblem> {
         if matches!(self.form, FileForm::Unknown) {
             self.begin()?;

@@ -1,4 +1,4 @@
-//! Rows of numbers, of which only the columns that are wanted are read.
+//! Rows of numbers, of which only the requested columns are read.
 
 use super::cell::{CellValue, Decimals, Separator, is_data, switch, text, value};
 use super::channel::Channel;
@@ -15,7 +15,7 @@ pub(super) struct ChannelTable {
     channels: Vec<Channel>,
     groups: Vec<Times>,
     wanted: Vec<WantedChannel>,
-    /// For each column that is read, its cell in the row at hand.
+    /// For each column that is read, its cell in the current row.
     read: Vec<usize>,
     rows: usize,
     most_rows: usize,
@@ -36,7 +36,7 @@ struct Times {
     values: Vec<f64>,
 }
 
-/// A channel that is wanted.
+/// A requested channel.
 struct WantedChannel {
     channel: usize,
     column: usize,

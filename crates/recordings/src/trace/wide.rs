@@ -1,11 +1,11 @@
-//! UTF-16 on its way in: two bytes a letter become UTF-8, piece by piece.
+//! UTF-16 as it is read: two bytes a letter become UTF-8, piece by piece.
 
 use std::borrow::Cow;
 
 /// Encoding of the bytes of a file.
 #[derive(Debug, Default)]
 pub(super) enum Letters {
-    /// Too few bytes to tell.
+    /// Too few bytes to decide.
     #[default]
     Unknown,
     /// One byte a letter or UTF-8: as it is.

@@ -263,7 +263,7 @@ impl Xml {
         Ok(())
     }
 
-    /// The signals that are wanted.
+    /// The requested signals.
     pub(super) fn finish(self, demand: &mut Demand<'_>) -> Result<TraceRecording, TraceProblem> {
         if !self.waiting.trim_ascii().is_empty() {
             let reason = "the file ends within an element".to_owned();

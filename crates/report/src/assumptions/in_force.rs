@@ -10,7 +10,7 @@ pub fn rests_on_text(readings: &ReadingsInForce) -> Option<String> {
     }
     let is_open = readings.iter().any(|it| it.basis != "confirmed");
     let ask = if is_open {
-        " (`frictcomp ask` asks the control)"
+        " (`frictcomp ask` writes the test)"
     } else {
         ""
     };
@@ -57,7 +57,7 @@ mod tests {
         asked.insert(Question::BlockSearch);
         let all = "Rests on R1.9, assumed: the motion of a block with COMP is made in the new state; \
                    R1.28, confirmed on V3.1.3132.00: a reset keeps the state; R1.31, selected in \
-                   frictcomp.toml: the first of two opposite commands wins (`frictcomp ask` asks the control)";
+                   frictcomp.toml: the first of two opposite commands wins (`frictcomp ask` writes the test)";
         assert_eq!(words(asked).as_deref(), Some(all));
         let records = serde_json::to_value(ReadingsInForce::of(asked, &machine)).expect("JSON");
         assert_eq!(records[1]["basis"], "confirmed");

@@ -34,7 +34,7 @@ pub struct Assumption {
     pub changes: String,
     /// Output by which a user sees it.
     pub shows: String,
-    /// Cases in which a session depends on it; none if its records tell of none.
+    /// Cases in which a session depends on it; none if its records show none.
     #[serde(default)]
     pub when: Vec<When>,
 }

@@ -69,7 +69,7 @@ impl AuditReport {
         self.findings().any(|finding| !finding.unknown.is_empty())
     }
 
-    /// Whether something is to be mended, or cannot be told.
+    /// Whether something needs mending, or is not known.
     pub fn has_warnings(&self) -> bool {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }
@@ -167,7 +167,7 @@ pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
     }
 }
 
-/// Whether a column of a table says anything: a kind that nobody switches is left out.
+/// Whether a column of a table says anything: a kind that no program switches is left out.
 pub(crate) fn is_shown(machine: &MachineAudit, finding: &AxisFinding) -> bool {
     let programs = machine.archive.programs();
     finding.kind == Kind::Frict

@@ -269,7 +269,7 @@ fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> String {
     }
 }
 
-/// Returns the kind of motion, behind `moves` or `may move`.
+/// Returns the kind of motion, after `moves` or `may move`.
 fn way(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Rapid => " in rapid",

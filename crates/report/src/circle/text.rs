@@ -149,7 +149,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     let degrees = ReadableNumber((shape?.window_deg * 10.0).round() / 10.0);
     let time = match report.driven().1 {
         Some(_) => "the larger of 8\u{b0} and 0.3 s",
-        None => "of an unknown feed, `--feed` or a column `t` tells it",
+        None => "of an unknown feed; give `--feed` or a column `t`",
     };
     Some(format!(
         "glitch: from 8\u{b0} before to {degrees}\u{b0} after a crossing, {time}; less the ellipse \
@@ -428,7 +428,7 @@ impl FigureRow {
     }
 }
 
-/// Returns the suggested causes: the same finding at several crossings is said once.
+/// Returns the suggested causes: the same finding at several crossings is reported once.
 pub(crate) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<String> {
     let words = match &report.subject {
         Subject::Simulated { test, .. } if test.is_stiction() => words_of_stiction,

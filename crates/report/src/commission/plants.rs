@@ -136,7 +136,7 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
     push_plant(out, verdict);
     let _ = writeln!(out, "{}", not_modelled_line(&verdict.not_modelled));
     if !verdict.rejected.is_empty() {
-        out.push_str("the plant is rejected, and the lists of before stay:\n");
+        out.push_str("the plant is rejected, and the earlier lists stay:\n");
         for reason in &verdict.rejected {
             let _ = writeln!(out, "  {}", visible_line(reason));
         }

@@ -28,7 +28,7 @@ pub fn render_program(report: &PlanReport, program: &MeasuringProgram) -> String
         ));
     }
     blocks.block(&format!("G71 G90 G94 G40 G162 G{}", plane_of(&plan.axes)));
-    blocks.comment("no zero offset, no transformation, no turned coordinates");
+    blocks.comment("no zero offset, no transformation, no rotated coordinates");
     blocks.block("G53");
     blocks.block("#TRAFO OFF");
     blocks.block("#CS OFF ALL");

@@ -86,7 +86,7 @@ pub fn render_readme(report: &PlanReport) -> String {
 const BEFORE: &str = "\
 BEFORE
   [ ] tool out of the spindle, Z clear of table, vice and fixtures
-  [ ] machine warm: half an hour of motion, and say so with the recordings
+  [ ] machine warm: half an hour of motion, noted with the recordings
   [ ] no workpiece, no other program; offsets of G92 and of the operator off
 ";
 
@@ -108,7 +108,7 @@ RECORD, for each axis that moves, one sample every ms (the CNC cycle)
   TwinCAT Scope: export CSV, header as full as possible, timelines for each
   sample time, no scaling of values.
   Note beside it: actual position of the MOTOR or of the LOAD (linear scale)?
-  Backlash and the contact of the slide are claimed from the load only.
+  Backlash and the contact of the slide show at the load only.
 
 THEN put the exported files into the folder `recordings` beside this page.
 ";

@@ -35,7 +35,7 @@ impl Results {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisVerdict {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The file of the provisional list, as it is shown.
     pub list: Option<String>,
@@ -140,7 +140,7 @@ pub fn glitch_unit(plan: &Plan) -> &'static str {
 }
 
 impl Round {
-    /// Whether nothing speaks against the lists.
+    /// Whether there is no reason against the lists.
     pub fn is_accepted(&self) -> bool {
         self.against.as_ref().is_some_and(Vec::is_empty)
     }
@@ -319,7 +319,7 @@ fn push_round(out: &mut String, round: &Round) {
             round.shows.limit()
         );
     } else {
-        out.push_str("\nnot accepted, the lists of before stay:\n");
+        out.push_str("\nnot accepted, the earlier lists stay:\n");
         for reason in against {
             let _ = writeln!(out, "  {}", visible_line(reason));
         }

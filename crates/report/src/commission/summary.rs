@@ -26,7 +26,7 @@ pub struct PlanReport {
 /// A value list that is loaded while programs of stage 2 run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ValueListUsed {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The file, as it is shown.
     pub file: String,

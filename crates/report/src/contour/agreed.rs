@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// Text behind a figure.
+/// Text after a figure.
 const UNIT: &str = " µm";
 
 /// A contour as it is agreed on. Its [`Display`](fmt::Display) is the text of the file (R9.84).

@@ -96,7 +96,7 @@ fn limits_record(axis: &AssumedLimits) -> Value {
     })
 }
 
-/// The figures of the three runs, the counts of each axis, and what they come to.
+/// The figures of the three runs, the counts of each axis, and what they add up to.
 pub fn summary_record(
     contour: &ProgramContour<ContourRecorder<'_>>,
     limits: &ContourLimits,

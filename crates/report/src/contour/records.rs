@@ -8,7 +8,7 @@ use frictcomp_physics::contour::ContourReversal;
 /// The columns of [`csv_row`].
 pub const CSV_HEADER: &str = "axis,file,line,n,t,position,feed,acceleration,movement,state,current_before,current_after,glitch,glitch_on,glitch_off,feed_programmed\n";
 
-/// A number with so many decimals as matter.
+/// A number with as many decimals as matter.
 pub(super) fn rounded(value: f64, decimals: i32) -> f64 {
     let scale = 10_f64.powi(decimals);
     let rounded = (value * scale).round() / scale;

@@ -30,7 +30,7 @@ pub struct Acceptance {
     pub machine: Option<String>,
     /// The date of the recordings; `None` where it was not said.
     pub date: Option<String>,
-    /// The axes with the changes from their list of before to that of stage 2, in the form of a patch.
+    /// The axes with the changes from their earlier list to that of stage 2, in the form of a patch.
     pub changes: Vec<(String, String)>,
 }
 
@@ -90,12 +90,12 @@ fn verdict(report: &ResultsReport) -> Markup {
                 " leave no more than there was without them. Other feeds were not recorded" (round.shows.limit()) "."
             },
             Some((round, Some(against))) => {
-                p { "The lists of round " (round.number) " are not accepted; those of before stay." }
+                p { "The lists of round " (round.number) " are not accepted; the earlier ones stay." }
                 ul { @for reason in against { li { (reason) } } }
             }
         }
         @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.rejected.is_empty()) {
-            p { "The plant is rejected by the recordings, and the lists of before stay:" }
+            p { "The plant is rejected by the recordings, and the earlier lists stay:" }
             ul { @for reason in &plant.rejected { li { (reason) } } }
         }
         @if !missing.is_empty() {
@@ -205,10 +205,10 @@ fn axis_part(report: &ResultsReport, given: &Acceptance, verdict: &AxisVerdict) 
         }
         @if let Some(plant) = report.fitted.verdicts.last() { (plant_part(plant, name)) }
         @if let Some((_, change)) = change {
-            p { "The list of before and that of stage 2:" }
+            p { "The earlier list and that of stage 2:" }
             pre { (change) }
         } @else {
-            p { "No list of before was given to compare with." }
+            p { "No earlier list was given to compare with." }
         }
     }
 }
@@ -328,7 +328,7 @@ fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
     html! { @if !plant.compared.is_empty() { (table.render(rows)) } }
 }
 
-/// Renders the assumptions, and what was said.
+/// Renders the assumptions, and what was stated.
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
         ul {
@@ -337,7 +337,7 @@ fn grounds(report: &ResultsReport) -> Markup {
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
             @for reason in &report.fitted.lacking { li { "No plant was fitted: " (reason) "." } }
             li { "Feeds, loads and temperatures that were not recorded are not judged." }
-            @for said in &report.said { li { "Said, and shown by no recording: " (said) "." } }
+            @for said in &report.said { li { "Stated, but shown by no recording: " (said) "." } }
         }
     }
 }

@@ -137,7 +137,7 @@ pub(super) struct JoinedStates {
     pub(super) ways: WaysIndex,
 }
 
-/// A diagnostic and how often it was said.
+/// A diagnostic and how often it was reported.
 #[derive(Debug)]
 pub(super) struct Message {
     pub(super) diagnostic: Diagnostic,

@@ -26,7 +26,7 @@ const HEAD: &str = concat!(
 /// The style of a page.
 const STYLE: &str = include_str!("style.css");
 
-/// A page on its way to a writer.
+/// A page that is being written.
 pub(super) struct Page<'a> {
     out: &'a mut dyn Write,
     buffer: String,

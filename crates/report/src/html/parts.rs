@@ -18,7 +18,7 @@ pub(super) struct HtmlTable<'a> {
 pub(super) enum Caption<'a> {
     /// Above the table.
     Shown(&'a str),
-    /// Only for those who listen: the heading above the table says it already.
+    /// Only for screen readers: the heading above the table says it already.
     Heard(&'a str),
 }
 

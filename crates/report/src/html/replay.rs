@@ -38,7 +38,7 @@ pub struct ReplayReportAxis {
     pub end_s: f64,
     /// Time, place, state and evidence of each change in which both agree.
     pub changes: Vec<[String; 4]>,
-    /// What speaks against an agreement, in sentences.
+    /// What contradicts an agreement, in sentences.
     pub against: Vec<String>,
 }
 

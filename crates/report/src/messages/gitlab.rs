@@ -71,7 +71,7 @@ impl MessageFormat for GitLab {
 }
 
 impl GitLab {
-    /// By this GitLab tells which messages are new. It does not change when lines above do, nor when
+    /// By this GitLab knows which messages are new. It does not change when lines above do, nor when
     /// another program reaches the place (R17.1), so it is made of the words, and counted where they
     /// are the same.
     fn fingerprint(&mut self, path: &str, diagnostic: &Diagnostic) -> String {

@@ -24,7 +24,7 @@ pub struct CurrentPlot {
     length: f64,
     /// Beginnings of blocks.
     blocks: Vec<XMark>,
-    /// Of so many blocks one is kept.
+    /// Blocks of which one is kept.
     every: u64,
     /// Number of blocks begun.
     begun: u64,
@@ -201,7 +201,7 @@ impl CurrentPlot {
         }
     }
 
-    /// Interrupts the curves where the trace begins anew.
+    /// Interrupts the curves where the trace begins again.
     pub fn interrupt(&mut self) {
         for axis in &mut self.axes {
             for curve in [

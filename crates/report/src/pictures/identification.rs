@@ -42,7 +42,7 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
         title: title(report, "Friction"),
         description: format!(
             "Friction in {unit} at {} speeds from {slowest:.3} to {fastest:.3} mm/s with standard errors, the \
-             curve through them and the {} points of the value list; below, what the speeds differ from \
+             curve through them and the {} points of the value list; below, how far the speeds are from \
              the curve.",
             found.pairs.len(),
             found.points.len()
@@ -85,7 +85,7 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// What the torque differs from the mean of its segment, over the position: its mean in pieces of the
+/// How far the torque is from the mean of its segment, over the position: its mean in pieces of the
 /// way, and between what values nine tenths of the samples are. All of them would be a block of colour.
 pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     let unit = report.unit();
@@ -94,8 +94,8 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     LineChart {
         title: title(report, "Residual torque over the position"),
         description: format!(
-            "What the torque differs from the mean of its segment, in {unit}, over the position: what \
-             repeats here is no friction."
+            "How far the torque is from the mean of its segment, in {unit}, over the position: what \
+             repeats here is not friction."
         ),
         x: ChartAxis::linear("position in mm"),
         panels: vec![Panel {

@@ -3,7 +3,7 @@
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::trace::TraceReport;
 
-/// Channels are not drawn beyond so many.
+/// The most channels that are drawn.
 const MOST: usize = 12;
 
 /// Every channel in a panel of its own, over its own times; over the row where the file has none.

@@ -39,7 +39,7 @@ impl BandState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum StartUpRelation {
-    /// It is that state, or nobody can say.
+    /// It is that state, or unknown.
     #[default]
     StartUp,
     /// It is another one, which outlives the program.
@@ -279,7 +279,7 @@ fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, StartUpRelatio
             canvas.rect("fc-half", half);
         }
         BandState::One(State::Unconfigured) => {
-            // A bar that nobody sees makes the whole row a target for the pointer.
+            // An invisible bar makes the whole row a target for the pointer.
             canvas.rect("fc-ground", area);
             let middle = area.y + area.height / 2.0;
             canvas.line("fc-absent", (area.x, middle), (area.right(), middle));

@@ -6,7 +6,7 @@ use frictcomp::text::is_hidden;
 /// Appends a text with the characters of markup escaped and what cannot be seen made visible.
 ///
 /// Control characters become their pictures (`␀`); characters that turn the direction of writing
-/// or take no room become `⟨U+202E⟩`, so that nobody reads another text than the control does.
+/// or take no room become `⟨U+202E⟩`, so that the text that is shown is the one that the control reads.
 pub(super) fn push_escaped(out: &mut String, text: &str) {
     for letter in text.chars() {
         match letter {

@@ -78,7 +78,7 @@ const SMALL: f64 = 100.0;
 const NAMES: f64 = 34.0;
 
 impl PanelLayout {
-    /// The panel with a number out of so many.
+    /// The panel with a number, of a number of panels.
     fn of(number: usize, count: usize) -> Self {
         let (circle, reach) = match (number, count) {
             (_, 0 | 1) => (190.0, 110.0),

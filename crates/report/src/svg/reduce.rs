@@ -105,7 +105,7 @@ impl Curve {
         });
         self.groups = pairs.collect();
         self.joined += 1;
-        // The last group may hold fewer; nobody sees the difference.
+        // The last group may hold fewer; the difference is not visible.
         self.filled = 1 << self.joined;
     }
 }

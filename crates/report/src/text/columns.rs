@@ -10,13 +10,13 @@ use super::line::{BOLD, GUTTER, MARK, TextLine, style};
 /// The column after the line number.
 const LINE_END: usize = 6;
 
-/// The block text must keep so many columns, or states become symbols.
+/// Columns that the block text must keep, or states become symbols.
 const MIN_TEXT: usize = 24;
 
-/// Beside symbols it keeps so many, or the states stand below their block.
+/// Columns that it keeps beside symbols, or the states stand below their block.
 const LEAST_TEXT: usize = 16;
 
-/// The block text takes at most so many columns, so that few axes do not stand far away from it.
+/// Columns that the block text takes at most, so that few axes do not stand far away from it.
 const MAX_TEXT: usize = 72;
 
 /// The most of a width that the block text takes, six tenths where that is less.

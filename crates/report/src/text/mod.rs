@@ -20,7 +20,7 @@ use super::visible::leading;
 use columns::AxisColumns;
 use line::{BOLD, DIM, GUTTER, MARK, Paragraph, TextLine};
 
-/// Below so many columns diagnostics stand further left.
+/// Columns below which diagnostics stand further left.
 const NARROW: usize = 60;
 
 /// What happens to blocks that change nothing and about which there is nothing to say.
@@ -92,7 +92,7 @@ pub struct Text<W> {
     possible: Vec<String>,
 }
 
-/// Which of the states that are possible are said.
+/// Which of the possible states are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Saying {
     /// Those that were not said before.

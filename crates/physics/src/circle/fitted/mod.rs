@@ -2,7 +2,7 @@
 //!
 //! A [`DriveFit`] holds what an axis did at its reversals with compensation off and on. The unknowns of its
 //! drive are found by least squares over all reversals, each with an offset and a slope of its own. How well they
-//! are known is told by other selections of the reversals, another friction model and another damping, never
+//! are known is shown by other selections of the reversals, another friction model and another damping, never
 //! by the noise that is left.
 
 mod extent;

@@ -24,12 +24,12 @@ pub struct Recording {
 pub struct CommandedCircle {
     /// The radius.
     pub radius_mm: Option<f64>,
-    /// The feed; without it the times of the recording tell it.
+    /// The feed; without it that of the times of the recording.
     pub feed_mm_per_min: Option<f64>,
 }
 
 impl Recording {
-    /// Whether so many recordings of such circles can be evaluated together.
+    /// Whether a number of recordings of such circles can be evaluated together.
     ///
     /// # Errors
     /// More than two, or a radius or feed that no circle has.

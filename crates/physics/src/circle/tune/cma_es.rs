@@ -89,7 +89,7 @@ impl CmaEs {
         }
     }
 
-    /// The points whose values are wanted.
+    /// The points whose values are requested.
     pub(in crate::circle) fn ask(&mut self) -> Vec<Vec<f64>> {
         self.asked = (0..POINTS)
             .map(|_| {

@@ -170,7 +170,7 @@ const WORTH_ROBUST: f64 = 0.95;
 /// … and at most this factor more on the plant.
 const ROBUST_COSTS: f64 = 1.25;
 
-/// Tunes with whoever makes the simulations; the result is the same.
+/// Tunes with any maker of simulations; the result is the same.
 ///
 /// # Errors
 /// A circle that cannot be simulated, or has no glitch.
@@ -284,7 +284,7 @@ impl Task {
     }
 }
 
-/// A task, and who makes its simulations.
+/// A task, and what makes its simulations.
 struct Tuning<'a> {
     task: &'a Task,
     simulations: &'a dyn Simulations,

@@ -59,7 +59,13 @@ impl SessionTotals {
             match diagnostic.code {
                 Code::Fc401 => self.rests_on.insert(Question::Reset),
                 Code::Fc409 => self.rests_on.insert(Question::LookAhead),
-                code @ (Code::Fc210 | Code::Fc325 | Code::Fc902) => {
+                Code::Fc210 | Code::Fc318 | Code::Fc325 | Code::Fc902 => {
+                    self.assumed.insert(diagnostic.code);
+                }
+                // The control stops on some ways only.
+                code if code.severity() == Severity::Error
+                    && diagnostic.severity < Severity::Error =>
+                {
                     self.assumed.insert(code);
                 }
                 _ => {}

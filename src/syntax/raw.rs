@@ -48,6 +48,13 @@ impl RawBlock<'_> {
         Place::in_block(file, self.text, self.line, span)
     }
 
+    /// The number of the line behind it.
+    pub(crate) fn line_after(&self) -> u32 {
+        let lines = self.text.bytes().filter(|byte| *byte == b'\n').count();
+        self.line
+            .saturating_add(u32::try_from(lines + 1).unwrap_or(u32::MAX))
+    }
+
     /// A fault of a `%` line, which no run reaches, as a message about its file.
     pub(crate) fn opening_said(&self, file: &Arc<str>, fault: Fault) -> Diagnostic {
         let place = self.place(file, fault.span);

@@ -216,8 +216,8 @@ pub struct Summary<'a> {
     pub opaque: &'a BTreeMap<String, u64>,
     /// Summary of each listed axis.
     pub axes: Vec<AxisSummary>,
-    /// The codes by which messages said that the states rest on an assumption about what only the machine knows
-    /// (R2.70): FC210, FC325, FC902.
+    /// The codes of messages that limit what the states say (R2.94): they rest on an assumption about what only the
+    /// machine knows (FC210, FC325, FC902), or the control stops on some ways.
     pub assumed: BTreeSet<Code>,
     /// The open questions on whose readings results rest (R15.3).
     pub rests_on: QuestionSet,

@@ -90,18 +90,20 @@ fn ends_of_programs() {
       end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
     // A subprogram that runs by itself ends as it should.
-    for sub in [
-        "X1\nM17",
-        "M17\nX2",
-        "%L S\nM17\n%MAIN\nX1\nM17\n%OTHER\nM30",
-    ] {
-        assert!(!bench.run(&[sub]).contains("FC310"), "{sub}");
+    for handed in [SourceMode::Whole, SourceMode::LineByLine] {
+        let bench = Bench::new().handed(handed);
+        for sub in [
+            "X1\nM17",
+            "M17\nX2",
+            "%L S\nM17\n%MAIN\nX1\nM17\n%OTHER\nM30",
+        ] {
+            assert!(!bench.run(&[sub]).contains("FC310"), "{sub}");
+        }
+        let said = bench.run(&["M17\nX[COMP OFF FRICT]\nM30"]);
+        assert!(said.contains("FC310 1:1-4"), "{said}");
+        let said = bench.keep_going().run(&["X1\nM29\nX[COMP OFF FRICT]\nM30"]);
+        assert!(said.contains("FC310 2:1-4"), "{said}");
     }
-    assert!(
-        bench
-            .run(&["M17\nX[COMP OFF FRICT]\nM30"])
-            .contains("FC310 1:1-4")
-    );
     let on_a_way = bench.run(&["$IF V.E.A\nM29\n$ENDIF\nM30"]);
     assert!(on_a_way.contains("FC310 2:1-4"), "{on_a_way}");
     assert_snapshot!(bench.run(&["M30\nX[COMP OFF FRICT"]), @"

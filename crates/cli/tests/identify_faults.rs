@@ -332,7 +332,7 @@ fn a_statement_that_the_recording_contradicts_gives_no_list() {
         assert_eq!(result.is_err(), refused, "{shown:?} {said:?}");
         let (code, message) = self::said(&result).expect("a doubt");
         assert_eq!(code, Code::Fc521, "{message}");
-        assert!(message.contains(" said to "), "{message}");
+        assert!(message.contains(" given as "), "{message}");
     }
     // What agrees with the recording raises no doubt.
     let agreed = Measured::default().stated(actual, off);

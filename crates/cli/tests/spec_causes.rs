@@ -300,6 +300,25 @@ fn feed_moves_without_compensation_are_counted() {
 }
 
 #[test]
+fn the_closing_line_names_what_the_states_rest_on() {
+    // R2.94
+    for (program, codes) in [
+        ("G81 Z5\nM30\n", "see FC325."),
+        ("G777\nM30\n", "see FC210."),
+        ("G777\nG81\nM30\n", "see FC210 and FC325."),
+        ("$IF V.E.A\n#ERROR [ID=1 RC=2]\n$ENDIF\nM30\n", "see FC318."),
+    ] {
+        let bench = Bench::new(&[("p.nc", program)]);
+        let shown = bench.stdout(&["run", "p.nc"]);
+        assert!(!shown.contains("Nothing to do"), "{program}: {shown}");
+        assert!(
+            shown.contains(&format!("as far as it is known: {codes}")),
+            "{program}: {shown}"
+        );
+    }
+}
+
+#[test]
 fn unknown_states_are_counted_apart() {
     // R13.12
     let unknown = "N10 $IF V.E.A == 1\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X10 F100\nN50 X20\n\

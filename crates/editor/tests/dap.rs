@@ -390,7 +390,7 @@ fn a_client_that_keeps_to_nothing_gets_answers() {
     assert!(
         client.event("output")["output"]
             .as_str()
-            .is_some_and(|it| it.contains("no request"))
+            .is_some_and(|it| it.contains("not a request"))
     );
     client.launch("a.nc", &["state", "unknown", "other"]);
     client.granted("pause", &json!({}));

@@ -14,6 +14,7 @@ use crate::interpreter::coordinates::moving;
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::channel_axes::AxisNameMeaning;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -118,6 +119,43 @@ impl Interpreter {
             self.state.control.modal.havoc_position(axis);
             fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
         }
+        self.scratch.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// Takes a word of an axis that the program exchanged; whether it is one.
+    #[cold]
+    pub(in crate::interpreter) fn exchanged_word(
+        &mut self,
+        (name, value): (&str, Option<f64>),
+        span: Span,
+        at: &BlockContext<'_>,
+    ) -> bool {
+        let is_axis = self.machine.find(name).is_some();
+        match self.state.control.channel_axes.meaning(name) {
+            Some(AxisNameMeaning::Axis(axis)) => self.axis_word(axis, span, value),
+            Some(AxisNameMeaning::Released(_)) => self.say_released(name, span, at),
+            Some(AxisNameMeaning::Unknown)
+                if is_axis || self.state.control.channel_axes.names.contains_key(name) =>
+            {
+                self.state.control.modal.havoc_positions();
+                self.perhaps_move_all();
+            }
+            Some(AxisNameMeaning::Unknown) | None => return false,
+        }
+        true
+    }
+
+    /// FC210: a word of an axis that the program gave away, once an axis and program (R2.70).
+    fn say_released(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
+        self.pass_over(name, span, at);
+        if !self.state.is_new_word(name) {
+            return;
+        }
+        let message = format!(
+            "the program has given axis `{name}` away; its words are passed over, and what they move is not known"
+        );
+        let fault = Fault::new(Code::Fc210, at.in_block(span), message)
+            .with_help("request the axis before its first word, with `#CALL AX` or `#AX REQUEST`");
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 

@@ -18,7 +18,6 @@ use crate::interpreter::values::work_budget::ITEM;
 use crate::readings::Question;
 use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
-use crate::text::Span;
 
 /// Kind of an exchange command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -175,54 +174,6 @@ impl Interpreter {
         for name in &gone {
             self.release_axis(name);
         }
-    }
-}
-
-impl Interpreter {
-    /// The axis that a name stands for at the moment, if that is known.
-    pub(in crate::interpreter) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
-        match self.state.control.channel_axes.meaning(name) {
-            None => self.machine.find(name),
-            Some(AxisNameMeaning::Axis(axis)) => Some(axis),
-            Some(AxisNameMeaning::Released(_) | AxisNameMeaning::Unknown) => None,
-        }
-    }
-
-    /// Takes a word of an axis that the program exchanged; whether it is one.
-    #[cold]
-    pub(in crate::interpreter) fn exchanged_word(
-        &mut self,
-        (name, value): (&str, Option<f64>),
-        span: Span,
-        at: &BlockContext<'_>,
-    ) -> bool {
-        let is_axis = self.machine.find(name).is_some();
-        match self.state.control.channel_axes.meaning(name) {
-            Some(AxisNameMeaning::Axis(axis)) => self.axis_word(axis, span, value),
-            Some(AxisNameMeaning::Released(_)) => self.say_released(name, span, at),
-            Some(AxisNameMeaning::Unknown)
-                if is_axis || self.state.control.channel_axes.names.contains_key(name) =>
-            {
-                self.state.control.modal.havoc_positions();
-                self.perhaps_move_all();
-            }
-            Some(AxisNameMeaning::Unknown) | None => return false,
-        }
-        true
-    }
-
-    /// FC210: a word of an axis that the program gave away, once an axis and program (R2.70).
-    fn say_released(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
-        self.pass_over(name, span, at);
-        if !self.state.is_new_word(name) {
-            return;
-        }
-        let message = format!(
-            "the program has given axis `{name}` away; its words are passed over, and what they move is not known"
-        );
-        let fault = Fault::new(Code::Fc210, at.in_block(span), message)
-            .with_help("request the axis before its first word, with `#CALL AX` or `#AX REQUEST`");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 }
 

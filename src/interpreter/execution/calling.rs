@@ -13,12 +13,10 @@ use crate::interpreter::run::step::{ControlStep, Destination, Request};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
-    /// Whether M30 or M02 stands in the running program after its last block; not known where lines are read one by
-    /// one.
-    fn holds_end_after(&self) -> bool {
-        let Some(frame) = self.state.control.frames.running() else {
-            return false;
-        };
+    /// Whether M30 or M02 stands in the running program after its last block; `None` where its lines are read one
+    /// after another.
+    fn holds_end_after(&self) -> Option<bool> {
+        let frame = self.state.control.frames.running()?;
         let index = self.programs.index(frame.unit);
         let end = index.sections.get(frame.section).map(|section| section.end);
         let offset = |entry: EntryIndex| {
@@ -30,7 +28,7 @@ impl Interpreter {
         let text = index.source.text();
         let to = end.and_then(offset).unwrap_or(text.len());
         let rest = offset(frame.next).and_then(|from| text.get(from..to));
-        rest.is_some_and(holds_program_end)
+        (!text.is_empty()).then(|| rest.is_some_and(holds_program_end))
     }
 
     pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
@@ -198,8 +196,9 @@ impl Interpreter {
             ControlStep::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
-                    // A subprogram run by itself ends as it should; one that holds M30 is a main program.
-                    if !self.holds_end_after() {
+                    // A subprogram run by itself ends as it should; one that holds M30 is a main program. What is
+                    // read line by line says so when its rest is there.
+                    if self.holds_end_after() == Some(false) {
                         self.state.last = None;
                     }
                     return ControlFlow::Break(EndedBy::EndOfFile);

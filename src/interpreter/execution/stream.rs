@@ -9,13 +9,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::diagnostic::Collected;
+use crate::interpreter::programs::call_sites::holds_program_end;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, SourceMode, StopPolicy};
-use crate::interpreter::run::step::NextBlock;
+use crate::interpreter::run::step::{ControlStep, NextBlock};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
@@ -67,6 +68,8 @@ impl Interpreter {
     ) -> RunOutcome {
         self.start();
         self.handed = SourceMode::LineByLine;
+        let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
+        self.programs.hold(none);
         match self.run_lines(file, lines, finder, observer) {
             RunOutcome::Paused => RunOutcome::Stopped,
             outcome => outcome,
@@ -80,8 +83,6 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
-        self.programs.hold(none);
         let file: Arc<str> = file.into();
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.scratch.block);
@@ -93,14 +94,9 @@ impl Interpreter {
                 notes.extend(never_begun.take().map(never_run));
             }
             // Both ways of a block that may be skipped are followed, with what comes after them (R14.1).
-            let may_be_skipped = self.undecided_level(&block).is_some();
-            if may_be_skipped || (!raw.plain && needs_rest(&raw, &block)) {
-                let (mut text, first) = opening(&raw);
-                reader.append_rest(&mut text);
-                self.note_lost(&file, reader.lost_remarks());
-                let rest = SourceFile::new(file, text).from_line(first);
-                let progress = StreamProgress { stage, notes };
-                return self.go_on_with(rest, progress, finder, observer);
+            if self.undecided_level(&block).is_some() || (!raw.plain && needs_rest(&raw, &block)) {
+                let rest = self.take_rest(opening(&raw), file, &mut reader);
+                return self.go_on_with(rest, StreamProgress { stage, notes }, finder, observer);
             }
             if let Stretch::Program { name, local } = raw.stretch {
                 let faults = block.faults.drain(..);
@@ -136,15 +132,10 @@ impl Interpreter {
                     continue;
                 }
                 ProgramStage::Before | ProgramStage::Announced => {
-                    if matches!(stage, ProgramStage::Before)
-                        && self.announce(None, observer).is_break()
-                    {
-                        return RunOutcome::Paused;
-                    }
-                    stage = ProgramStage::Running;
-                    if let Some(outcome) = self.begin_lines(&file, finder, observer) {
+                    if let Some(outcome) = self.begin_at(stage, &file, finder, observer) {
                         return outcome;
                     }
+                    stage = ProgramStage::Running;
                 }
             }
             if self.is_on_the_way(&block) {
@@ -163,13 +154,25 @@ impl Interpreter {
                 ControlFlow::Break(NextBlock::Step(step)) => step,
                 ControlFlow::Break(NextBlock::Paused) => return RunOutcome::Paused,
             };
+            let returns = matches!(step, ControlStep::Return);
             match self.follow(step) {
-                ControlFlow::Continue(()) => match self.run_called(finder, observer) {
-                    None => {}
-                    Some(outcome) => return outcome,
-                },
+                ControlFlow::Continue(()) => {
+                    if let Some(outcome) = self.run_called(finder, observer) {
+                        return outcome;
+                    }
+                }
                 ControlFlow::Break(ended) => {
                     stage = ProgramStage::Beyond(Some(ended));
+                    if returns {
+                        let line = raw.line_after();
+                        let rest = self.take_rest((String::new(), line), file, &mut reader);
+                        return self.returned(
+                            rest,
+                            StreamProgress { stage, notes },
+                            finder,
+                            observer,
+                        );
+                    }
                     if self.options.stop != StopPolicy::CheckAll {
                         break;
                     }
@@ -178,8 +181,7 @@ impl Interpreter {
         }
         self.note_lost(&file, reader.lost_remarks());
         self.scratch.block = block;
-        let progress = StreamProgress { stage, notes };
-        self.after_lines(&file, &progress, finder, observer)
+        self.after_lines(&file, &StreamProgress { stage, notes }, finder, observer)
     }
 
     /// All lines were read: a program without any block begins and ends here.
@@ -190,16 +192,29 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        let stage = progress.stage;
-        if matches!(stage, ProgramStage::Before) && self.announce(None, observer).is_break() {
-            return RunOutcome::Paused;
+        match self.begin_at(progress.stage, file, finder, observer) {
+            Some(outcome) => outcome,
+            None => self.end_of_lines(progress.stage, &progress.notes, observer),
         }
-        if let ProgramStage::Before | ProgramStage::Announced = stage
-            && let Some(outcome) = self.begin_lines(file, finder, observer)
-        {
-            return outcome;
+    }
+
+    /// Begins a program that has not begun at its first block; an outcome when that is the end.
+    fn begin_at(
+        &mut self,
+        stage: ProgramStage,
+        file: &str,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Option<RunOutcome> {
+        match stage {
+            ProgramStage::Before if self.announce(None, observer).is_break() => {
+                Some(RunOutcome::Paused)
+            }
+            ProgramStage::Before | ProgramStage::Announced => {
+                self.begin_lines(file, finder, observer)
+            }
+            ProgramStage::Running | ProgramStage::Beyond(_) => None,
         }
-        self.end_of_lines(stage, &progress.notes, observer)
     }
 
     /// Whether a block is passed over on the way to the one that M17 returned to.
@@ -289,6 +304,41 @@ impl Interpreter {
                 self.close(outcome, observer)
             }
             ProgramStage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
+        }
+    }
+
+    /// Takes the lines that were not read into memory, behind a text whose first line has a number.
+    fn take_rest<S: LineSource>(
+        &mut self,
+        (mut text, first): (String, u32),
+        file: Arc<str>,
+        reader: &mut BlockReader<S>,
+    ) -> SourceFile {
+        reader.append_rest(&mut text);
+        self.note_lost(&file, reader.lost_remarks());
+        SourceFile::new(file, text).from_line(first)
+    }
+
+    /// M17 ended the program; what follows is looked at where all of it is checked. FC310 where the program holds M30
+    /// farther down; a subprogram run by itself ends as it should.
+    fn returned(
+        &mut self,
+        rest: SourceFile,
+        mut progress: StreamProgress,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let lines = rest.text().split_inclusive('\n');
+        let own = lines.take_while(|line| !line.trim_start().starts_with('%'));
+        let own: usize = own.map(str::len).sum();
+        if !holds_program_end(&rest.text()[..own]) {
+            self.state.last = None;
+        }
+        progress.notes.extend(self.state.missing_end());
+        if self.options.stop == StopPolicy::CheckAll {
+            self.go_on_with(rest, progress, finder, observer)
+        } else {
+            self.end_of_lines(progress.stage, &progress.notes, observer)
         }
     }
 

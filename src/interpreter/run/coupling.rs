@@ -27,6 +27,8 @@ pub(in crate::interpreter) struct Couplings {
     vague: bool,
     /// Whether such groups may be in force.
     doubted: bool,
+    /// Number of groups of the channel parameters in force, whose axes are unknown.
+    unknown: u32,
     /// Axes that follow others by other commands, each with the one that it follows, by command.
     #[serde(default)]
     followers: BTreeMap<String, Vec<(AxisIndex, AxisIndex)>>,
@@ -142,8 +144,7 @@ impl Couplings {
 
     /// Whether axes may be coupled by a group whose axes are unknown.
     fn is_doubted(&self) -> bool {
-        let mut names = self.enabled.values();
-        self.doubted || names.any(|name| self.groups.get(name).is_some_and(|group| group.unknown))
+        self.doubted || self.unknown > 0
     }
 
     /// Returns the number of defined groups.
@@ -297,6 +298,7 @@ impl Couplings {
         self.version = self.version.wrapping_add(1);
         if let Some(known) = self.groups.get_mut(group) {
             known.enabled = Some(turn);
+            self.unknown = self.unknown.saturating_add(u32::from(known.unknown));
             for &axis in &known.axes {
                 let times = self.holding.entry(axis).or_default();
                 *times = times.saturating_add(1);
@@ -320,6 +322,7 @@ impl Couplings {
             return (None, Vec::new());
         };
         self.version = self.version.wrapping_add(1);
+        self.unknown = self.unknown.saturating_sub(u32::from(known.unknown));
         self.enabled.remove(&turn);
         for axis in &known.axes {
             let times = self.holding.get(axis).copied().unwrap_or_default();
@@ -347,6 +350,7 @@ impl Couplings {
         }
         self.version = self.version.wrapping_add(1);
         self.doubted = false;
+        self.unknown = 0;
         self.enabled.clear();
         self.holding.clear();
         for group in self.groups.values_mut() {

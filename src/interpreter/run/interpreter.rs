@@ -346,6 +346,15 @@ impl Interpreter {
         self.axis_named(char::from(letter).encode_utf8(&mut name))
     }
 
+    /// The axis that a name stands for at the moment, if that is known.
+    pub(in crate::interpreter) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
+        match self.state.control.channel_axes.meaning(name) {
+            None => self.machine.find(name),
+            Some(AxisNameMeaning::Axis(axis)) => Some(axis),
+            Some(AxisNameMeaning::Released(_) | AxisNameMeaning::Unknown) => None,
+        }
+    }
+
     /// An axis by its name.
     pub(in crate::interpreter) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
         if let Some(meaning) = self.state.control.channel_axes.meaning(name) {

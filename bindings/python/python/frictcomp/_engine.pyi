@@ -277,7 +277,7 @@ class Timeline:
         """What was accepted and passed over, and how often."""
     @property
     def is_assumed(self) -> bool:
-        """Whether the states rest on an assumption about what only the machine knows (FC902)."""
+        """Whether the states rest on an assumption (FC210, FC325, FC902)."""
     def raise_for_errors(self) -> None:
         """Raises ``Error`` where there is a message of severity error."""
     def svg(self, program: int = 1) -> str:

@@ -365,7 +365,7 @@ fn circles_count_with_what_was_driven() {
             rows(&|at| at % 4 == 0),
             "not used: a sample every 4.0 ms does not show what a reversal does",
         ),
-        (other.clone(), "not used: it is `b.csv` once more"),
+        (other.clone(), "not used: it is a copy of `b.csv`"),
         (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
         (worse, "not used: its turns are not alike: at "),
         (

@@ -261,8 +261,8 @@ fn row_of(name: &str) -> Option<(&'static str, Touches)> {
 }
 
 /// Words that go on the name of a `#` command or stand behind its bracket, `#MSG SAVE EXCLUSIVE […]`,
-/// `#SET AX […] FAST` (PM, chapters of the commands).
-const FURTHER_WORDS: [&str; 62] = [
+/// `#SET AX […] FAST` (vscode-isg-cnc; PM, chapters of the commands).
+const FURTHER_WORDS: [&str; 54] = [
     "ABS",
     "ACK",
     "ACT",
@@ -270,12 +270,10 @@ const FURTHER_WORDS: [&str; 62] = [
     "ADD",
     "AKIMA",
     "ALL",
-    "AUTO",
     "BEGIN",
     "BSPLINE",
     "CLEAR",
     "CONTINUE",
-    "CTRL",
     "DEF",
     "DEFAULT",
     "DEL",
@@ -288,7 +286,6 @@ const FURTHER_WORDS: [&str; 62] = [
     "EXCLUSIVE",
     "FAST",
     "FEED",
-    "FREEZE",
     "GET",
     "HMI",
     "IDX",
@@ -308,9 +305,7 @@ const FURTHER_WORDS: [&str; 62] = [
     "PCS",
     "PROFILE",
     "READ",
-    "REL",
     "REMOVE",
-    "RESET",
     "ROT",
     "SAVE",
     "SELECT",
@@ -318,13 +313,10 @@ const FURTHER_WORDS: [&str; 62] = [
     "START",
     "STOP",
     "SYN",
-    "SYNC",
     "TOOL",
     "TYPE",
-    "UPDATE",
     "WAIT",
     "WAXIS",
-    "WRITE",
 ];
 
 /// Commands that take coordinates without a bracket, `#PSET X10 Y20`.

@@ -184,7 +184,7 @@ impl PyTimeline {
         self.recorded.opaque.clone()
     }
 
-    /// Whether the states rest on an assumption about what only the machine knows (FC210, FC325, FC902).
+    /// Whether the states rest on an assumption (FC210, FC325, FC902).
     #[getter]
     fn is_assumed(&self) -> bool {
         self.recorded.is_assumed

@@ -5,7 +5,7 @@ return {
   filetypes = { "isg-cnc", "isg-list", "toml" },
   root_markers = { "frictcomp.toml", ".git" },
   init_options = {
-    -- Nobody else offers these in Neovim.
+    -- No other extension offers these in Neovim.
     isgExtension = false,
     inlayHints = { enable = true },
     codeLens = { enable = true },

@@ -1,4 +1,4 @@
-//! A check of a program whose safe fixes are applied.
+//! Checks a program and applies the safe fixes.
 //!
 //! `cargo run --example check_and_fix`
 
@@ -34,7 +34,7 @@ fn main() {
     }
     let fixed = Fixed::new(&program, safe);
     say(&fixed.text);
-    // That `FRICT` is meant is a guess, which somebody has to look at.
+    // `FRICT` is only a guess, which the user has to review.
     assert!(fixed.text.starts_with("N10 X[COMP OFF FRICT]"));
     assert!(fixed.text.contains("FRIKT"));
 }

@@ -1,4 +1,4 @@
-//! A host with an interpreter of its own hands only axis brackets to frictcomp.
+//! A host with its own interpreter passes only axis brackets to frictcomp.
 //!
 //! `cargo run --example embed_slice`
 

@@ -1,4 +1,4 @@
-//! Two programs in one session of the control, with a sink of one's own.
+//! Two programs in one session of the control, with a custom sink.
 //!
 //! `cargo run --example session_sink`
 
@@ -9,7 +9,7 @@ use frictcomp::session::{NoFiles, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-/// Gathers what changes, as `file:line axis: from → to`.
+/// Collects the changes, as `file:line axis: from → to`.
 #[derive(Default)]
 struct Changes(Vec<String>);
 

@@ -1,9 +1,9 @@
-//! The documents that tools show of the rules, the words and the parameters.
+//! The documents about rules, words and parameters that tools show.
 
-/// The rules that the library follows, a line each: `- **R1.24** …`.
+/// The rules that the library follows, one per line: `- **R1.24** …`.
 pub const RULES: &str = include_str!("../docs/rules.md");
 
-/// The words of the field, a section each; its title names them in backquotes.
+/// The technical words, one section each; its title names them in backquotes.
 pub const WORDS: &str = include_str!("../docs/words.md");
 
 /// A parameter of the lists that has a page.

@@ -8,8 +8,8 @@ use crate::session::{Finder, Findings, NoFiles, Program, Session, SessionOptions
 use crate::text::SourceFile;
 use crate::timeline::Sink;
 
-/// Runs a program from the start of the control, which gives its records to `sink`, and returns the
-/// session with the state that the program leaves.
+/// Runs a program from the start of the control, passes its records to `sink`, and returns the session with the state
+/// that the program leaves.
 ///
 /// ```
 /// use frictcomp::comp::Kind;
@@ -29,8 +29,8 @@ pub fn run(program: SourceFile, machine: Machine, sink: &mut dyn Sink) -> Sessio
     run_in(session, program, &mut NoFiles, sink)
 }
 
-/// Runs a program from the start of the control and returns every message about it, each once, in the
-/// order of the text. A failing command is passed over, so that the rest of the program is seen.
+/// Runs a program from the start of the control and returns every message about it once, in text order. A failing
+/// command is passed over, so that the rest of the program is checked.
 ///
 /// ```
 /// use frictcomp::machine::Machine;
@@ -57,7 +57,7 @@ pub fn check(
     findings
 }
 
-/// Runs one program in a session, from its begin to its summary.
+/// Runs one program in a session, from the session record to the summary.
 fn run_in(
     mut session: Session,
     program: SourceFile,

@@ -1,12 +1,12 @@
 //! Dry runs of ISG and TwinCAT CNC programs with an eye on friction compensation.
 //!
-//! A program switches friction compensation per axis with `X[COMP ON FRICT]`, and the state
-//! outlives the program. This crate executes programs without a machine and says for every block
-//! what it changed and which axis has friction compensation active after it.
+//! A program switches friction compensation per axis with `X[COMP ON FRICT]`, and the state outlives the program. This
+//! crate executes programs without a machine and reports for every block what it changed and which axes have friction
+//! compensation active after it.
 //!
 //! # COMP commands alone
 //!
-//! A host with an interpreter of its own hands over the COMP commands that it meets, and gets the
+//! A host with its own interpreter passes on the COMP commands that it meets, and gets the
 //! changes or the control's own error:
 //!
 //! ```
@@ -27,9 +27,8 @@
 //!
 //! # The messages about a program
 //!
-//! [`check`] executes a text as a program. What to do about a message is data, so that a host offers
-//! it in its own way: [`Advice`](diagnostic::Advice) in words, a [`Fix`](diagnostic::Fix) as a change
-//! of the text.
+//! [`check`] executes a text as a program. The remedy for a message is data, so that a host can offer it in its own
+//! way: [`Advice`](diagnostic::Advice) in words, a [`Fix`](diagnostic::Fix) as a change to the text.
 //!
 //! ```
 //! use frictcomp::session::{NoFiles, SessionOptions};
@@ -47,8 +46,8 @@
 //!
 //! # Programs one after the other
 //!
-//! A [`Session`] keeps the state from program to program and gives the [records](timeline) of what
-//! happens to a [`Sink`](timeline::Sink), a closure for instance:
+//! A [`Session`] keeps the state from program to program and passes the [records](timeline) of what happens to a
+//! [`Sink`](timeline::Sink), for example a closure:
 //!
 //! ```
 //! use std::ops::ControlFlow;
@@ -76,12 +75,11 @@
 //! [`interpreter::Interpreter`] runs a program block by block, and can be stopped, saved and resumed.
 //! A [`Machine`] comes from the control's lists or from `frictcomp.toml`.
 //!
-//! The library opens no file, prints nothing and reads neither clock nor environment: texts are
-//! handed to it. What uses it is in packages of their own: `frictcomp-physics` turns the records of a
-//! session into commanded traces and currents and simulates circular tests, `frictcomp-recordings`
-//! reads recorded traces, `frictcomp-report` has the formats and pictures, `frictcomp-host` touches
-//! files and threads, and `frictcomp-cli` is the command. What the feature `unstable` shows may change
-//! with every version.
+//! The library opens no file, prints nothing and reads neither clock nor environment: texts are passed to it. Its users
+//! are separate packages: `frictcomp-physics` turns the records of a session into commanded traces and currents and
+//! simulates circular tests, `frictcomp-recordings` reads recorded traces, `frictcomp-report` has the formats and
+//! pictures, `frictcomp-host` touches files and threads, and `frictcomp-cli` is the command. Items that the feature
+//! `unstable` exposes may change with every version.
 
 #[macro_use]
 mod words;

@@ -1,4 +1,4 @@
-//! Enums whose values have a word each.
+//! Enums with a word for each value.
 
 /// Declares an enum with a word for each value: `ALL`, `as_str` and `Display`.
 #[doc(hidden)]

@@ -1,4 +1,4 @@
-//! The direction of imports, and what the rooms must not know.
+//! The direction of imports, and the words that are forbidden in rooms.
 
 #[path = "architecture/circles.rs"]
 mod circles;
@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each room may import of the other rooms of its package. Rooms stand in the order of the data; an
-/// import never goes down. What one package may use of another is in its `Cargo.toml`.
+/// The rooms that each room of a package may import from. Rooms are listed in the order of the data; an import never
+/// goes down. The packages that a package may use are in its `Cargo.toml`.
 const ROOMS: [(&str, &[&str]); 27] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
@@ -114,7 +114,7 @@ const ROOMS: [(&str, &[&str]); 27] = [
     ("evidence", &[]),
 ];
 
-/// A package: its folder, and the one room that it is where it has no rooms.
+/// A package: its folder, and the name of its single room if it has no rooms.
 const PACKAGES: [(&str, Option<&str>); 8] = [
     (".", None),
     ("crates/physics", None),
@@ -129,22 +129,22 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 /// Packages that touch no file, no terminal and no environment.
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
-/// A file above this many lines is split.
+/// A file with more lines than this is split.
 const MAX_LINES: usize = 600;
 
-/// A source file: its package, its room, its path from there on, its text.
+/// A source file: its package, its room, its path inside the room, its text.
 struct File {
     package: &'static str,
     room: String,
-    /// Whether the package is the room.
+    /// Whether the whole package is the room.
     is_whole: bool,
-    /// The path with the room in front: `motion/plan.rs`, `report/csv.rs`.
+    /// The path beginning with the room: `motion/plan.rs`, `report/csv.rs`.
     path: String,
     text: String,
 }
 
 impl File {
-    /// The path from the root of the repository.
+    /// Returns the path from the root of the repository.
     fn shown(&self) -> String {
         let below = match self.path.split_once('/') {
             Some((_, below)) if self.is_whole => below,
@@ -161,7 +161,7 @@ fn sources() -> Vec<File> {
         .collect()
 }
 
-/// The sources of a package.
+/// Returns the sources of a package.
 fn sources_of(package: &'static str, whole: Option<&str>) -> Vec<File> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join(package)
@@ -199,8 +199,8 @@ fn sources_of(package: &'static str, whole: Option<&str>) -> Vec<File> {
     files.collect()
 }
 
-/// The lines of code with their numbers: no comments, and nothing after the first
-/// `#[cfg(test)]`, by which files of this crate end.
+/// Returns the lines of code with their numbers, without comments and without everything after the first
+/// `#[cfg(test)]`, with which the files of this crate end.
 fn code(file: &File) -> impl Iterator<Item = (usize, &str)> {
     let all_tests = file.path.contains("/tests/");
     file.text
@@ -210,7 +210,7 @@ fn code(file: &File) -> impl Iterator<Item = (usize, &str)> {
         .map(|(number, line)| (number + 1, line.split("//").next().unwrap_or_default()))
 }
 
-/// The rooms that a line of code names after `crate::`.
+/// Returns the rooms that a line of code names after `crate::`.
 fn named_rooms(line: &str) -> Vec<&str> {
     line.match_indices("crate::")
         .filter_map(|(at, found)| {
@@ -222,7 +222,7 @@ fn named_rooms(line: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Complains about every line of code in which a forbidden word stands.
+/// Fails for every line of code that contains a forbidden word.
 fn assert_absent(words: &[&str], concerned: impl Fn(&File) -> bool) {
     let mut found = Vec::new();
     for file in sources().iter().filter(|file| concerned(file)) {
@@ -328,7 +328,7 @@ fn a_host_prints_nothing_and_knows_no_option() {
 
 #[test]
 fn the_library_names_no_option() {
-    // What to do is data; the words of the command line are in `report/wording.rs` and in `cli`.
+    // Advice is data; the words of the command line are in `report/wording.rs` and in `cli`.
     let mut found = Vec::new();
     for file in sources() {
         if ["cli", "report"].contains(&file.room.as_str()) {
@@ -363,7 +363,7 @@ fn files_stay_short() {
 
 #[test]
 fn a_type_name_means_one_thing() {
-    // A package defines a name once, and none that is public in another package.
+    // A package defines a name only once, and no name that is public in another package.
     let mut definitions: BTreeMap<String, Vec<(&str, String, bool)>> = BTreeMap::new();
     let bindings = ["bindings/c", "bindings/python", "bindings/web"];
     let bindings = bindings.map(|folder| sources_of(folder, Some("binding")));
@@ -381,7 +381,7 @@ fn a_type_name_means_one_thing() {
     let mut found = Vec::new();
     for (name, mut places) in definitions {
         places.sort();
-        // One thing for different systems.
+        // The same item for different systems.
         places.dedup_by(|one, other| one.1 == other.1);
         let is_public = places.iter().any(|(_, _, is_public)| *is_public);
         let is_twice = places.windows(2).any(|pair| pair[0].0 == pair[1].0);
@@ -393,7 +393,7 @@ fn a_type_name_means_one_thing() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// The type that a line at the margin defines, and whether it is public.
+/// Returns the type that an unindented line defines, and whether it is public.
 fn defined_type(line: &str) -> Option<(&str, bool)> {
     let rest = line.strip_prefix("pub ").unwrap_or(line);
     let is_public = rest.len() < line.len();

@@ -1,4 +1,4 @@
-//! What the documents of the bindings promise is what the bindings have; their own tests run them.
+//! The bindings have everything that their documents promise; their own tests run them.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +12,7 @@ fn read(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The folders of all packages.
+/// Returns the folders of all packages.
 fn packages() -> Vec<String> {
     let mut folders = vec![".".to_owned()];
     for parent in ["crates", "bindings"] {
@@ -24,7 +24,7 @@ fn packages() -> Vec<String> {
     folders
 }
 
-/// The functions that a text names.
+/// Returns the functions that a text names.
 fn functions(text: &str) -> BTreeSet<&str> {
     let words = text.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
     words
@@ -46,7 +46,7 @@ fn no_panic_crosses_the_border_to_c() {
     // R13.5
     let library = read("bindings/c/src/lib.rs");
     assert!(library.contains("#[cfg(panic = \"abort\")]\ncompile_error!"));
-    // One file alone touches pointers.
+    // Only one file uses pointers.
     assert!(read("bindings/c/Cargo.toml").contains("unsafe_code = \"deny\""));
     for file in ["lib", "machine", "compensation", "failure"] {
         let source = read(&format!("bindings/c/src/{file}.rs"));
@@ -54,7 +54,7 @@ fn no_panic_crosses_the_border_to_c() {
     }
 }
 
-/// The names in the first column of the first table after a heading.
+/// Returns the names in the first column of the first table after a heading.
 fn first_column<'a>(manual: &'a str, heading: &str) -> Vec<&'a str> {
     let (_, part) = manual.split_once(heading).expect("the heading");
     let rows = part.lines().skip_while(|line| !line.starts_with("| `"));
@@ -79,7 +79,7 @@ fn the_python_manual_has_the_columns_of_the_timeline() {
     let mut promised = first_column(&manual, "## The columns of a timeline");
     promised.retain(|name| *name != "level"); // As in NDJSON.
     assert_eq!(promised, header);
-    // The columns are made with the same names.
+    // The columns are created with the same names.
     let rows = read("bindings/python/src/timeline/rows.rs");
     for name in promised.iter().filter(|name| !name.starts_with('X')) {
         assert!(rows.contains(&format!("\"{name}\"")), "{name}");
@@ -109,7 +109,7 @@ fn the_wheel_has_the_version_of_the_command() {
     assert!(manifest.contains(&version));
 }
 
-/// The script of a step of the action, by the name of the step.
+/// Returns the script of a step of the action, by the name of the step.
 fn step(action: &str, name: &str) -> String {
     let (_, step) = action.split_once(&format!("- name: {name}\n")).expect(name);
     let (_, script) = step.split_once("run: |\n").expect("a script");
@@ -171,13 +171,13 @@ fn the_action_takes_every_line_of_its_inputs() {
         said.ends_with("<--quiet><--skip><none><--config><my machine.toml><--enable><X,Y><--><.>"),
         "{said}"
     );
-    // Nothing to check is no all-clear.
+    // An empty list of files must not count as success.
     let (status, said) = arguments_of(&check, &[("PATHS", " \n ")]);
     assert!(status != Some(0) && !said.contains("<check>"), "{said}");
     let golden = step(&action, "Compare with what was agreed");
     let (_, said) = arguments_of(&golden, &[("GOLDEN", "a\nb c\n")]);
     assert_eq!(said, "<golden><--><a><b><c>");
-    // A check that fails does not hide the comparison.
+    // A failed check does not prevent the comparison.
     assert!(action.contains("if: ${{ !cancelled() && steps.install.outcome == 'success' &&"));
 }
 
@@ -216,7 +216,8 @@ fn every_package_says_where_its_sources_are_and_can_be_published() {
             "{folder}"
         );
     }
-    // A version here would be looked for in the registry, where it is not before it is published.
+    // A version here would be looked up in the registry, where it does not exist before it is
+    // published.
     let (_, tests) = manifest
         .split_once("\n[dev-dependencies]\n")
         .expect("those of tests");

@@ -1,6 +1,5 @@
-//! Programs with conditions that only the machine knows, against runs with every answer given: a
-//! state that any of them reaches is never missing, and where the conditions are plain and asked once,
-//! no other is named.
+//! Compares programs whose conditions only the machine knows with runs for every answer: a state that any of them
+//! reaches is never missing, and if the conditions are plain and asked once, no other state is named.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -32,7 +31,7 @@ impl XorShift {
     }
 }
 
-/// What a program may contain.
+/// The permitted contents of a program.
 #[derive(Clone, Copy, PartialEq)]
 enum Sort {
     /// Conditions that are asked once and are plain.
@@ -45,7 +44,7 @@ struct Writer {
     random: XorShift,
     sort: Sort,
     text: String,
-    /// The numbers of answers of each variable of the machine.
+    /// The number of answers of each machine variable.
     asked: Vec<u64>,
     skips: bool,
     labels: u32,
@@ -59,7 +58,7 @@ impl Writer {
         let _ = writeln!(self.text, "{line}");
     }
 
-    /// A variable of the machine with so many values, 0 and up.
+    /// Creates a machine variable with this many values, 0 and up.
     fn variable(&mut self, values: u64) -> String {
         if self.sort == Sort::Any && !self.asked.is_empty() && self.random.roll(3) == 0 {
             let at = self.random.pick(self.asked.len());
@@ -248,7 +247,7 @@ impl Writer {
         }
     }
 
-    /// A local subprogram, called once.
+    /// Writes a local subprogram, called once.
     fn call(&mut self, depth: u32) {
         self.calls += 1;
         let name = format!("SUB{}", self.calls);
@@ -309,7 +308,7 @@ fn program(seed: u64, sort: Sort) -> Program {
     }
 }
 
-/// The state of each axis at the end; `None` where the program does not come to an end.
+/// Returns the state of each axis at the end; `None` if the program does not end.
 fn run(text: &str, given: &[u64], skip: Option<SkipLevels>) -> Option<Vec<State>> {
     let machine = Machine::enabled(AXES);
     let compensation = machine.compensation();
@@ -342,13 +341,13 @@ fn run(text: &str, given: &[u64], skip: Option<SkipLevels>) -> Option<Vec<State>
     assert!(said.is_empty(), "{text}\n{said:?}");
     match outcome {
         RunOutcome::Ended(EndedBy::Budget) if skip.is_some() => None,
-        // Some way never ends, so nothing is said of the end.
+        // Some way never ends, so nothing is reported about the end.
         RunOutcome::Ended(EndedBy::Budget) => Some(vec![State::Unknown; AXES.len()]),
         _ => left,
     }
 }
 
-/// The states that runs with every answer given find.
+/// Returns the states found by runs with every answer.
 fn enumerated(program: &Program) -> Vec<BTreeSet<&'static str>> {
     let mut found = vec![BTreeSet::new(); AXES.len()];
     let count: u64 = program.asked.iter().product();
@@ -405,13 +404,13 @@ fn compare(seed: u64, sort: Sort) {
     }
 }
 
-/// How many programs are compared: 400, or what `BOTH_SIDES_PROGRAMS` says.
+/// Returns the number of programs that are compared: 400, or `BOTH_SIDES_PROGRAMS`.
 fn count() -> u64 {
     let given = std::env::var("BOTH_SIDES_PROGRAMS").ok();
     given.and_then(|it| it.parse().ok()).unwrap_or(400)
 }
 
-/// On every processor.
+/// Compares the programs on all processors.
 fn compare_all(sort: Sort) {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
     std::thread::scope(|scope| {
@@ -436,7 +435,7 @@ fn no_state_is_missing_that_a_run_with_values_finds() {
     compare_all(Sort::Any);
 }
 
-/// How many blocks of a program are executed, and on how many of its rows a branch is named.
+/// Returns the number of executed blocks of a program, and the number of rows that name a branch.
 fn rows(text: &str, options: Options) -> (u64, usize) {
     let machine = Machine::enabled(AXES);
     let compensation = machine.compensation();

@@ -1,4 +1,4 @@
-//! Budgets that users can wait for (R9.91): what loops and calls repeat is charged with what it takes.
+//! Budgets that users can wait for (R9.91): repetitions by loops and calls are charged with their cost.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use frictcomp::session::{
 };
 use frictcomp::text::SourceFile;
 
-/// What a check came to.
+/// The result of a check.
 struct Checked {
     by: EndedBy,
     blocks: u64,
@@ -28,7 +28,7 @@ fn run_in(mut session: Session, text: &str) -> Checked {
     let program = Program::Whole(source);
     let flow = session.program("a.nc", program, &mut NoFiles, &mut findings);
     let ControlFlow::Continue(by) = flow else {
-        panic!("nobody stops it");
+        panic!("no sink stops it");
     };
     let said = findings.diagnostics();
     Checked {
@@ -60,7 +60,7 @@ fn what_is_executed_once_is_never_cut_off() {
 
 #[test]
 fn a_loop_of_three_million_blocks_is_run_to_its_end() {
-    // R9.91: a hundredth of it within a hundredth of the bound.
+    // R9.91: a hundredth of the budget within a hundredth of the bound.
     let limits = Limits::brief();
     let limits = limits.with_repeats(limits.repeats / 100);
     let text = "$FOR P1=1,10000,1\nG1 X1 Y2 F100\nX2 Y[COMP ON FRICT]\n$ENDFOR\nM30";
@@ -122,7 +122,7 @@ fn the_first_call_that_is_nested_too_deeply_ends_the_run() {
     assert_eq!(on.blocks, 5000);
 }
 
-/// Programs that go on, whatever it is that they repeat.
+/// Programs that keep running, whatever they repeat.
 #[cfg(unix)]
 mod measured {
     use std::time::Duration;
@@ -131,10 +131,10 @@ mod measured {
 
     use super::*;
 
-    /// How much longer one takes than a plain loop with as many units, at most.
+    /// The most by which one takes longer than a plain loop with as many units.
     const DEARER: f64 = 5.0;
 
-    /// A small part of the units that are granted where nobody waits.
+    /// A small part of the units granted if no user is waiting.
     const UNITS: u64 = 6_000_000;
 
     fn looped(body: &str) -> String {
@@ -219,7 +219,7 @@ mod measured {
         ]
     }
 
-    /// The processor time of a check, and whether a budget ended it.
+    /// Returns the processor time of a check, and whether a budget ended it.
     fn taken(text: &str, units: u64) -> (Duration, EndedBy) {
         let now = || {
             let now = clock_gettime(ClockId::ThreadCPUTime);

@@ -1,4 +1,4 @@
-//! The extension for VS Code as far as its manifest says it, and the settings of other editors.
+//! The extension for VS Code as described by its manifest, and the settings of other editors.
 
 use std::fs;
 use std::path::Path;
@@ -48,7 +48,8 @@ fn the_extension_stands_beside_that_of_isg() {
 
 #[test]
 fn the_extension_and_the_server_have_commands_of_their_own() {
-    // R12.8: VS Code registers those of the server, and refuses a name that is registered already.
+    // R12.8: VS Code registers the server's commands, and refuses a name that is already
+    // registered.
     let manifest = manifest();
     let commands = manifest["contributes"]["commands"]
         .as_array()
@@ -65,7 +66,7 @@ fn the_extension_and_the_server_have_commands_of_their_own() {
 
 #[test]
 fn the_extension_is_quiet_and_can_be_published() {
-    // R12.13: nothing of a folder starts it, and each field that the Marketplace shows is there.
+    // R12.13: nothing in a folder starts it, and it has each field that the Marketplace shows.
     let manifest = manifest();
     let events = manifest["activationEvents"].as_array().expect("events");
     let names = events.iter().filter_map(Value::as_str);

@@ -1,5 +1,4 @@
-//! Fixes: what they change, that they stand where their text is, and that safe ones change nothing
-//! else.
+//! Fixes: their changes, their places in the text, and that safe ones change nothing else.
 
 mod support;
 
@@ -20,7 +19,7 @@ use frictcomp::timeline::{Record, Sink};
 
 use support::MACHINE;
 
-/// What a run says, and the state of friction compensation after each block.
+/// The messages of a run, and the state of friction compensation after each block.
 #[derive(Default)]
 struct Run {
     said: Vec<Diagnostic>,
@@ -65,7 +64,7 @@ fn run_on(machine: Machine, programs: &[(&str, &str)]) -> Run {
     run
 }
 
-/// The text after each fix of a code alone, and whether the fix is safe.
+/// Returns the text after each single fix of a code, and whether the fix is safe.
 fn mended(text: &str, code: &str) -> Vec<(String, Safety)> {
     let source = SourceFile::new("a.nc", text);
     let said = run(&[("a.nc", text)]).said;
@@ -364,7 +363,7 @@ impl ListFiles for Lists<'_> {
 const VALUES: &str = "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
     frict_comp.table[0].in 0\nfrict_comp.table[0].out 12\nEnde\n";
 
-/// The machine of a start-up list with one axis and a list of defaults.
+/// Returns the machine of a start-up list with one axis and a list of defaults.
 fn machine_of(axis: &str, default: &str) -> Configuration {
     let startup = "default_achs_mds d.lis\nachs_mds[0] x.lis\nachs_kw[0] v.lis\nEnde\n";
     let lists = vec![("d.lis", default), ("x.lis", axis), ("v.lis", VALUES)];
@@ -373,7 +372,7 @@ fn machine_of(axis: &str, default: &str) -> Configuration {
 
 #[test]
 fn a_list_sets_what_friction_compensation_needs() {
-    // R12.5: P-AXIS-00522 in the list of the axis, with its line ends and columns.
+    // R12.5: P-AXIS-00522 in the axis list, with its line ends and columns.
     let head = "kopf.achs_nr          1\r\nkopf.log_achs_name    X\r\nkenngr.achs_typ 1\r\n";
     let cases = [
         (
@@ -397,7 +396,7 @@ fn a_list_sets_what_friction_compensation_needs() {
             "kopf.x                2 (two)\r\nlr_param.frict_comp   1\r\nEnde\r\n",
         ),
         ("a 2", "", "a 2\r\nlr_param.frict_comp 1"),
-        // The list of defaults speaks of all axes and stays.
+        // The list of defaults concerns all axes and is not changed.
         (
             "Ende",
             "lr_param.frict_comp 0\n",
@@ -447,7 +446,7 @@ fn the_configuration_sets_what_it_has_set_to_false() {
     let fixes = &said.first().expect("a refusal").fixes;
     let mended = Fixed::new(&SourceFile::new("frictcomp.toml", text), fixes);
     assert_eq!(mended.text, text.replace("false", "true"));
-    // Nothing of the axis stands in a list.
+    // No list has an entry for the axis.
     let machine = Machine::from_toml("[[axis]]\nname = \"X\"\n").expect("a machine");
     let said = run_on(machine, &[("a.nc", "X[COMP ON FRICT]\nM30")]).said;
     assert!(said.first().expect("a refusal").fixes.is_empty());
@@ -455,7 +454,7 @@ fn the_configuration_sets_what_it_has_set_to_false() {
 
 #[test]
 fn the_configuration_gets_an_axis_that_a_program_names() {
-    // R12.5 R2.20: in the way in which it lists the others, with its comments and line ends.
+    // R12.5 R2.20: in the form in which the file lists the others, with its comments and line ends.
     let cases = [
         (
             "[[axis]]\nname = \"X\"",
@@ -465,7 +464,7 @@ fn the_configuration_gets_an_axis_that_a_program_names() {
             "# mill\r\n[[axis]]\r\nname = \"X\" # first\r\n\r\n# what is checked\r\n[lint]\r\nFC402 = \"off\"\r\n",
             "# mill\r\n[[axis]]\r\nname = \"X\" # first\r\n\r\n[[axis]]\r\nname = \"C\"\r\n\r\n# what is checked\r\n[lint]\r\nFC402 = \"off\"\r\n",
         ),
-        // What belongs to the last axis stays with it, wherever it stands.
+        // Text that belongs to the last axis stays with it, wherever it is.
         (
             "[[axis]]\nname = \"X\"\n[axis.value]\nmode = 3\ntable = [\n  [0, 1], # slow\n  [9, 1],\n]\n# max_points = 20\n# not yet\n\n[lint]\n",
             "[[axis]]\nname = \"X\"\n[axis.value]\nmode = 3\ntable = [\n  [0, 1], # slow\n  [9, 1],\n]\n# max_points = 20\n# not yet\n\n[[axis]]\nname = \"C\"\n\n[lint]\n",
@@ -531,7 +530,7 @@ fn the_configuration_gets_an_axis_that_a_program_names() {
 
 #[test]
 fn an_axis_is_added_only_where_the_configuration_lists_them() {
-    // R2.20: the first axis of a list would end what is assumed without one.
+    // R2.20: the first listed axis would end the assumption made without a list.
     let fixes = |machine: Machine, program: &str| {
         let said = run_on(machine, &[("a.nc", program)]).said;
         let said = said.into_iter().find(|it| it.code == Code::PErr21947);
@@ -541,7 +540,7 @@ fn an_axis_is_added_only_where_the_configuration_lists_them() {
         let machine = Machine::from_toml(text).expect("a machine");
         assert_eq!(fixes(machine, "X1[COMP ON FRICT]\nM30"), [], "{text}");
     }
-    // The lists of the control know their axes: the control stops there.
+    // The lists of the control name all axes: the control stops there.
     let lists = machine_of("kopf.achs_nr 1\nkopf.log_achs_name X\nEnde\n", "Ende\n");
     assert_eq!(fixes(lists.machine, "C[COMP ON FRICT]\nM30"), []);
     let startup = "default_achs_mds d.lis\nachs_mds[0] x.lis\nEnde\n";
@@ -552,7 +551,7 @@ fn an_axis_is_added_only_where_the_configuration_lists_them() {
     let configured = Configuration::from_toml(file, &mut Lists(lists)).expect("a machine");
     assert_eq!(configured.machine.axes.len(), 1);
     assert_eq!(fixes(configured.machine, "C[COMP ON FRICT]\nM30"), []);
-    // What is probably meant comes first.
+    // The probable intention comes first.
     let machine = Machine::from_toml("[[axis]]\nname = \"X1\"\n").expect("a machine");
     let texts: Vec<_> = fixes(machine, "x1[COMP ON FRICT]\nM30")
         .into_iter()
@@ -567,7 +566,7 @@ fn an_axis_is_added_only_where_the_configuration_lists_them() {
     assert_eq!(texts, ["X1", "\n\n[[axis]]\nname = \"X2\""]);
 }
 
-/// How often each code is said.
+/// Counts how often each code is reported.
 fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
     let mut counts = BTreeMap::new();
     for diagnostic in said {
@@ -611,9 +610,9 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
                 );
                 for (code, times) in &is {
                     let more = *times > was.get(code).copied().unwrap_or_default();
-                    // A command that works now may leave a state that nothing brings start_up, and a
-                    // comment that is read now may silence nothing. Nobody has said yet whether an
-                    // axis that was added has friction compensation.
+                    // A command that now works may leave a state that nothing restores to its start-up state, and a
+                    // comment that is now read may silence nothing. It is not yet specified whether an added axis has
+                    // friction compensation.
                     let follows = fix.safety == Safety::Unsafe
                         && match code {
                             Code::Fc401 | Code::Fc490 => in_program,
@@ -641,7 +640,7 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
     assert_eq!(codes, expected);
 }
 
-/// Lists in a folder, one of them with another text.
+/// Lists in a folder, one of them with a different text.
 struct Folder<'a> {
     root: &'a Path,
     changed: Option<(&'a str, &'a str)>,
@@ -668,7 +667,7 @@ fn extension(name: &str) -> &str {
     name.rsplit('.').next().unwrap_or_default()
 }
 
-/// What is said about a list or a configuration with all that it names.
+/// Returns the messages about a list or a configuration with all files that it names.
 fn said_of(name: &str, mut files: Folder<'_>) -> Vec<Diagnostic> {
     let source = files.read(name).expect("a list");
     if extension(name) == "toml" {
@@ -703,7 +702,7 @@ fn every_fix_of_a_list_takes_its_message_away_and_brings_no_other() {
                 let after = said_of(&name, Folder::new(&root, Some((file, &mended.text))));
                 let (was, is) = (counted(&before), counted(&after));
                 assert!(is.get(&said.code) < was.get(&said.code), "{name}: {fix:?}");
-                // A configuration that is read now may say more.
+                // A configuration that is now read may raise further messages.
                 let follows =
                     |code: &Code| said.code == Code::Fc110 && code.severity() != Severity::Error;
                 let new = is

@@ -1,8 +1,8 @@
-//! Time and memory grow with the length of a program and no faster (R2.60, R2.85), shape by shape.
+//! Time and memory grow no faster than the length of a program (R2.60, R2.85), shape by shape.
 //!
-//! Time is nothing that a test can rely on, so what is compared are counts that are the same in
-//! every run: units of work, bytes that were allocated, and bytes that were held at a time, for a
-//! program and for one that is twice as long.
+//! A test cannot rely on time, so the tests compare counts that are the same in every run: units of
+//! work, bytes allocated, and bytes held at a time, for a program and for one that is twice as
+//! long.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -18,13 +18,13 @@ use frictcomp_host::read_axis;
 use frictcomp_recordings::identify::{IdentifyOptions, identify};
 use frictcomp_recordings::trace::ChannelSelection;
 
-/// How much more a program of twice the length may need: the exponent 1.2.
+/// The factor that a program of twice the length may need: the exponent 1.2.
 const TWICE: f64 = 2.3;
 
-/// Work, and bytes, that a run may need however short its program is.
+/// Work and bytes that a run may need however short its program is.
 const ANYWAY: [u64; 2] = [2_000, 50_000];
 
-/// The lines of a program, one for each number.
+/// Returns the lines of a program, one for each number.
 fn each(count: usize, line: impl Fn(usize) -> String) -> String {
     (0..count).fold(String::new(), |mut text, number| {
         let _ = writeln!(text, "{}", line(number));
@@ -32,13 +32,13 @@ fn each(count: usize, line: impl Fn(usize) -> String) -> String {
     })
 }
 
-/// A list of values.
+/// Returns a list of values.
 fn values(count: usize, separator: &str) -> String {
     let values: Vec<String> = (0..count).map(|value| value.to_string()).collect();
     values.join(separator)
 }
 
-/// Subprograms and calls of some.
+/// Returns subprograms and calls of some of them.
 fn subprograms(count: usize, calls: &str) -> String {
     let programs = each(count, |n| format!("%L S{n}\nX{n}\nM17"));
     format!("{programs}%MAIN\n{calls}M30\n")
@@ -46,7 +46,7 @@ fn subprograms(count: usize, calls: &str) -> String {
 
 type Shape = (&'static str, fn(usize) -> String, usize);
 
-/// What programs are made of, and how many of it a test needs to see how it grows.
+/// Program shapes, and the count that a test needs to see how they grow.
 #[rustfmt::skip]
 const SHAPES: &[Shape] = &[
     ("plain blocks", |n| each(n, |n| format!("N{n} G01 X{n} Y1 F500")), 1000),
@@ -114,7 +114,7 @@ const SHAPES: &[Shape] = &[
     ("the language of other controls", |n| each(n, |n| format!("CYCLE81({n},1,,2) ; IF R{n} > 2 GOTOF X")), 250),
 ];
 
-/// A program with what it calls, on a machine with so many axes.
+/// A program with the files that it calls, on a machine with a given number of axes.
 struct Case {
     text: String,
     files: BTreeMap<String, String>,
@@ -140,7 +140,7 @@ impl Case {
         self
     }
 
-    /// The program calls the file `called.nc` so many times.
+    /// Creates a program that calls the file `called.nc` this many times.
     fn calls(count: usize, called: String) -> Self {
         Self::new("L called.nc\n".repeat(count)).with_file("called.nc", called)
     }
@@ -148,7 +148,7 @@ impl Case {
 
 type CaseShape = (&'static str, fn(usize) -> Case, usize);
 
-/// What called files and the machine add.
+/// Shapes of called files and machines.
 #[rustfmt::skip]
 const CASES: &[CaseShape] = &[
     ("calls of a file with faults", |n| Case::calls(n, "$ENDIF\n".repeat(n) + "M17"), 100),
@@ -160,28 +160,28 @@ const CASES: &[CaseShape] = &[
 
 type ListShape = (&'static str, fn(usize) -> String, usize);
 
-/// What lists are made of, and the toml of a machine.
+/// Shapes of lists.
 #[rustfmt::skip]
 const LISTS: &[ListShape] = &[
     ("entries of an axis list", |n| each(n, |n| format!("kenngr.a{n} {n}")), 500),
     ("entries that are given twice", |n| each(n, |_| "lr_param.frict_comp 1".to_owned()), 500),
     ("points of a value list", |n| each(n, |n| format!("kw.frict.table[{n}].in {n}")), 500),
     ("values out of their range", |n| each(n, |_| "kopf.achs_nr -1".to_owned()), 500),
-    ("lines that are no entry", |n| "?\n".repeat(n), 500),
+    ("lines that are not entries", |n| "?\n".repeat(n), 500),
     ("lists that are missing", |n| each(n, |n| format!("achs_daten[{n}] a{n}.lis")), 250),
 ];
 
-/// What a run came to.
+/// The cost of a run.
 #[derive(Debug)]
 struct Cost {
     work: u64,
-    /// Units that the program and its executed blocks bring with them.
+    /// Units that the program and its executed blocks contribute.
     granted: u64,
     allocated: u64,
     held: u64,
 }
 
-/// Units of work that the program and its executed blocks bring with them.
+/// Units of work that the program and its executed blocks contribute.
 struct Granted(u64);
 
 impl Sink for Granted {
@@ -231,7 +231,7 @@ fn cost_within(case: &Case, limits: Limits) -> Cost {
     }
 }
 
-/// Reading a list does no work of a run.
+/// Returns the cost of reading a list, which needs no work of a run.
 fn list_cost(text: &str) -> Cost {
     let source = SourceFile::new("a.lis", text);
     let info = allocation_counter::measure(|| {
@@ -283,7 +283,7 @@ fn twice_the_program_needs_twice_the_time_and_memory() {
 
 type HostileProgram = (&'static str, fn() -> String);
 
-/// Programs that do far more than is written in them, until a budget ends them.
+/// Programs that do far more than their text suggests, until a budget ends them.
 #[rustfmt::skip]
 const HOSTILE: &[HostileProgram] = &[
     ("macros of macros", || format!("\"A0\"=\"1+1\"\n{}$FOR P1=1,99999,1\nP2=\"A7\"+P1\n$ENDFOR", each(7, |n| format!("\"A{}\"=\"\\\"A{n}\\\"+\\\"A{n}\\\"+\\\"A{n}\\\"\"", n + 1)))),
@@ -338,7 +338,7 @@ fn the_document_shows_every_shape() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
-/// A recording of ten channels as TwinCAT Scope exports it.
+/// Returns a recording of ten channels as exported by TwinCAT Scope.
 fn recording(rows: usize) -> String {
     let names: Vec<String> = (0..8).map(|at| format!("Unused{at}")).collect();
     let mut text = format!("Name\tv\ttorque\t{}\n\n", names.join("\t"));
@@ -355,7 +355,7 @@ fn recording(rows: usize) -> String {
 
 #[test]
 fn a_recording_takes_at_most_three_times_the_columns_that_are_used() {
-    // R6.1 R6.20: read from a file and identified, whatever else stands in it.
+    // R6.1 R6.20: read from a file and identified, whatever else the file contains.
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("friction.csv");
     for rows in [100_000, 200_000] {

@@ -1,9 +1,9 @@
-//! Growth is searched for, not listed (R9.90): what the language consists of is repeated within a line,
-//! within a continued block, over lines, over files and over list lines, and twice as much of it may
-//! take at most 2.2 times the processor time.
+//! Searches for growth instead of listing it (R9.90): the elements of the language are repeated within a line, within a
+//! continued block, over lines, over files and over list lines, and twice as many of them may take at most 2.2 times
+//! the processor time.
 //!
-//! Time is measured on the processor of the thread, and again where it grows too fast, so that other
-//! work on the machine fails nothing.
+//! The measured time is the processor time of the thread, and it is measured again if it grows too fast, so that other
+//! work on the machine does not cause a failure.
 
 #![cfg(unix)]
 

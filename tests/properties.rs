@@ -1,4 +1,4 @@
-//! What holds for any text: nothing panics, spans fit, and the hand-written path is the grammar's.
+//! Properties of any text: nothing panics, spans fit, and the fast path agrees with the grammar.
 
 use std::ops::ControlFlow;
 
@@ -11,7 +11,7 @@ use frictcomp::text::{SourceFile, Span, TextLines};
 use frictcomp::timeline::{Record, Sink};
 use proptest::prelude::*;
 
-/// A block as it came from its reader.
+/// A block as returned by its reader.
 #[derive(Debug, Clone, PartialEq)]
 struct Read {
     stretch: Stretch,
@@ -37,7 +37,7 @@ fn blocks(text: &str, fast_path: FastPath) -> Vec<Read> {
     found
 }
 
-/// What a mutation puts into a line, or what a line is made of.
+/// Generates a piece that a mutation inserts into a line, or that a line is made of.
 fn piece() -> impl Strategy<Value = String> {
     prop_oneof![
         4 => "[A-Z]-?[0-9]{0,4}(\\.[0-9]{0,4})?",
@@ -70,7 +70,7 @@ fn program() -> impl Strategy<Value = String> {
     })
 }
 
-/// Plain blocks, most of them with one character changed.
+/// Generates plain blocks, most of them with one character changed.
 fn plain() -> impl Strategy<Value = String> {
     let word = "[A-Z][+-]?[0-9]{1,5}(\\.[0-9]{0,4})?[ ]?";
     let change = (any::<prop::sample::Index>(), "[ -~\t]?");
@@ -82,7 +82,7 @@ fn plain() -> impl Strategy<Value = String> {
     })
 }
 
-/// Words that are plain, with blanks of any width between them.
+/// Generates plain words, with blanks of any width between them.
 fn spaced() -> impl Strategy<Value = String> {
     let word = "[A-KM-OQ-Z][+-]?([0-9]{1,20}(\\.[0-9]{0,4})?|\\.[0-9]{1,4})[ ]{1,2}";
     let word = prop_oneof![3 => word, 1 => "N[0-9]{1,5} "];
@@ -123,7 +123,7 @@ fn assert_spans(read: &Read) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The records as text, without what differs on purpose.
+/// The records as text, without intended differences.
 #[derive(Default)]
 struct Said(Vec<String>);
 
@@ -177,14 +177,14 @@ fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
     })
 }
 
-/// Whether the text keeps the program from running at all, which a stream finds out late.
+/// Whether the text prevents the program from running at all, which a stream detects late.
 fn is_refused(whole: &[String]) -> bool {
     whole
         .iter()
         .any(|said| said.starts_with("0 Error") || said.starts_with("0 Budget"))
 }
 
-/// What was said without the blanks at the end of source lines, which a stream does not keep.
+/// Returns the records without the blanks at the end of source lines, which a stream does not keep.
 fn trimmed(said: Vec<String>) -> Vec<String> {
     let trim = |part: &str| {
         let mut part = part;
@@ -240,7 +240,7 @@ proptest! {
         prop_assert_eq!(blocks(&line, FastPath::On), blocks(&line, FastPath::Off));
     }
 
-    // Only with blanks between its words a block is one token.
+    // Only with blanks between its words is a block one token.
     #[test]
     fn blanks_may_be_tabs(line in spaced()) {
         let tree = |text: &str| blocks(text, FastPath::Off).into_iter().map(|read| read.block);
@@ -276,7 +276,7 @@ proptest! {
     fn a_streamed_program_runs_as_a_whole_one(text in program()) {
         let refused = is_refused(&whole(&text, StopPolicy::FirstError));
         for stop in POLICIES {
-            // A check reads all of the text in any case.
+            // A check reads the whole text in any case.
             if !refused || stop == StopPolicy::CheckAll {
                 let whole = whole(&text, stop);
                 prop_assert_eq!(trimmed(streamed(&text, stop)), trimmed(whole));
@@ -340,7 +340,7 @@ fn an_observer_may_stop_at_any_block() {
 
 #[test]
 fn a_whole_program_says_what_a_streamed_one_says() {
-    // An error was said again at the end; notes stood in another order.
+    // An error was repeated at the end; notes were in another order.
     let texts = [
         "D\n",
         "M17\n",

@@ -1,5 +1,5 @@
-//! The bound on the steps in which a block is read (R12.16). It holds for all of a process, so the test has
-//! one of its own.
+//! The bound on the parsing steps of a block (R12.16). It applies to the whole process, so the test has its own
+//! process.
 
 use std::num::NonZeroUsize;
 

@@ -11,7 +11,7 @@ const AXES: &str = "[[axis]]\nname = \"X\"\nnumber = 1\nenable = true\n\
     [[axis]]\nname = \"Y\"\nnumber = 2\nfrict_comp = false\n\
     [[axis]]\nname = \"Z\"\nnumber = 3\nfrict_comp = true\n";
 
-/// What happens between two programs.
+/// The event between two programs.
 #[derive(Clone, Copy, PartialEq)]
 enum Between {
     Nothing,
@@ -19,7 +19,7 @@ enum Between {
     Restart,
 }
 
-/// What a session left and said.
+/// The final state and the messages of a session.
 struct Left {
     session: Session,
     codes: Vec<Code>,
@@ -65,7 +65,7 @@ fn one(reading: &str, program: &str) -> Left {
     play(machine(reading), &[program], Between::Nothing)
 }
 
-/// R1.28, R15.2: a reset keeps the state, or takes it back.
+/// R1.28, R15.2: a reset keeps the state, or reverts it.
 #[test]
 fn a_reset_follows_its_reading() {
     let off = ["X[COMP OFF FRICT]\nM30"];
@@ -87,7 +87,7 @@ fn an_endless_loop_ends_as_a_reset_does() {
     assert!(!back.codes.contains(&Code::Fc401), "{:?}", back.codes);
 }
 
-/// R1.29, R15.2: a restart sets the state by P-AXIS-00522, or keeps it; then nobody knows the first one.
+/// R1.29, R15.2: a restart sets the state by P-AXIS-00522, or keeps it; the first state is then unknown.
 #[test]
 fn a_restart_follows_its_reading() {
     let programs = ["X[COMP OFF FRICT]\nM30", "M30"];
@@ -104,7 +104,7 @@ fn a_restart_follows_its_reading() {
     );
 }
 
-/// R1.8, R1.25, R1.26, R15.2: what the control is read as refusing stops the program.
+/// R1.8, R1.25, R1.26, R15.2: a command that the selected reading refuses stops the program.
 #[test]
 fn a_command_that_is_read_as_refused_stops_the_program() {
     let cases = [
@@ -139,7 +139,7 @@ fn opposite_commands_follow_their_reading() {
     assert_eq!(one("\"R1.31\" = \"first\"", all).state("X"), State::Active);
 }
 
-/// R1.9, R1.36, R15.2: what counts for the monitor of P-AXIS-00465.
+/// R1.9, R1.36, R15.2: the motions that the monitor of P-AXIS-00465 checks.
 #[test]
 fn the_monitor_follows_its_readings() {
     let stops = |reading: &str, program: &str| {
@@ -172,7 +172,7 @@ fn manual_activation_follows_its_reading() {
     assert_eq!(state("\"R1.40\" = \"on\""), State::Active);
 }
 
-/// R1.57, R15.2: a command that stops the path makes no jump.
+/// R1.57, R15.2: a command that stops the path causes no jump.
 #[test]
 fn a_command_that_stops_the_path_makes_no_jump() {
     let program = "G90 G01 F1000 X0\nX10\nX[COMP OFF FRICT]\nX20\nX[COMP ON FRICT]\nM30";
@@ -197,7 +197,7 @@ fn an_exchanged_axis_follows_its_reading() {
     );
 }
 
-/// R2.92, R15.2: a write to the machine data leaves the state open, takes it back, or keeps it.
+/// R2.92, R15.2: a write to the machine data leaves the state open, reverts it, or keeps it.
 #[test]
 fn machine_data_follow_their_reading() {
     let program = "X[COMP OFF FRICT]\n#MACHINE DATA [AX=X P-AXIS-00522=1]\nM30";
@@ -226,14 +226,14 @@ fn skip_levels_follow_their_reading() {
     );
 }
 
-/// R2.96: the dry run begins at the first block; what a block search passes is one of the questions.
+/// R2.96: the dry run begins at the first block; the effect of a block search is one of the questions.
 #[test]
 fn block_search_is_a_question() {
     let facts = Question::BlockSearch.facts();
     assert_eq!((facts.rule, facts.assumed_name()), ("R2.96", "unknown"));
 }
 
-/// R15.2: an unknown rule or reading in the configuration is said with its place.
+/// R15.2: an unknown rule or reading in the configuration is reported with its place.
 #[test]
 fn a_configuration_with_an_unknown_question_is_refused() {
     let refused = |text: &str| {
@@ -257,7 +257,7 @@ fn a_configuration_with_an_unknown_question_is_refused() {
     assert!(message.contains("is not a CNC build"), "{message}");
 }
 
-/// R15.2: `[confirmed]` holds for its build.
+/// R15.2: `[confirmed]` applies to its build.
 #[test]
 fn a_confirmation_is_read() {
     let text = "[reading]\n\"R1.28\" = \"start-up\"\n[confirmed]\n\

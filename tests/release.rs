@@ -1,4 +1,4 @@
-//! What a release consists of, as far as texts can show it; `dist/build` makes it.
+//! The contents of a release that can be checked by texts; `dist/build` makes it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ fn read(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The texts of a list in a TOML file.
+/// Returns the texts of a list in a TOML file.
 fn list(text: &str, key: &str) -> BTreeSet<String> {
     let document: toml::Table = text.parse().expect("TOML");
     let found = document
@@ -20,7 +20,7 @@ fn list(text: &str, key: &str) -> BTreeSet<String> {
     words.map(str::to_owned).collect()
 }
 
-/// The lines of the README between two headings.
+/// Returns the lines of the README between two headings.
 fn section(heading: &str) -> String {
     let readme = read("README.md");
     let (_, from) = readme.split_once(heading).expect("the heading is there");
@@ -85,7 +85,7 @@ fn a_release_is_made_by_the_script_alone() {
 
 #[test]
 fn what_a_workflow_runs_is_named_by_its_content() {
-    // R13.6: a tag of somebody else's action can be moved, a commit cannot.
+    // R13.6: a tag of a third-party action can be moved, a commit cannot.
     for name in ["ci.yml", "release.yml"] {
         let workflow = read(&format!(".github/workflows/{name}"));
         let actions = workflow
@@ -124,7 +124,7 @@ fn a_wheel_runs_on_old_systems_and_has_its_notices() {
 
 #[test]
 fn two_builds_can_be_the_same_bytes() {
-    // R13.10: `dist/compare` makes them; nothing in an archive has the time of the build.
+    // R13.10: `dist/compare` builds them; nothing in an archive has the build time.
     let build = read("dist/build");
     for line in [
         "--mtime=\"@$SOURCE_DATE_EPOCH\"",
@@ -145,7 +145,7 @@ fn windows_shows_an_icon_and_a_version() {
     let sizes: Vec<u8> = (0..usize::from(icon[4]))
         .map(|at| icon[6 + 16 * at])
         .collect();
-    // 0 is 256.
+    // 0 means 256.
     assert_eq!(sizes, [16, 32, 48, 0]);
     assert!(read("crates/cli/build.rs").contains("set_icon(\"frictcomp.ico\")"));
     assert!(read("dist/build").contains("grep -qF .rsrc"));

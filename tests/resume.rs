@@ -1,4 +1,5 @@
-//! A run that is stopped after any block, saved and resumed says what an uninterrupted one says.
+//! A run that is stopped after any block, saved and resumed reports the same as an uninterrupted
+//! one.
 
 mod support;
 
@@ -65,7 +66,7 @@ G90 X5
 P9=1/0
 N50 M30
 ";
-/// Jumps that depend on what only the machine knows.
+/// Jumps that depend on values that only the machine knows.
 const WAYS: &str = "X[COMP OFF FRICT]\nL CYCLE [NAME=c.cyc @P1=1 @P2=1 MODAL_BLOCK]\n$IF V.E.A $GOTO N90\n\
                 $IF V.E.B\nM30\n$ENDIF\n$FOR P1=1,99,1\nV.S.N[P1]=P1\n$ENDFOR\nX1\nN90: M30\n";
 /// Both sides of skip levels, conditions, cases and a loop, on the way to a searched block.
@@ -99,7 +100,7 @@ fn options() -> Options {
     Options::default().with_stop(StopPolicy::CheckAll)
 }
 
-/// What an event says.
+/// Returns an event as text.
 fn shown(event: &Event<'_>) -> String {
     match event {
         Event::Started { name, .. } => format!("started {name:?}"),
@@ -173,7 +174,7 @@ fn a_run_is_resumed_at_any_block() {
         });
         assert_eq!(outcome, RunOutcome::Paused, "after {stop}");
         let saved = serde_json::to_string(&snapshot(&run)).expect("a snapshot is JSON");
-        let saved: Snapshot = serde_json::from_str(&saved).expect("what was written is read");
+        let saved: Snapshot = serde_json::from_str(&saved).expect("a written snapshot is read");
         assert_eq!(saved, snapshot(&run));
         let mut resumed = Interpreter::resume(machine(), options(), saved, &mut file)
             .expect("all files are there");
@@ -239,7 +240,7 @@ fn a_run_is_resumed_after_every_block() {
     assert_eq!(said, whole);
 }
 
-/// The run stopped in the middle of its calls.
+/// Returns a run stopped in the middle of its calls.
 fn stopped() -> Snapshot {
     let mut left = 40;
     let (run, _) = start(&mut |_| {
@@ -253,7 +254,7 @@ fn stopped() -> Snapshot {
     snapshot(&run)
 }
 
-/// A run of a program that is stopped after some events.
+/// Returns a run of a program stopped after some events.
 fn stopped_after(events: usize, name: &str, options: Options) -> Snapshot {
     let compensation = machine().compensation();
     let mut run = Interpreter::new(machine(), compensation, options);
@@ -271,7 +272,7 @@ fn stopped_after(events: usize, name: &str, options: Options) -> Snapshot {
     snapshot(&run)
 }
 
-/// A run that is stopped where jumps are open that the control may have taken.
+/// Returns a run stopped while jumps that the control may have taken are open.
 fn stopped_with_open_ways() -> Snapshot {
     let saved = stopped_after(150, "ways.nc", options());
     let ways = &document(&saved)["state"]["track"]["ways"];
@@ -282,7 +283,7 @@ fn stopped_with_open_ways() -> Snapshot {
     saved
 }
 
-/// A run that is stopped on one of several sides, inside a loop and before its searched block.
+/// Returns a run stopped on one of several sides, inside a loop and before its searched block.
 fn stopped_on_sides() -> Snapshot {
     let searched = "N90".parse::<SearchedBlock>().expect("a block number");
     let options = options().with_search(searched);
@@ -307,7 +308,7 @@ fn resume(snapshot: Snapshot) -> Result<Interpreter, ResumeError> {
     Interpreter::resume(machine(), options(), snapshot, &mut file)
 }
 
-/// A run with another value at a place, a JSON pointer, as somebody would write it on purpose.
+/// Resumes a run with a deliberately forged value at a place, a JSON pointer.
 fn forged(saved: &Snapshot, place: &str, value: Value) -> Result<Interpreter, ResumeError> {
     let mut document = document(saved);
     *document.pointer_mut(place).expect(place) = value;
@@ -378,7 +379,7 @@ fn sides_of_conditions_that_are_not_there_are_refused() {
     }
 }
 
-/// The places of all numbers of a document, as JSON pointers.
+/// Collects the places of all numbers in a document, as JSON pointers.
 fn numbers(document: &Value, place: &str, found: &mut Vec<String>) {
     match document {
         Value::Number(_) => found.push(place.to_owned()),
@@ -412,7 +413,7 @@ fn any_number_of_a_snapshot_may_be_wrong() {
                 let Ok(snapshot) = serde_json::from_value::<Snapshot>(document) else {
                     continue;
                 };
-                // As it stands it is refused; made on purpose it is refused or goes to some end.
+                // With its old seal it is refused; sealed anew, it is refused or runs to some end.
                 let sealed = snapshot.clone().sealed_anew();
                 assert!(
                     sealed == snapshot || matches!(resume(snapshot), Err(ResumeError::Damaged(_))),
@@ -501,9 +502,9 @@ fn a_stream_that_was_stopped_says_that_it_cannot_go_on() {
             });
             assert_eq!(outcome, RunOutcome::Stopped, "{text}");
             assert_eq!(run.snapshot(), None);
-            let mut nobody = |_: Event<'_>| panic!("it goes on");
+            let mut nobody = |_: Event<'_>| panic!("it continues");
             assert_eq!(run.go_on(&mut find, &mut nobody), RunOutcome::Stopped);
-            // The interpreter is good for the next program.
+            // The interpreter can run the next program.
             let source = SourceFile::new("b.nc", "X3\nM30\n");
             let outcome = run.program(source, &mut find, &mut |_: Event<'_>| {
                 ControlFlow::Continue(())

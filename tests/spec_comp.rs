@@ -50,7 +50,7 @@ fn the_documented_example() {
 
 #[test]
 fn comp_is_the_first_keyword() {
-    // R1.1: another word in front of COMP is another command, or none.
+    // R1.1: another word before COMP is another command, or none.
     let program =
         "X[FRICT COMP ON]\nX[ON COMP FRICT]\nX[COMP OFF FRICT]\nX[SYNC COMP ON FRICT]\nX[]\nM30";
     assert_snapshot!(Bench::new().keep_going().run(&[program]), @r#"
@@ -362,7 +362,7 @@ fn near_misses_get_advice() {
 
 #[test]
 fn configured_and_parameterised() {
-    // R1.20 R1.21: X has both, B no list, Z neither; mode 0 is no accepted list.
+    // R1.20 R1.21: X has both, B no list, Z neither; a list with mode 0 is not an accepted list.
     let machine = format!(
         "{MACHINE}[[axis]]\nname = \"C\"\ntype = \"R\"\nfrict_comp = true\nvalue = {{ mode = 0, table = [[0, 1]] }}\n"
     );
@@ -491,7 +491,7 @@ fn reset_keeps_the_state_a_restart_does_not() {
 
 #[test]
 fn commands_act_when_they_are_executed() {
-    // R1.30: loops each time, branches that are not taken never.
+    // R1.30: in loops each time, in branches that are not taken never.
     let program = "$FOR P1=1,2,1\nX[COMP OFF FRICT]\n$IF P1==2\nX[COMP ON FRICT]\n$ENDIF\n$ENDFOR\n$IF FALSE\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
@@ -572,7 +572,7 @@ fn programs_read_the_state() {
       9 line 9 -
       end 9 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
-    // Where the state differs by the way, so does what depends on it (R14.1).
+    // If the state differs between ways, so do its consequences (R14.1).
     let program = "$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.A.FRICT_COMP_ACTIVE.X\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
@@ -628,7 +628,7 @@ fn motion_may_require_compensations() {
 
 #[test]
 fn only_configured_kinds_are_monitored_and_not_while_homing() {
-    // R1.36: the control speaks of kinds that its axis list selects, and never while homing.
+    // R1.36: the control checks kinds that its axis list selects, and never while homing.
     let machine = "[[axis]]\nname = \"X\"\nrequired = [\"FRICT\"]\n[[axis]]\nname = \"Y\"\n\
                    frict_comp = true\nrequired = [\"FRICT\"]\nvalue = { mode = 3, table = [[0, 12]] }\n";
     let program = "X1\nY[COMP OFF FRICT]\nG74 X1 Y2\nG01 X2 F100\nY[COMP ON FRICT]\nM30";
@@ -650,7 +650,7 @@ fn only_configured_kinds_are_monitored_and_not_while_homing() {
 const LISTED: &str =
     "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nlr_param.ssfk 1\nEnde";
 
-/// A machine with X as [`LISTED`].
+/// Returns a machine with X as [`LISTED`].
 fn listed() -> Machine {
     struct Lists;
     impl frictcomp::machine::ListFiles for Lists {
@@ -683,7 +683,7 @@ fn kinds_that_the_axis_list_does_not_select_are_refused() {
         )]);
         assert!(!off.contains("P-ERR"), "{kind}: {off}");
     }
-    // frictcomp.toml alone does not say that a kind is not selected.
+    // frictcomp.toml alone does not prove that a kind is not selected.
     for kind in Kind::ALL {
         let run = Bench::new().run(&[&format!("X[COMP ON {kind}]\nM30")]);
         assert!(!run.contains("P-ERR"), "{kind}: {run}");
@@ -753,8 +753,8 @@ fn reading_the_state_flushes_the_channel() {
 
 #[test]
 fn all_kinds_and_program_end() {
-    // R1.40: with manual activation a kind is off at start-up and falls off at program end, never
-    // FRICT and BACKLASH.
+    // R1.40: with manual activation a kind is off at start-up and switches off at program end,
+    // never FRICT and BACKLASH.
     let machine = ALL_KINDS.to_owned()
         + "manual_activation = [\"CROSS\", \"PLANE\", \"LEAD\", \"TEMP\", \"CROSSTALK\"]\n";
     let bench = Bench::on(&machine).kinds(&Kind::ALL);
@@ -776,7 +776,7 @@ fn all_kinds_and_program_end() {
 
 #[test]
 fn lints_on_use() {
-    // 1.4: FC401 to FC406, each once a place however often it came true.
+    // 1.4: FC401 to FC406, each once per place however often it applied.
     let program = "$FOR P1=1,3,1\nX[COMP ON FRICT]\nX[COMP OFF FRICT FRICT] X5\n$ENDFOR\ny[comp off frict]\nM30";
     assert_snapshot!(Bench::new().keep_going().run(&[program, "G1 X5 F10\nY[COMP OFF FRICT] Y5\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective

@@ -1,6 +1,6 @@
-//! Chapter 3, rule by rule: what lists say and what the control makes of them.
+//! Chapter 3, rule by rule: the contents of lists and the control's reaction to them.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot continue fails")]
 
 mod lists {
     mod axes;

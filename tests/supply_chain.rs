@@ -1,5 +1,5 @@
-//! What the crate is built from: every dependency has its reason, none needs a younger Rust than
-//! the crate promises.
+//! The dependencies of the crate: each has its reason, and none needs a newer Rust than the crate
+//! promises.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Major and minor number of a version of Rust, `1.89` or `1.89.0`.
+/// Returns the major and minor number of a Rust version, `1.89` or `1.89.0`.
 fn rust_version(text: &str) -> (u32, u32) {
     let mut numbers = text.split('.').map(|part| part.parse().expect("a number"));
     let mut next = || numbers.next().expect("two numbers");
@@ -31,11 +31,11 @@ fn cargo(arguments: &[&str]) -> String {
 
 #[test]
 fn no_dependency_needs_a_younger_rust() {
-    // What other systems need is not downloaded here.
+    // Dependencies of other systems are not downloaded here.
     let version = cargo(&["-vV"]);
     let host = version.lines().find_map(|line| line.strip_prefix("host: "));
     let host = host.expect("cargo names the host");
-    // `--locked`: the lock file is as the manifest says.
+    // `--locked`: the lock file must match the manifest.
     let options = ["--format-version=1", "--locked", "--filter-platform", host];
     let metadata = cargo(&[&["metadata"], &options[..]].concat());
     let metadata: Value = serde_json::from_str(&metadata).expect("JSON");
@@ -66,12 +66,12 @@ fn every_dependency_has_its_reason() {
         let manifest = path.display();
         assert!(
             bare.is_empty(),
-            "{manifest}: no reason stands beside {bare:?}"
+            "{manifest}: no reason is given for {bare:?}"
         );
     }
 }
 
-/// The dependencies of a manifest above which no comment stands.
+/// Returns the dependencies of a manifest that have no comment above them.
 fn without_reason(manifest: &str) -> Vec<&str> {
     let mut section = "";
     let mut reasoned = false;

@@ -1,4 +1,4 @@
-//! Gives the shared library its SONAME, by which programs load a version that they fit.
+//! Gives the shared library its SONAME, by which programs load a compatible version.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

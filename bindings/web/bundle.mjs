@@ -9,7 +9,7 @@ import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 
-/** The page has to fit on any stick and into any mail. */
+/** The page has to fit on any USB stick and into any e-mail. */
 const MOST_BYTES = 3 * 1024 * 1024;
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -27,7 +27,7 @@ async function script(name, define = {}) {
     loader: { ".nc": "text", ".lis": "text", ".toml": "text" },
     define,
   });
-  // A script ends where a text in it says so.
+  // A closing tag in a text of a script would end the script.
   return bundled.outputFiles[0].text.trim().replaceAll("</", "<\\/").replaceAll("<!--", "<\\!--");
 }
 

@@ -1,5 +1,5 @@
 // Bundles the extension, and the scripts of its views, each into one file, and puts the pages of the
-// codes, the style of pictures and the licences of what is inside beside them.
+// codes, the style of pictures and the licences of the contents next to them.
 import { cpSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
@@ -23,12 +23,12 @@ const views = await build({
   target: "es2022",
 });
 cpSync("../../docs/codes", "dist/codes", { recursive: true });
-// A webview tells the theme by a class of its body, and not through `prefers-color-scheme`.
+// A webview indicates the theme by a class of its body, and not through `prefers-color-scheme`.
 const style = readFileSync("../../crates/report/src/svg/style.css", "utf8");
 const dark = "body:is(.vscode-dark, .vscode-high-contrast:not(.vscode-high-contrast-light))";
 writeFileSync("dist/picture.css", style.replaceAll("@media (prefers-color-scheme:dark)", dark));
 
-/** The folder of the npm package that a bundled file belongs to, if it is of one. */
+/** The folder of the npm package that a bundled file belongs to, if there is one. */
 function packageOf(file) {
   return /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(file)?.[0];
 }

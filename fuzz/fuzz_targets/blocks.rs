@@ -22,7 +22,7 @@ fuzz_target!(|input: &[u8]| {
         let place = |raw: &RawBlock<'_>| (raw.stretch, raw.line, raw.offset);
         assert_eq!(place(&raw), place(&meant));
         assert_eq!((raw.text, raw.remark), (meant.text, meant.remark));
-        // A number that is none is NaN, and equals nothing.
+        // An invalid number is NaN, and equals nothing.
         assert!(
             one == other || format!("{one:?}") == format!("{other:?}"),
             "{one:#?}\n{other:#?}"

@@ -1,4 +1,4 @@
-//! Circular tests on valid plants: figures, or a drive that is said to be unstable.
+//! Circular tests on valid plants: figures, or a drive that is reported as unstable.
 #![no_main]
 
 use frictcomp_fuzz::{Dice, check_circle};

@@ -1,4 +1,4 @@
-//! `frictcomp.toml`: any text is a machine on which a program runs, or is refused at a place of it.
+//! `frictcomp.toml`: any text is a machine on which a program runs, or is refused at a place in it.
 #![no_main]
 
 use frictcomp::comp::KindSet;

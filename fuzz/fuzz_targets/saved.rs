@@ -1,4 +1,4 @@
-//! Saved states: whatever a run saves, the next one reads, and starts with exactly that.
+//! Saved states: the next run reads whatever a run saves, and starts with exactly that.
 #![no_main]
 
 use frictcomp_fuzz::{Files, Theme, check_saved, text_of};

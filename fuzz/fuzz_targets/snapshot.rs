@@ -1,4 +1,4 @@
-//! Snapshots: a run that is stopped and resumed ends as it would have; a damaged snapshot is rejected,
+//! Snapshots: a run that is stopped and resumed ends as it would have otherwise; a damaged snapshot is rejected,
 //! and a forged one is rejected or runs to some end. The first 32 bytes decide where it is stopped and what is damaged.
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Places: whatever is said about a text points at characters of it, and can be shown.
+//! Places: every message about a text points at characters of it, and can be shown.
 #![no_main]
 
 use std::ops::ControlFlow;

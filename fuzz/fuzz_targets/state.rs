@@ -1,4 +1,4 @@
-//! State files: any text is refused, or a session goes on from it and saves what it read back.
+//! State files: any text is refused, or a session continues from it and saves the same state again.
 #![no_main]
 
 use frictcomp::session::{SavedState, Session};
@@ -16,7 +16,7 @@ fuzz_target!(|input: &str| {
         files: Files::new(PROGRAM),
         stop: POLICIES[1],
     };
-    // A fuzzer does not guess the fingerprint of a machine.
+    // A fuzzer cannot guess the fingerprint of a machine.
     saved.machine = Session::new(machine(), bench.options()).save().machine;
     let Ok((mut session, said)) = Session::resume(machine(), bench.options(), saved) else {
         return;

@@ -8,19 +8,19 @@ use frictcomp::timeline::Sink;
 
 use crate::{Files, MAIN};
 
-/// What happens at an error, in every manner.
+/// Every policy for errors.
 pub const POLICIES: [StopPolicy; 3] = [
     StopPolicy::FirstError,
     StopPolicy::KeepGoing,
     StopPolicy::CheckAll,
 ];
 
-/// Two axes that may be switched, and others that may not.
+/// Returns a machine with two axes that may be switched, and others that may not.
 pub fn machine() -> Machine {
     Machine::enabled(["X", "Y"])
 }
 
-/// Programs and how they run.
+/// Programs and their options.
 #[derive(Debug, Clone, Copy)]
 pub struct Bench<'a> {
     pub files: Files<'a>,
@@ -43,7 +43,7 @@ impl Bench<'_> {
         SessionOptions::from(options)
     }
 
-    /// Runs the text as it stands in memory.
+    /// Runs the whole text from memory.
     pub fn whole(mut self, session: &mut Session, sink: &mut dyn Sink) {
         let program = Program::Whole(self.files.source());
         let _ = session.program(MAIN, program, &mut self.files, sink);
@@ -55,7 +55,7 @@ impl Bench<'_> {
         let _ = session.program(MAIN, Program::Lines(&mut lines), &mut self.files, sink);
     }
 
-    /// Says what a session starts with, runs the text in it, and says what it leaves.
+    /// Begins a session, runs the text in it, and finishes it.
     pub fn session(self, session: &mut Session, sink: &mut dyn Sink) {
         let _ = session.begin(&[], sink);
         self.whole(session, sink);

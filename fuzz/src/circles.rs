@@ -1,4 +1,4 @@
-//! Circles on plants that are valid: what was refused would prove nothing.
+//! Circles on valid plants: refused ones would prove nothing.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use frictcomp_physics::simulation::{FrictionModel, Plant, STEP_S, plant_list};
 
 use crate::Dice;
 
-/// Simulates a circle on a plant, both of which have values out of the whole range that is accepted.
+/// Simulates a circle on a plant, both with values from the whole accepted range.
 pub fn check_circle(dice: &mut Dice<'_>) {
     let text = plant(dice);
     let plant = Plant::from_toml(SourceFile::new("plant.toml", text.as_str()))
@@ -49,7 +49,7 @@ pub fn check_circle(dice: &mut Dice<'_>) {
     assert!(!figures.contains("\"g_b\":null"), "{figures}\n{test:?}");
 }
 
-/// From the lower to the upper end, in equal steps of magnitude.
+/// Returns a value between the ends, in equal steps of magnitude.
 fn between(dice: &mut Dice<'_>, [least, most]: [f64; 2]) -> f64 {
     least * (most / least).powf(dice.share())
 }
@@ -57,7 +57,7 @@ fn between(dice: &mut Dice<'_>, [least, most]: [f64; 2]) -> f64 {
 fn circle(dice: &mut Dice<'_>) -> Circle {
     let cycle_time_s = 0.000_25 * [1.0, 4.0, 8.0, 40.0][dice.below(4)];
     let radius_mm = between(dice, [0.1, 1e5]);
-    // So many cycles in a turn.
+    // The number of cycles in a turn.
     let cycles = between(dice, [MIN_CYCLES * 1.01, 600.0]);
     let turn_s = cycles * cycle_time_s;
     let feed = std::f64::consts::TAU * radius_mm / turn_s * 60.0;
@@ -71,7 +71,7 @@ fn circle(dice: &mut Dice<'_>) -> Circle {
     }
 }
 
-/// That of the plant, or value lists.
+/// Returns the compensation of the plant, or value lists.
 fn compensation(dice: &mut Dice<'_>, plant: &Plant) -> [Option<Method>; 2] {
     if dice.below(2) == 0 {
         return Method::of_plant(plant);
@@ -104,7 +104,7 @@ fn list(dice: &mut Dice<'_>, mut list: FrictionList) -> FrictionList {
     list
 }
 
-/// A plant file. What depends on each other is chosen so that it fits.
+/// Returns a plant file. Values that depend on each other are chosen to match.
 fn plant(dice: &mut Dice<'_>) -> String {
     let mut text = String::new();
     let mass = between(dice, [0.01, 1e6]);
@@ -138,7 +138,7 @@ fn plant(dice: &mut Dice<'_>) -> String {
         ("vd", [1e-6, 10.0]),
         ("gms_C", [1.0, 1e12]),
     ] {
-        // Plants as they are in one value more often than not are stable ones more often.
+        // Plants that keep some of their default values are stable more often.
         if dice.below(3) == 0 {
             number(key, between(dice, range));
         }

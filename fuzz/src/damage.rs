@@ -1,11 +1,11 @@
-//! JSON that was right until somebody touched it.
+//! Valid JSON that is then damaged.
 
 use serde_json::{Map, Number, Value, json};
 
 use crate::Dice;
 
-/// Changes some places of a document, each into something of the same kind more often than not: what
-/// has the right shape gets further.
+/// Changes some places of a document, each usually into something of the same kind: a document of the right shape is
+/// read further.
 pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
     for _ in 0..1 + dice.below(3) {
         let mut place = &mut *document;
@@ -15,7 +15,7 @@ pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
                 Value::Object(fields) => fields.len(),
                 _ => 0,
             };
-            // A member is gone into far more often than it is touched.
+            // Descending into a member is far more likely than changing it.
             if children == 0 || dice.below(12) == 1 {
                 break;
             }

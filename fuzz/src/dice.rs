@@ -1,7 +1,7 @@
-//! Decisions out of bytes: the same bytes decide the same, and a fuzzer that changes one of them
+//! Decisions from bytes: the same bytes give the same decisions, and a fuzzer that changes one byte
 //! changes one decision.
 
-/// Bytes that decide. When they are used up, every decision is the first one.
+/// Bytes that decide. When they are used up, every decision takes the first option.
 #[derive(Debug)]
 pub struct Dice<'a> {
     bytes: &'a [u8],
@@ -12,12 +12,12 @@ impl<'a> Dice<'a> {
         Self { bytes }
     }
 
-    /// Whether every further decision would be the first one.
+    /// Whether every further decision would take the first option.
     pub fn is_used_up(&self) -> bool {
         self.bytes.is_empty()
     }
 
-    /// A number below `count`, which is at most 256.
+    /// Returns a number below `count`, which is at most 256.
     pub fn below(&mut self, count: usize) -> usize {
         match self.bytes.split_first() {
             Some((&byte, rest)) => {
@@ -33,7 +33,7 @@ impl<'a> Dice<'a> {
         words[place]
     }
 
-    /// A number from 0 to 1.
+    /// Returns a number from 0 to 1.
     pub fn share(&mut self) -> f64 {
         let high = self.below(256);
         let number = u32::try_from(high * 256 + self.below(256)).expect("two bytes");
@@ -41,7 +41,7 @@ impl<'a> Dice<'a> {
     }
 }
 
-/// The bytes of the input with this number, in a row of inputs that is always the same.
+/// Returns the bytes of the input with this number, in a fixed sequence of inputs.
 pub fn numbered(number: u64, length: usize) -> Vec<u8> {
     let mut state = number;
     let mut bytes = Vec::with_capacity(length + 8);

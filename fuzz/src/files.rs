@@ -1,4 +1,4 @@
-//! An input as the files of a user, and the places in them.
+//! An input as a user's files, and the places in them.
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{ListFiles, NoList};
@@ -8,10 +8,10 @@ use frictcomp::text::{LineSource, Place, SourceFile, TextLines};
 /// The name of the file that is run or read.
 pub const MAIN: &str = "main";
 
-/// Stands in an input between the two files.
+/// Separates the two files in an input.
 pub(crate) const SEPARATOR: char = '\u{1e}';
 
-/// The file that is run or read, and the one that stands after every other name.
+/// The file that is run or read, and the text of every other file name.
 #[derive(Debug, Clone, Copy)]
 pub struct Files<'a> {
     pub main: &'a str,
@@ -24,12 +24,12 @@ impl<'a> Files<'a> {
         Self { main, other }
     }
 
-    /// The bytes of both files.
+    /// Returns the size of both files in bytes.
     pub fn len(self) -> usize {
         self.main.len() + self.other.len()
     }
 
-    /// The text of every other name.
+    /// Returns the text of every other file name.
     pub fn other_text(self) -> Option<&'a str> {
         (!self.other.is_empty()).then_some(self.other)
     }
@@ -38,8 +38,8 @@ impl<'a> Files<'a> {
         SourceFile::new(MAIN, self.main)
     }
 
-    /// Holds a diagnostic to the texts: each of its places shows lines of its file, and its span
-    /// covers whole characters of them.
+    /// Checks a diagnostic against the texts: each of its places shows lines of its file, and its
+    /// span covers whole characters of them.
     pub fn hold(self, diagnostic: &Diagnostic) {
         let labels = diagnostic.labels.iter().map(|label| &label.place);
         for place in std::iter::once(&diagnostic.place).chain(labels) {

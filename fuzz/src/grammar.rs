@@ -1,6 +1,6 @@
-//! Programs of the control's language as an enemy would write them: blocks that stand in each other
-//! or are broken off, macros that use each other, calls in circles, labels that are missing, blocks
-//! that go on in the next line, values that nobody knows, numbers and texts that are too large.
+//! Hostile programs in the control's language: blocks that are nested or cut off, macros that use
+//! each other, calls in circles, missing labels, blocks that continue on the next line, unknown
+//! values, numbers and texts that are too large.
 
 use std::fmt::Write as _;
 
@@ -9,13 +9,13 @@ use crate::files::SEPARATOR;
 use crate::phrases::{CALLED, COMP, MACROS, OPERATORS, TARGETS, WORDS};
 use crate::phrases::{COMMANDS, COMMENTS, ENDS, FUNCTIONS, NAMES, NUMBERS, PARAMETERS, TEXTS};
 
-/// How many blocks a program has, before the ones that they hold.
+/// The number of blocks of a program, not counting those nested in them.
 const BLOCKS: usize = 12;
 
-/// How deep blocks and expressions stand in each other.
+/// The nesting depth of blocks and expressions.
 const DEPTH: usize = 4;
 
-/// What a program is about.
+/// The theme of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Theme {
     /// Everything.
@@ -24,7 +24,7 @@ pub enum Theme {
     Growth,
 }
 
-/// A program, and often one that it calls.
+/// Returns a program, and often one that it calls.
 pub fn program(dice: &mut Dice<'_>, theme: Theme) -> String {
     let mut writer = Writer {
         dice,
@@ -95,7 +95,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Definitions, and a loop that uses them.
+    /// Writes definitions, and a loop that uses them.
     fn growing(&mut self) {
         for _ in 0..1 + self.dice.below(4) {
             self.define();
@@ -192,7 +192,7 @@ impl Writer<'_, '_> {
         self.end();
     }
 
-    /// A control block, now and then without its end or with another one's.
+    /// Writes a control block, sometimes without its end or with the end of another kind.
     fn flow(&mut self, depth: usize) {
         let kind = self.dice.below(7);
         let closer = match kind {

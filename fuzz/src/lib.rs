@@ -1,5 +1,5 @@
-//! What the targets and the campaign share: inputs out of bytes, a session with small budgets, and
-//! what must hold of every run.
+//! Shared code of the targets and the campaign: inputs from bytes, a session with small budgets,
+//! and the properties of every run.
 
 mod bench;
 mod checks;
@@ -19,7 +19,7 @@ pub use files::{Files, MAIN};
 pub use grammar::{Theme, program};
 pub use snapshots::check_snapshot;
 
-/// The program that an input means: after a NUL byte decisions of the grammar, else its text.
+/// Returns the program of an input: decisions of the grammar after a NUL byte, else its text.
 pub fn text_of(input: &[u8], theme: Theme) -> Option<String> {
     match input.split_first() {
         Some((0, decisions)) => Some(program(&mut Dice::new(decisions), theme)),

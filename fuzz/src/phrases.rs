@@ -1,4 +1,4 @@
-//! The words of hostile programs, a table a kind.
+//! The words of hostile programs, one table per kind.
 
 pub(crate) const COMP: &[&str] = &[
     "X[COMP ON FRICT]",

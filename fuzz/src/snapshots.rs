@@ -1,4 +1,4 @@
-//! A run is stopped, saved, damaged, forged and resumed.
+//! Stops, saves, damages, forges and resumes a run.
 
 use std::ops::ControlFlow;
 
@@ -8,8 +8,8 @@ use frictcomp::text::SourceFile;
 use crate::damage::damage;
 use crate::{Bench, Dice, Files, MAIN, POLICIES, machine};
 
-/// Runs a program up to some block, and resumes it from what was saved there: as it was, which goes
-/// to the same end, and damaged, which is refused or goes to some end.
+/// Runs a program up to some block, and resumes it from the snapshot saved there: the unchanged one
+/// leads to the same end, a damaged one is refused or leads to some end.
 pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     let bench = Bench {
         files,
@@ -21,7 +21,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     let mut run = Interpreter::new(machine.clone(), compensation, options);
     let mut left = 1 + dice.below(20);
     let outcome = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {
-        // Where ways meet a run does not stop.
+        // A run does not stop where ways meet.
         left = left.saturating_sub(1);
         if left == 0 {
             ControlFlow::Break(())
@@ -35,7 +35,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     let saved = run.snapshot().expect("its text is in memory");
     let mut document = serde_json::to_value(&saved).expect("a snapshot is JSON");
     let text = serde_json::to_string(&document).expect("a document is JSON");
-    let read: Snapshot = serde_json::from_str(&text).expect("what was saved is read");
+    let read: Snapshot = serde_json::from_str(&text).expect("a saved snapshot is read");
     assert_eq!(
         serde_json::to_value(&read).expect("a snapshot is JSON"),
         document
@@ -49,7 +49,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
         text.map(|text| SourceFile::new(name, text))
     };
     let mut same = Interpreter::resume(machine.clone(), options, read, &mut source)
-        .unwrap_or_else(|error| panic!("the own snapshot is refused: {error}\n{text}"));
+        .unwrap_or_else(|error| panic!("its own snapshot is refused: {error}\n{text}"));
     let mut ends = [String::new(), String::new()];
     for (run, end) in [&mut run, &mut same].into_iter().zip(&mut ends) {
         run.go_on(&mut { files }, &mut |event: Event<'_>| {
@@ -59,7 +59,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
             ControlFlow::Continue(())
         });
     }
-    assert_eq!(ends[0], ends[1], "what was resumed ends in another way");
+    assert_eq!(ends[0], ends[1], "the resumed run ends differently");
 
     damage(&mut document, dice);
     let Ok(damaged) = serde_json::from_value::<Snapshot>(document) else {
@@ -69,7 +69,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
         let refused = Interpreter::resume(machine.clone(), options, damaged.clone(), &mut source);
         assert!(refused.is_err(), "a damaged snapshot is resumed");
     }
-    // Made on purpose it passes for a whole one, and what it names is checked.
+    // A deliberate forgery passes as intact, and its contents are checked.
     let forged = damaged.sealed_anew();
     let Ok(mut run) = Interpreter::resume(machine, options, forged, &mut source) else {
         return;

@@ -14,7 +14,7 @@ pub struct Archive {
     programs: Vec<ProgramAudit>,
 }
 
-/// The end of a hazard at which it is mended.
+/// The side of a hazard on which it is mended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MendedEnd {
@@ -45,28 +45,28 @@ pub struct AxisFinding {
     pub inheritors: Vec<usize>,
     /// The programs that may move it in the state that they find.
     pub possible_inheritors: Vec<usize>,
-    /// The programs of both lists: the second run of each differs from its first (R1.53).
+    /// The programs in both lists: the second run of each differs from its first (R1.53).
     pub both: Vec<usize>,
-    /// The programs of which that is not known offline: any of them may leave it away from its start-up state.
+    /// The programs whose effect is not known offline: any of them may leave it away from its start-up state.
     pub unknown: Vec<usize>,
 }
 
 impl AxisFinding {
-    /// The ordered pairs of a program that leaves the axis away from its start-up state and one that inherits it
-    /// (R10.2).
+    /// Returns the number of ordered pairs of a program that leaves the axis away from its start-up state and one that
+    /// inherits it (R10.2).
     pub fn hazards(&self) -> u64 {
         let count = |list: &[usize]| u64::try_from(list.len()).unwrap_or(u64::MAX);
         count(&self.leavers).saturating_mul(count(&self.inheritors))
     }
 
-    /// The ordered pairs of a program that leaves the axis away from the start-up state and one that
-    /// may move it so (R10.7).
+    /// Returns the number of ordered pairs of a program that leaves the axis away from the start-up state and one that
+    /// may move it in that state (R10.7).
     pub fn possible_hazards(&self) -> u64 {
         let count = |list: &[usize]| u64::try_from(list.len()).unwrap_or(u64::MAX);
         count(&self.leavers).saturating_mul(count(&self.possible_inheritors))
     }
 
-    /// The programs that move the axis in the state that they find, or may, in their order.
+    /// Returns the programs that move, or may move, the axis in the state that they find, in their order.
     pub fn movers(&self) -> Vec<usize> {
         let both = self.inheritors.iter().chain(&self.possible_inheritors);
         let mut movers: Vec<usize> = both.copied().collect();
@@ -74,7 +74,7 @@ impl AxisFinding {
         movers
     }
 
-    /// The shorter of both lists.
+    /// Returns the side with fewer programs.
     pub fn cure(&self) -> Cure {
         match (self.leavers.len(), self.movers().len()) {
             (0, _) | (_, 0) => Cure::None,
@@ -83,7 +83,7 @@ impl AxisFinding {
         }
     }
 
-    /// Whether programs may leave it away from its start-up state, or do, and others inherit that.
+    /// Whether programs leave, or may leave, it away from its start-up state and others inherit that.
     pub fn is_worth_a_warning(&self) -> bool {
         let movers = self.movers();
         !(movers.is_empty() || self.leavers.is_empty() && self.unknown.is_empty())
@@ -91,12 +91,12 @@ impl AxisFinding {
 }
 
 impl Archive {
-    /// One more program.
+    /// Adds a program.
     pub fn push(&mut self, program: ProgramAudit) {
         self.programs.push(program);
     }
 
-    /// What each of the programs finds in variables that outlive programs after any of the others (R2.34).
+    /// Returns the values that each program finds in variables that outlive programs, after any other (R2.34).
     pub fn found(&self) -> FoundVariables {
         let mut found = FoundVariables::default();
         for program in &self.programs {
@@ -105,8 +105,8 @@ impl Archive {
         found
     }
 
-    /// The positions of the programs that found something else in the variables that they ask for than
-    /// [`found`](Self::found) says: they are to be run again.
+    /// Returns the positions of the programs that found other values in the variables they read than
+    /// [`found`](Self::found) gives: these must run again.
     pub fn unsettled(&self) -> Vec<usize> {
         let found = self.found();
         let is_unsettled = |(_, program): &(usize, &ProgramAudit)| {
@@ -118,20 +118,20 @@ impl Archive {
         unsettled.map(|(position, _)| position).collect()
     }
 
-    /// Takes the audit of a program that has run again. What it did before counts as well, so that this comes to an
-    /// end.
+    /// Takes the audit of a program that has run again. Its earlier effects count as well, so that the repetition
+    /// terminates.
     pub fn settle(&mut self, position: usize, mut program: ProgramAudit) {
         let before = &mut self.programs[position];
         program.used.add(&before.used);
         *before = program;
     }
 
-    /// The programs, in the order in which they came.
+    /// Returns the programs in the order in which they were added.
     pub fn programs(&self) -> &[ProgramAudit] {
         &self.programs
     }
 
-    /// The open questions whose readings decide what the programs do to each other (R15.3): what a
+    /// Returns the open questions whose readings decide how the programs affect each other (R15.3): the state that a
     /// program leaves reaches the next one unless a reset between them takes it back (R1.28).
     pub fn rests_on(&self) -> QuestionSet {
         let questions = self.programs.iter().map(|program| program.rests_on);
@@ -172,9 +172,9 @@ impl Archive {
         }
     }
 
-    /// Returns the mendings of each program, by its position, that leave no hazard. A program that
-    /// may leave an axis away from its start-up state, depending on a value of the machine, is a
-    /// leaver here; one that an error or a budget stops has to be mended by hand first.
+    /// Returns the mendings of each program, by its position, that leave no hazard. A program that may leave an axis
+    /// away from its start-up state, depending on a value of the machine, counts as a leaver; one stopped by an error
+    /// or a budget has to be mended by hand first.
     pub fn to_mend(&self, end: MendedEnd) -> BTreeMap<usize, Vec<Mending>> {
         let mut wanted: BTreeMap<usize, Vec<Mending>> = BTreeMap::new();
         for finding in self.findings() {

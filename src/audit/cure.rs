@@ -1,18 +1,19 @@
-//! The end of a hazard at which it is mended.
+//! The side of a hazard on which it is mended.
 
 use serde::Serialize;
 
 crate::words! {
-    /// The programs to mend: the end of each hazard that fewer programs have (R10.3).
+    /// The programs to mend: the side of each hazard with fewer programs (R10.3).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Cure {
         /// There is no hazard.
         None = "none",
-        /// Those that leave the axis away from its start-up state: a command before the end.
+        /// Those that leave the axis away from its start-up state; mended by a command before the
+        /// end.
         Leavers = "leavers",
-        /// Those that inherit it: a command before the first motion.
+        /// Those that inherit it; mended by a command before the first motion.
         Inheritors = "inheritors",
     }
 }
@@ -23,6 +24,6 @@ crate::words! {
 pub struct Mending {
     /// The position of the axis and kind in [`ProgramAudit::axes`](super::ProgramAudit::axes).
     pub at: usize,
-    /// End of the hazards to mend: [`Cure::Leavers`] or [`Cure::Inheritors`].
+    /// Side of the hazards to mend: [`Cure::Leavers`] or [`Cure::Inheritors`].
     pub cure: Cure,
 }

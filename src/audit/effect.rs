@@ -31,8 +31,8 @@ crate::words! {
         /// It ends deselected, whatever it found.
         #[serde(rename = "leaves off")]
         LeavesOff = "leaves off",
-        /// It depends on what only the machine knows, or on what it finds: the ways to each selection are
-        /// known (R14.6, R10.10).
+        /// It depends on values that only the machine knows, or on the state that it finds: the ways to each selection
+        /// are known (R14.6, R10.10).
         Depends = "depends",
         /// Neither the state at the end nor its conditions are known offline.
         Unknown = "unknown",
@@ -48,18 +48,18 @@ pub struct FirstMotion {
     pub site: Site,
     /// Kind of motion.
     pub motion: MotionKind,
-    /// Whether it may not reach the motion, or may reach it in a state of its own: that is not
-    /// known offline. Records name it only then.
+    /// Whether it is uncertain offline that the program reaches the motion in a state that it did not set itself.
+    /// Records contain this field only then.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub perhaps: bool,
-    /// The ways on which it moves so, each a list of conditions that hold together; none where it
-    /// does whatever the machine answers (R14.6).
+    /// The ways on which it moves so, each a list of conditions that hold together; empty if it does so whatever the
+    /// machine answers (R14.6).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ways: Vec<Vec<WayCondition>>,
 }
 
 impl FirstMotion {
-    /// The ways in words after `if`, as seen from a file; `None` where it moves so on all.
+    /// Returns the ways in words after `if`, as seen from a file; `None` if it moves so on all of them.
     pub fn condition(&self, file: &str) -> Option<String> {
         (!self.ways.is_empty()).then(|| ways_in_words(&self.ways, file))
     }
@@ -78,7 +78,7 @@ pub enum Inherits {
 }
 
 impl Inherits {
-    /// The motion, where there is one.
+    /// Returns the motion, if there is one.
     pub fn motion(&self) -> Option<&FirstMotion> {
         match self {
             Self::Motion(motion) => Some(motion),
@@ -86,7 +86,7 @@ impl Inherits {
         }
     }
 
-    /// The word of tables: `yes`, `perhaps`, `no` or `unknown`.
+    /// Returns the word for tables: `yes`, `perhaps`, `no` or `unknown`.
     pub fn as_str(&self) -> &'static str {
         match self {
             Self::No => "no",
@@ -108,11 +108,11 @@ impl Serialize for Inherits {
     }
 }
 
-/// Why something is unknown.
+/// The reason for which something is unknown.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct WhyUnknown {
-    /// The code of the message that says so, where there is one.
+    /// The code of the message about it, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub code: Option<Code>,
     /// The reason in words.

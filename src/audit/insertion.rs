@@ -6,14 +6,14 @@ use std::ops::Range;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Insertion {
-    /// The line before which it stands, from 1; one more than there are stands for the end.
+    /// The line before which it is inserted, from 1; one past the last line means the end.
     pub line: u32,
     /// The block to insert, without its line end.
     pub text: String,
 }
 
-/// The places of a text at which blocks are inserted, and what is inserted there: each block on a line
-/// of its own, with the line ends of the text (R10.3). In the order of the text.
+/// Returns the places in a text at which blocks are inserted, and the text inserted there: each block on its own line,
+/// with the text's line ends (R10.3). In text order.
 pub fn insertions(text: &str, blocks: &[Insertion]) -> Vec<(Range<usize>, String)> {
     let lines = lines(text);
     let usual = lines.first().map_or("", |line| line_end(line.1));
@@ -29,7 +29,7 @@ pub fn insertions(text: &str, blocks: &[Insertion]) -> Vec<(Range<usize>, String
         };
         match lines.get(before) {
             Some((from, _)) => (*from..*from, format!("{}{end}", block.text)),
-            // The last line of the text gets an end, the block has none.
+            // The last line of the text gets a line end; the block has none.
             None if is_open => (text.len()..text.len(), format!("{end}{}", block.text)),
             None => (text.len()..text.len(), format!("{}{end}", block.text)),
         }
@@ -37,7 +37,7 @@ pub fn insertions(text: &str, blocks: &[Insertion]) -> Vec<(Range<usize>, String
     sorted.into_iter().map(insertion).collect()
 }
 
-/// The text with the blocks.
+/// Returns the text with the blocks inserted.
 pub(super) fn with_blocks(text: &str, blocks: &[Insertion]) -> String {
     let mut result = String::with_capacity(text.len() + 40 * blocks.len());
     let mut copied = 0;

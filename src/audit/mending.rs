@@ -1,4 +1,4 @@
-//! The block that ends a hazard: where it has to stand, tried out before anybody sees it (R10.3).
+//! The block that ends a hazard: its place, tried out before it is offered (R10.3).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,11 +18,11 @@ use crate::interpreter::{Interpreter, Observer};
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mended {
-    /// The blocks, in no order.
+    /// The blocks, in no particular order.
     pub insertions: Vec<Insertion>,
     /// The programs that they take out of hazards, by their positions among the [`Affected`] ones.
     pub cured: Vec<usize>,
-    /// Mendings left to the user, seen from the file as a program of its own.
+    /// Mendings left to the user, with the file taken as a program in its own right.
     pub missed: Vec<Missed>,
 }
 
@@ -32,11 +32,11 @@ pub struct Mended {
 pub struct Missed {
     /// The mending wanted.
     pub mending: Mending,
-    /// Why it is left to the user.
+    /// The reason for leaving it to the user.
     pub why: WhyMissed,
 }
 
-/// Why something is left to the user.
+/// The reason for leaving something to the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WhyMissed {
@@ -46,7 +46,7 @@ pub enum WhyMissed {
     ChangesMotion(Arc<str>),
 }
 
-/// A program that runs the blocks of a file: it is the file, or calls it.
+/// A program that runs the blocks of a file: the file itself, or a program that calls it.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Affected<'a> {
@@ -60,7 +60,7 @@ pub struct Affected<'a> {
     pub wanted: Vec<Mending>,
 }
 
-/// Runs a program of the [`Affected`] ones, by its position, with a text in place of the file.
+/// Runs one of the [`Affected`] programs, by its position, with a text in place of the file.
 trait RunWith<E>: FnMut(usize, &str, &mut Interpreter, &mut dyn Observer) -> Result<(), E> {}
 
 impl<E, F> RunWith<E> for F where
@@ -68,10 +68,10 @@ impl<E, F> RunWith<E> for F where
 {
 }
 
-/// Finds the blocks that mend a file of this text. Each place is tried out on every program that runs
-/// the file: those to mend must have lost their part in the hazard, no program may come into one, and no
-/// motion of any of them may have another state when it starts in its start-up state; from another one,
-/// only the start-up state (R10.8). `run` runs a program, by its position, with a text in place of the file.
+/// Finds the blocks that mend a file of this text. Each place is tried out on every program that runs the file: those
+/// to mend must no longer take part in the hazard, no program may enter one, and no motion of any of them may change
+/// its state when the program starts in its start-up state; from another state, it may only change to the start-up
+/// state (R10.8). `run` runs a program, by its position, with a text in place of the file.
 ///
 /// # Errors
 /// Those of `run`.
@@ -102,7 +102,7 @@ pub fn mend<E>(
     Ok(trial.accepted)
 }
 
-/// The runs of a program, of which one file has a text.
+/// Runs a program with a text in place of one file.
 fn observe<E>(
     program: &Affected<'_>,
     (at, text): (usize, &str),
@@ -120,13 +120,13 @@ struct Trial<'a, R> {
     programs: &'a [Affected<'a>],
     /// The runs of the programs without any block.
     before: Vec<ProgramRuns>,
-    /// Those with the blocks that are accepted, where there are any.
+    /// Those with the accepted blocks, if there are any.
     now: Option<Vec<ProgramRuns>>,
     accepted: Mended,
     run: R,
 }
 
-/// Blocks at one place, as far as they harm nothing.
+/// Blocks at one place that harm nothing.
 struct Attempt {
     insertions: Vec<Insertion>,
     runs: Vec<ProgramRuns>,
@@ -226,7 +226,7 @@ impl<R> Trial<'_, R> {
         }))
     }
 
-    /// Returns the objection to blocks, seen from one program.
+    /// Returns one program's objection to the blocks.
     fn harm(&self, at: usize, after: &ProgramRuns) -> Option<WhyMissed> {
         if !self.keeps_motions(at, after) {
             let name = Arc::clone(&self.programs[at].name);
@@ -240,11 +240,11 @@ impl<R> Trial<'_, R> {
         self.now.as_ref().unwrap_or(&self.before)
     }
 
-    /// The blocks so far and one more before each of some lines.
+    /// Returns the blocks so far, plus one before each of the given lines.
     fn with_blocks(&self, lines: &[u32], command: &str) -> Vec<Insertion> {
         let mut blocks = self.accepted.insertions.clone();
         let mut numbering = Numbering::of(self.text);
-        // What was given out before is taken.
+        // Block numbers given out before are taken.
         for block in &blocks {
             numbering.take(&block.text);
         }
@@ -257,8 +257,8 @@ impl<R> Trial<'_, R> {
         blocks
     }
 
-    /// Whether every motion keeps its state from the start-up state, and from another state becomes at
-    /// most that of the start-up.
+    /// Whether every motion keeps its state when started in the start-up state, and from another state changes at most
+    /// to the start-up state.
     fn keeps_motions(&self, program: usize, after: &ProgramRuns) -> bool {
         let before = &self.before[program];
         let scope = self.programs[program].auditor.scope();
@@ -278,7 +278,7 @@ impl<R> Trial<'_, R> {
         })
     }
 
-    /// Whether a program now leaves an axis away from its start-up state, or may.
+    /// Whether a program now leaves, or may leave, an axis away from its start-up state.
     fn brings_a_hazard(&self, program: usize, after: &ProgramRuns) -> bool {
         let auditor = self.programs[program].auditor;
         let worse = |axis: &AxisAudit| axis.leaves_away() || axis.is_unknown();
@@ -287,7 +287,7 @@ impl<R> Trial<'_, R> {
         pairs.any(|(before, after)| worse(&after) && !worse(before))
     }
 
-    /// Whether a program has lost its part in the hazards.
+    /// Whether a program no longer takes part in the hazards.
     fn is_cured(&self, program: usize, runs: &ProgramRuns, mending: Mending) -> bool {
         let audit = &self.programs[program].auditor.axes(runs)[mending.at];
         match mending.cure {

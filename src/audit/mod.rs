@@ -1,12 +1,11 @@
 //! The effect of the order of programs (chapter 10 of the rules).
 //!
-//! The state of compensation outlives a program, so an archive is more than its programs: what one
-//! leaves, another finds. Each program is taken as a function from the states that it finds to the
-//! states that it leaves. Two dry runs give it, one with every configured axis in its start-up state and one with
-//! every one away from its start-up state: a [`ProgramAudit`]. An [`Archive`] puts the programs of one machine
-//! together and finds which programs leave an axis away from its start-up state and which would inherit that, without ever
-//! looking at pairs. [`Mending`] finds the block that ends it, and [`Step`] says what happens in one
-//! given order.
+//! The state of compensation outlives a program, so an archive is more than its programs: what one leaves, another
+//! finds. Each program is treated as a function from the states that it finds to the states that it leaves. Two dry
+//! runs give it, one with every configured axis in its start-up state and one with every one away from its start-up
+//! state: a [`ProgramAudit`]. An [`Archive`] puts the programs of one machine together and finds which programs leave
+//! an axis away from its start-up state and which would inherit that, without ever looking at pairs. [`Mending`] finds
+//! the block that ends the hazard, and [`Step`] describes the effect in one given order.
 //!
 //! Nothing here opens a file: the host runs its programs on the interpreter that an [`Auditor`]
 //! hands out.

@@ -5,23 +5,23 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use super::scope::Selected;
 use crate::interpreter::PossibleStates;
 
-/// Changes that are kept one by one; of the rest only a fingerprint is compared.
+/// Number of changes kept individually; for the rest only a fingerprint is compared.
 const MOST: usize = 4096;
 
 /// The selection at a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Stood {
     pub(super) selected: Selected,
-    /// A digest of the ways to each state, where more than one is possible.
+    /// A digest of the ways to each state, if more than one is possible.
     pub(super) ways: u64,
 }
 
 impl Stood {
-    /// Of a subject of which these states are possible, if more than one is.
+    /// The selection of a subject, with its possible states if there are several.
     pub(super) fn new(selected: Selected, possible: Option<&PossibleStates>) -> Self {
         let mut digest = DefaultHasher::new();
         if let Some(possible) = possible {
-            // Blocks that are inserted move the lines.
+            // Inserted blocks shift the lines.
             possible.without_lines().hash(&mut digest);
         }
         Self {
@@ -35,7 +35,7 @@ impl Stood {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct SelectionAtMotions {
     stretches: Vec<(Stood, u64)>,
-    /// A digest of what is not kept.
+    /// A digest of the changes that are not kept.
     rest: u64,
 }
 
@@ -59,7 +59,7 @@ impl SelectionAtMotions {
         self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
     }
 
-    /// Whether every motion of another run has the selection that it has in this one, or the wanted
+    /// Whether every motion of another run has the same selection as in this one, or the wanted
     /// one.
     pub(super) fn only_become(&self, after: &Self, wanted: Selected) -> bool {
         if self == after {

@@ -1,11 +1,11 @@
-//! Block numbers: one that is free, written as the program writes its own.
+//! Finds a free block number and writes it the way the program writes its own.
 
 use std::collections::BTreeSet;
 
-/// Numbers of more digits are not made.
+/// The largest block number that is generated.
 const MOST: u64 = 999_999_999;
 
-/// Distance of block numbers where no two numbers of the program give one.
+/// Step of block numbers if the program does not have two numbers that give one.
 const USUAL_STEP: u64 = 10;
 
 /// The block number of a line.
@@ -39,12 +39,13 @@ impl<'a> Numbering<'a> {
         &self.lines
     }
 
-    /// The number of a block is not free any more.
+    /// Marks the number of a block as taken.
     pub(super) fn take(&mut self, block: &str) {
         self.taken.extend(number(block).map(|number| number.value));
     }
 
-    /// A command as a block before a line, from 1, with a number that is taken from then on.
+    /// Returns a command as a block before a line (from 1), with a number that is taken from then
+    /// on.
     pub(super) fn block(&mut self, line: u32, command: &str) -> String {
         let at = usize::try_from(line.saturating_sub(1)).unwrap_or(usize::MAX);
         let at = at.min(self.lines.len());
@@ -54,7 +55,7 @@ impl<'a> Numbering<'a> {
         let above = || before.iter().rev().find(|line| !line.trim().is_empty());
         let pattern = match (next, after.first()) {
             (Some(next), _) => next,
-            // At the end the last block is the pattern.
+            // At the end the last block serves as the pattern.
             (None, None) => match above().and_then(|line| number(line)) {
                 Some(last) => last,
                 None => return command.to_owned(),
@@ -82,7 +83,7 @@ impl<'a> Numbering<'a> {
         format!("{}{free:0zeros$} {command}", pattern.before)
     }
 
-    /// A free number between two, or else above all.
+    /// Returns a free number between two others, or else above all of them.
     fn free(&self, last: Option<u64>, next: Option<u64>) -> Option<u64> {
         let (from, to) = match (last, next) {
             (Some(last), Some(next)) if next > last + 1 => (last + 1, next),
@@ -125,7 +126,7 @@ fn number(line: &str) -> Option<LineNumber<'_>> {
     })
 }
 
-/// The lines of a text, which end with LF, CR LF or CR.
+/// Returns the lines of a text, which end with LF, CR LF or CR.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = text;
     std::iter::from_fn(move || {

@@ -24,24 +24,23 @@ pub(super) enum SelectionOrigin {
     Doubt(WhyUnknown),
 }
 
-/// A motion, and which executed block it is.
+/// A motion and its executed block.
 #[derive(Debug, Clone)]
 pub(super) struct Moved {
     pub(super) seq: u64,
     pub(super) motion: FirstMotion,
-    /// The line that was executed or called from in the file that is looked at.
+    /// The line of the observed file that was executed or contained the call.
     pub(super) within: Option<u32>,
 }
 
 /// Effect of a run on one subject.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observed {
-    /// The last that changed it or set it again.
+    /// The origin of its last change or repeated setting.
     pub(super) last: Option<SelectionOrigin>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
-    /// The first motion in the state that the program found: the first that is sure, else the first that is
-    /// possible.
+    /// The first motion in the state that the program found: the first certain one, else the first possible one.
     pub(super) inherited: Option<Moved>,
     /// The first motion word away from its start-up state.
     pub(super) astray: Option<Moved>,
@@ -55,7 +54,7 @@ pub(super) struct Observed {
 #[derive(Debug, Clone)]
 pub(super) struct Observation {
     pub(super) observed: Vec<Observed>,
-    /// Why it ended; `None` where the end was not awaited.
+    /// The reason for its end; `None` if the end was not observed.
     pub(super) by: Option<EndedBy>,
     /// The block of the main file that ended it.
     pub(super) end: Option<u32>,
@@ -63,17 +62,17 @@ pub(super) struct Observation {
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
     pub(super) left: Vec<Selected>,
-    /// The states that are possible where it left one unknown because ways differ, by subject.
+    /// The possible states where it left one unknown because ways differ, by subject.
     pub(super) possible: Vec<Option<PossibleStates>>,
     /// The subjects whose states it asked for before it set them, each with the first place.
     pub(super) asked: BTreeMap<usize, Site>,
-    /// Its blocks in the main program, or in the called file that is looked at.
+    /// Its blocks in the main program, or in the observed called file.
     pub(super) within: Within,
     /// The called files whose blocks it executed.
     pub(super) called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in it (R15.3).
     pub(super) rests_on: QuestionSet,
-    /// What it did with variables that outlive programs.
+    /// Its use of variables that outlive programs.
     pub(super) used: VariableUse,
     /// The main file.
     main: Option<Arc<str>>,
@@ -83,7 +82,7 @@ pub(super) struct Observation {
 }
 
 impl Observation {
-    /// Before a run.
+    /// Returns the observation before a run.
     pub(super) fn new(scope: &Scope) -> Self {
         let count = scope.subjects().len();
         Self {
@@ -104,14 +103,14 @@ impl Observation {
         }
     }
 
-    /// The same with an eye on a file that the program calls.
+    /// Also observes a file that the program calls.
     pub(super) fn within(mut self, called: Option<&Arc<str>>) -> Self {
         self.within = called.map(Within::called).unwrap_or_default();
         self
     }
 
-    /// Takes what the run did with variables that outlive programs. Where a budget ended it, nobody knows what the
-    /// rest of the program writes.
+    /// Takes the run's use of variables that outlive programs. If a budget ended the run, what the rest of the program
+    /// writes is unknown.
     pub(super) fn use_ends(&mut self, used: VariableUse) {
         self.used = used;
         if self.by == Some(EndedBy::Budget) {
@@ -156,7 +155,7 @@ impl Observation {
         }
     }
 
-    /// Notes a file that is called.
+    /// Records a called file.
     fn calls(&mut self, file: &Arc<str>) {
         let is_last = |last: &Arc<str>| Arc::ptr_eq(last, file);
         if self.last_called.as_ref().is_some_and(is_last) {
@@ -168,7 +167,7 @@ impl Observation {
         }
     }
 
-    /// Notes that the program reads the state of a subject (R1.35).
+    /// Records that the program reads the state of a subject (R1.35).
     fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
         for at in scope.of_axis(asked.axis) {
             if scope.subjects()[at] == asked && executed.found.has(asked.axis, asked.kind) {
@@ -201,7 +200,7 @@ impl Observation {
         }
     }
 
-    /// Remembers what is not known, and what stops the program.
+    /// Records what is not known, and what stops the program.
     fn heed(&mut self, executed: &Executed<'_>) {
         let site = Site {
             file: Arc::clone(executed.file),
@@ -272,7 +271,7 @@ impl Observation {
                 && selected != Selected::Unknown;
             let observed = &mut self.observed[at];
             if !is_certain && let Some(before) = observed.standing {
-                // It may come before what the block may switch.
+                // The motion may come before whatever the block may switch.
                 observed.motions.note(Stood::new(before, None));
             }
             let possible = executed.possible_of(subject.axis, subject.kind);

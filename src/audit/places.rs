@@ -8,10 +8,11 @@ use super::observation::Observation;
 use super::runs::ProgramRuns;
 use crate::interpreter::EndedBy;
 
-/// Places that are tried at most.
+/// The most places that are tried.
 const MOST: usize = 16;
 
-/// The lines before which blocks could stand, the best ones first; several lines take a block each.
+/// Returns the lines before which blocks could go, the best ones first; several lines get a block
+/// each.
 pub(super) fn places<'a>(
     text: &str,
     mending: Mending,
@@ -52,7 +53,7 @@ fn before_ends<'a>(
         ends.into_iter().collect::<Vec<_>>()
     };
     let end_after = |line: u32| after(&numbering, line);
-    // What others call ends with M17, however it is started.
+    // A file that others call ends with M17, however it is started.
     let is_called = runs.clone().any(|run| !run.within.is_of_main());
     let returned = |run: &Observation| match run.end {
         _ if !run.within.is_of_main() => run.within.returns.clone(),
@@ -79,7 +80,7 @@ fn before_ends<'a>(
         .collect()
 }
 
-/// The line after the blocks that go on from a line: the end of the file, or of its section.
+/// Returns the line after the blocks that follow a line: the end of the file, or of its section.
 fn after(numbering: &Numbering<'_>, last: u32) -> u32 {
     let lines = numbering.lines();
     let last = usize::try_from(last).unwrap_or_default();

@@ -21,7 +21,7 @@ use crate::machine::{Machine, Setting};
 use crate::readings::QuestionSet;
 use crate::timeline::ReadingsInForce;
 
-/// The end of a program, before which a mending block stands.
+/// The end of a program, before which a mending block goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Ending {
@@ -49,19 +49,19 @@ pub struct AxisAudit {
     /// The last command that made it so.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<Site>,
-    /// The states that it leaves an axis in that it found in its start-up state, each with the ways to it,
-    /// where it may leave it away from that (R14.6).
+    /// The possible final states of an axis found in its start-up state, each with the ways to it, if the program may
+    /// leave the axis away from that state (R14.6).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub possible: Option<PossibleStates>,
-    /// Why the effect is unknown.
+    /// The reason for which the effect is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<WhyUnknown>,
-    /// Whether the program moves the axis before any command of its own.
+    /// Whether the program moves the axis before any of its own commands.
     pub inherits: Inherits,
 }
 
 impl AxisAudit {
-    /// Whether the program leaves the axis away from its start-up state, or does so on some ways.
+    /// Whether the program leaves the axis away from its start-up state, on all or some ways.
     pub fn leaves_away(&self) -> bool {
         match self.effect {
             ProgramEffect::LeavesOn => !self.on_at_start_up,
@@ -71,8 +71,8 @@ impl AxisAudit {
         }
     }
 
-    /// On which ways it leaves the axis away from its start-up state, in words as seen from a file: `if
-    /// skip level 1 is on`; `None` where it does on all of them.
+    /// Returns the ways on which it leaves the axis away from its start-up state, in words as seen from a file: `if
+    /// skip level 1 is on`; `None` if it does so on all of them.
     pub fn leaves_away_when(&self, file: &str) -> Option<String> {
         let possible = self.possible.as_ref()?;
         let is_away = |state: State| (state == State::Inactive) == self.on_at_start_up;
@@ -91,7 +91,7 @@ impl AxisAudit {
         motion.is_some_and(|motion| motion.perhaps)
     }
 
-    /// Origin of the mending: the command that leaves the selection away from its start-up state, the
+    /// Returns the origin of the mending: the command that leaves the selection away from its start-up state, the
     /// block that makes it unknown, or the motion in the inherited state.
     pub fn cause(&self, cure: Cure) -> Option<&Site> {
         let doubt = || self.reason.as_ref().and_then(|reason| reason.site.as_ref());
@@ -106,15 +106,15 @@ impl AxisAudit {
         self.effect == ProgramEffect::Unknown || self.inherits == Inherits::Unknown
     }
 
-    /// Whether its effect is unknown because of what only the machine knows, or the state that the
-    /// program finds; not because something stopped it.
+    /// Whether its effect is unknown because it depends on values that only the machine knows or on the state that the
+    /// program finds, not because something stopped the program.
     pub fn depends_on_the_machine(&self) -> bool {
         let code = self.reason.as_ref().and_then(|reason| reason.code);
         self.effect == ProgramEffect::Unknown
             && matches!(code, None | Some(Code::Fc901 | Code::Fc902))
     }
 
-    /// The command that brings the axis back to its start-up state.
+    /// Returns the command that brings the axis back to its start-up state.
     pub fn way_home(&self) -> String {
         let way = if self.on_at_start_up { "ON" } else { "OFF" };
         format!("{}[COMP {way} {}]", self.axis, self.kind.as_str())
@@ -135,9 +135,9 @@ pub struct ProgramAudit {
     pub called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in its runs (R15.3).
     pub rests_on: QuestionSet,
-    /// What its runs do with variables that outlive programs.
+    /// Use of variables that outlive programs, by its runs.
     pub(super) used: VariableUse,
-    /// What they found in them.
+    /// The values that the runs found in those variables.
     pub(super) found: Arc<FoundVariables>,
 }
 
@@ -152,8 +152,8 @@ pub struct Auditor {
 }
 
 impl Auditor {
-    /// An auditor for some kinds of compensation on a machine. `settings` are the values of variables
-    /// that only the machine knows. An error of the control stops a program, whatever `options` say.
+    /// Creates an auditor for some kinds of compensation on a machine. `settings` are the values of variables that only
+    /// the machine knows. An error of the control stops a program, whatever `options` say.
     pub fn new(
         machine: Machine,
         options: Options,
@@ -169,8 +169,8 @@ impl Auditor {
         }
     }
 
-    /// Sets what programs find in variables that outlive programs, [`Archive::found`](super::Archive::found); nothing
-    /// without it.
+    /// Sets the values that programs find in variables that outlive programs,
+    /// [`Archive::found`](super::Archive::found); by default none.
     pub fn find(&mut self, found: FoundVariables) {
         self.found = Arc::new(found);
     }
@@ -180,17 +180,17 @@ impl Auditor {
         &self.scope
     }
 
-    /// The name of an axis.
+    /// Returns the name of an axis.
     pub fn name(&self, subject: AuditedKind) -> &str {
         &self.machine.axis(subject.axis).name
     }
 
-    /// The readings of the machine for some questions.
+    /// Returns the machine's readings of some questions.
     pub(super) fn readings(&self, questions: QuestionSet) -> ReadingsInForce {
         ReadingsInForce::of(questions, &self.machine)
     }
 
-    /// An interpreter that starts with a state.
+    /// Returns an interpreter that starts with a state.
     pub(super) fn interpreter(&self, from: Compensation) -> Interpreter {
         let mut interpreter = Interpreter::new(Arc::clone(&self.machine), from, self.options);
         for (name, setting) in &self.settings {
@@ -199,8 +199,8 @@ impl Auditor {
         interpreter
     }
 
-    /// Runs a program twice, with every axis in its start-up state and with every axis away from it. `run` runs it on an interpreter: the host knows
-    /// where its text comes from and where called programs are.
+    /// Runs a program twice, with every axis in its start-up state and with every axis away from it. `run` runs it on
+    /// an interpreter: the host knows where its text comes from and where called programs are.
     ///
     /// # Errors
     /// Those of `run`.
@@ -221,7 +221,7 @@ impl Auditor {
         })
     }
 
-    /// The runs of a program, with an eye on a file that it calls.
+    /// Runs a program and also observes a file that it calls.
     pub(super) fn observe<E>(
         &self,
         called: Option<&Arc<str>>,

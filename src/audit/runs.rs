@@ -1,4 +1,4 @@
-//! The conclusions from the runs of one program together (R10.1).
+//! The conclusions from all runs of one program (R10.1).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,16 +9,15 @@ use super::scope::{Scope, Selected};
 use crate::interpreter::{EndedBy, VariableUse};
 use crate::readings::QuestionSet;
 
-/// A program asks for the states of so many axes and kinds at most; of one that asks for more it is not
-/// known what it does.
+/// The most axes and kinds whose states a program may ask for; the effect of one that asks for more is unknown.
 const MOST_ASKED: usize = 3;
 
-/// States and conditions at the beginning of a run.
+/// The states at the beginning of a run.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct RunStart {
-    /// Whether the subjects that are not apart start away from the start-up state.
+    /// Whether the subjects that are not in `apart` start away from the start-up state.
     pub(super) is_away: bool,
-    /// The subjects that start otherwise than the others.
+    /// The subjects that start in the opposite state.
     pub(super) apart: BTreeSet<usize>,
 }
 
@@ -35,7 +34,7 @@ impl RunStart {
         self.is_away != self.apart.contains(&at)
     }
 
-    /// The same but for a subject.
+    /// Returns this start with one subject in the opposite state.
     pub(super) fn but(&self, at: usize) -> Self {
         let mut other = self.clone();
         if !other.apart.remove(&at) {
@@ -45,8 +44,8 @@ impl RunStart {
     }
 }
 
-/// The runs of a program: from the start-up state, from the state away from it, and, where the program
-/// asks for states that it finds, from those in between (R10.10).
+/// The runs of a program: from the start-up state, from the state away from it, and, if the program asks for states
+/// that it finds, from those in between (R10.10).
 #[derive(Debug, Clone)]
 pub(super) struct ProgramRuns {
     pub(super) start_up: Observation,
@@ -54,7 +53,7 @@ pub(super) struct ProgramRuns {
     pub(super) between: BTreeMap<RunStart, Observation>,
 }
 
-/// Beginning of the run from the start-up states.
+/// The start of the run from the start-up states.
 static START_UP: RunStart = RunStart::new(false);
 static AWAY: RunStart = RunStart::new(true);
 
@@ -63,14 +62,14 @@ impl ProgramRuns {
         self.starts().map(|(_, run)| run)
     }
 
-    /// The runs, each with where it starts.
+    /// Returns the runs, each with its start.
     pub(super) fn starts(&self) -> impl Iterator<Item = (&RunStart, &Observation)> {
         [(&START_UP, &self.start_up), (&AWAY, &self.away)]
             .into_iter()
             .chain(&self.between)
     }
 
-    /// The run from a start.
+    /// Returns the run from a start.
     pub(super) fn from(&self, start: &RunStart, scope: &Scope) -> Option<&Observation> {
         let is_away = start.is_away != (start.apart.len() == scope.subjects().len());
         if start.apart.is_empty() || start.apart.len() == scope.subjects().len() {
@@ -79,7 +78,7 @@ impl ProgramRuns {
         self.between.get(start)
     }
 
-    /// The subjects whose states the program asks for before it sets them, with the first place.
+    /// Returns the subjects whose states the program asks for before it sets them, with the first place.
     pub(super) fn asked(&self) -> BTreeMap<usize, Site> {
         let mut asked = BTreeMap::new();
         for (at, site) in self.all().flat_map(|run| &run.asked) {
@@ -88,19 +87,19 @@ impl ProgramRuns {
         asked
     }
 
-    /// The called files whose blocks are executed.
+    /// Returns the called files whose blocks are executed.
     pub(super) fn called(&self) -> BTreeSet<Arc<str>> {
         let called = self.all().flat_map(|run| &run.called);
         called.cloned().collect()
     }
 
-    /// The open questions whose readings decided something.
+    /// Returns the open questions whose readings decided something.
     pub(super) fn rests_on(&self) -> QuestionSet {
         let questions = self.all().map(|run| run.rests_on);
         questions.fold(QuestionSet::default(), QuestionSet::union)
     }
 
-    /// What the program does with variables that outlive programs.
+    /// Returns the program's use of variables that outlive programs.
     pub(super) fn used(&self) -> VariableUse {
         let mut used = VariableUse::default();
         for run in self.all() {
@@ -109,8 +108,8 @@ impl ProgramRuns {
         used
     }
 
-    /// The starts that are still to be tried: whatever the program asks for may be either, whatever the
-    /// others are.
+    /// Returns the starts still to be tried: each subject that the program asks for may be in either state,
+    /// independently of the others.
     pub(super) fn missing(&self, scope: &Scope) -> Vec<RunStart> {
         let asked: Vec<usize> = self.asked().into_keys().collect();
         if asked.len() > MOST_ASKED || scope.subjects().len() < 2 {
@@ -203,7 +202,7 @@ impl ProgramRuns {
         }
     }
 
-    /// The last command on a subject.
+    /// Returns the last command on a subject.
     pub(super) fn command(&self, at: usize) -> Option<Site> {
         let lasts = self.all().map(|run| run.observed[at].last.as_ref());
         lasts.flatten().find_map(|last| match last {

@@ -15,18 +15,18 @@ pub struct AuditedKind {
     pub kind: Kind,
 }
 
-/// The audited part of a machine: each configured kind of each axis, of which friction compensation
-/// alone counts unless others are asked for.
+/// The audited part of a machine: each configured kind of each axis; only friction compensation
+/// counts unless other kinds are requested.
 #[derive(Debug, Clone)]
 pub struct Scope {
     subjects: Vec<AuditedKind>,
-    /// For each axis, which of the subjects are its own.
+    /// The range of subjects of each axis.
     by_axis: Vec<std::ops::Range<usize>>,
     start_up: Compensation,
 }
 
 impl Scope {
-    /// The configured axes of a machine, and the kinds that count.
+    /// Creates the scope from the configured axes of a machine and the kinds that count.
     pub fn new(machine: &Machine, kinds: KindSet) -> Self {
         let start_up = machine.compensation();
         let mut subjects = Vec::new();
@@ -46,17 +46,17 @@ impl Scope {
         }
     }
 
-    /// The kinds of axes that are looked at, in the order of the machine's axes.
+    /// Returns the audited kinds of the axes, in the order of the machine's axes.
     pub fn subjects(&self) -> &[AuditedKind] {
         &self.subjects
     }
 
-    /// The state at the start of the control (R1.22).
+    /// Returns the state at the start of the control (R1.22).
     pub fn start_up(&self) -> &Compensation {
         &self.start_up
     }
 
-    /// The same with some subjects away from the start-up state: a state that programs may leave.
+    /// Returns a state that programs may leave: some subjects are away from the start-up state.
     pub(super) fn found(&self, is_away: impl Fn(usize) -> bool) -> Compensation {
         let mut found = self.start_up.clone();
         for (position, range) in self.by_axis.iter().enumerate() {
@@ -76,13 +76,13 @@ impl Scope {
         found
     }
 
-    /// The places of the subjects of an axis.
+    /// Returns the range of an axis' subjects.
     #[inline]
     pub(super) fn of_axis(&self, axis: AxisIndex) -> std::ops::Range<usize> {
         self.by_axis[axis.get()].clone()
     }
 
-    /// The selection of a subject that starts in its start-up state or away from it.
+    /// Returns the selection of a subject that starts in its start-up state or away from it.
     pub(super) fn selected_at_start(&self, subject: AuditedKind, is_away: bool) -> Selected {
         if self.is_on_at_start_up(subject) == is_away {
             Selected::Off
@@ -91,7 +91,7 @@ impl Scope {
         }
     }
 
-    /// The state of a subject that is in its start-up state or away from it.
+    /// Returns the state of a subject that is in its start-up state or away from it.
     pub(super) fn state(&self, at: usize, is_away: bool) -> State {
         let AuditedKind { axis, kind } = self.subjects[at];
         self.found(|it| is_away && it == at).state(axis, kind)

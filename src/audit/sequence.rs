@@ -13,11 +13,11 @@ use crate::interpreter::{EndedBy, Event, Interpreter, Observer, PossibleStates};
 use crate::readings::{Question, QuestionSet};
 use crate::timeline::ReadingsInForce;
 
-/// The programs of an order, one after another on one machine.
+/// Programs that run in a given order on one machine.
 pub struct Sequence<'a> {
     auditor: &'a Auditor,
     interpreter: Interpreter,
-    /// The program that left each subject as it is, where that is not its start-up state.
+    /// The program that left each subject as it is, if that is not its start-up state.
     left_by: Vec<Option<String>>,
     /// The open questions whose readings decided something so far.
     rests_on: QuestionSet,
@@ -54,7 +54,7 @@ pub struct StepAxis {
     pub start: Selected,
     /// The selection at its end.
     pub end: Selected,
-    /// The states that are possible at its end, each with the ways to it, where ways differ.
+    /// The possible states at its end, each with the ways to it, if ways differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub possible: Option<PossibleStates>,
     /// Whether it is selected at the start of the control.
@@ -66,13 +66,13 @@ pub struct StepAxis {
     /// The first motion of the axis away from its start-up state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub away: Option<FirstMotion>,
-    /// The program that left it so, where the motion comes before any command of this one.
+    /// The program that left it so, if the motion comes before any command of this program.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_by: Option<String>,
 }
 
 impl<'a> Sequence<'a> {
-    /// Right after the start of the control.
+    /// Starts a sequence right after the start of the control.
     pub fn new(auditor: &'a Auditor) -> Self {
         let scope = auditor.scope();
         Self {
@@ -83,8 +83,8 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    /// Runs the next program. One that an error stops leaves what it has done so far; a reset does
-    /// not change that (R1.28).
+    /// Runs the next program. One stopped by an error leaves the states reached so far; a reset
+    /// does not change them (R1.28).
     ///
     /// # Errors
     /// Those of `run`.

@@ -1,11 +1,11 @@
-//! On which ways a program leaves an axis away from its start-up state (R10.10, R14.6).
+//! The ways on which a program leaves an axis away from its start-up state (R10.10, R14.6).
 
 use super::observation::Observation;
 use super::runs::{ProgramRuns, RunStart};
 use super::scope::{Scope, Selected};
 use crate::interpreter::{PossibleState, PossibleStates, WayCondition};
 
-/// Ways that are named.
+/// The most ways that are named.
 const MAX_NAMED: usize = 4;
 
 /// States left by a run that begins in the start-up state.
@@ -13,14 +13,13 @@ const MAX_NAMED: usize = 4;
 enum Left<'a> {
     StartUp,
     Away,
-    /// It depends on what only the machine knows.
+    /// It depends on values that only the machine knows.
     Either(&'a PossibleStates),
 }
 
 impl ProgramRuns {
-    /// The states that the program leaves a subject in that it found in its start-up state, each with the
-    /// ways to it; `None` where that is the start-up state on all of them. `found` names what a subject
-    /// was found in.
+    /// Returns the possible final states of a subject found in its start-up state, each with the ways to it; `None` if
+    /// it ends in the start-up state on all of them. `found` names the state in which a subject was found.
     pub(super) fn possible(
         &self,
         scope: &Scope,

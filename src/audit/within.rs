@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use crate::interpreter::Executed;
 
-/// Blocks that are remembered before the end.
+/// Number of blocks remembered before the end.
 const LAST_BLOCKS: usize = 8;
 
-/// The blocks that a run executed in one file, as far as a cure needs them: the main program's, or those
-/// of a program that it calls.
+/// The blocks that a run executed in one file and that a cure needs: those of the main program, or of a program that it
+/// calls.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Within {
     /// The called file; `None` for the main program.
@@ -25,7 +25,7 @@ pub(super) struct Within {
 }
 
 impl Within {
-    /// Nothing yet, of a file that the main program calls.
+    /// Starts empty, for a file that the main program calls.
     pub(super) fn called(file: &Arc<str>) -> Self {
         Self {
             called: Some(Arc::clone(file)),
@@ -33,7 +33,7 @@ impl Within {
         }
     }
 
-    /// Whether it is the main program that is looked at.
+    /// Whether the main program is observed.
     pub(super) fn is_of_main(&self) -> bool {
         self.called.is_none()
     }
@@ -77,7 +77,7 @@ impl Within {
         }
     }
 
-    /// The run ends, wherever it is.
+    /// Ends the run, wherever it is.
     pub(super) fn ended(&mut self) {
         self.leave();
     }
@@ -86,13 +86,13 @@ impl Within {
         self.last_lines().next()
     }
 
-    /// The line of the file that is executed or called from.
+    /// Returns the line of the file that is being executed or contains the call.
     pub(super) fn line(&self) -> Option<u32> {
         let runs = self.called.is_none() || self.depth.is_some();
         self.last_line().filter(|_| runs)
     }
 
-    /// The lines of the blocks that were executed last, the last one first.
+    /// Returns the lines of the last executed blocks, the latest first.
     pub(super) fn last_lines(&self) -> impl Iterator<Item = u32> {
         let count = self.blocks.min(LAST_BLOCKS);
         (1..=count).map(|back| self.ring[(self.blocks - back) % LAST_BLOCKS])

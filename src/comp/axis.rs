@@ -9,18 +9,18 @@ use super::kind::{Kind, KindSet};
 pub struct AxisIndex(u16);
 
 impl AxisIndex {
-    /// The index from a position in the list of axes.
+    /// Creates the index from a position in the axis list.
     pub fn new(position: usize) -> Self {
         Self(u16::try_from(position).expect("a control has fewer than 65536 axes"))
     }
 
-    /// The position in the list of axes.
+    /// Returns the position in the axis list.
     pub fn get(self) -> usize {
         usize::from(self.0)
     }
 }
 
-/// An axis as the compensation sees it.
+/// The properties of an axis that matter to compensation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct AxisSetup {
@@ -33,15 +33,15 @@ pub struct AxisSetup {
     /// The kinds that are known not to be configured, so that the control refuses to switch them on
     /// (R1.24, R1.41).
     pub unselected: KindSet,
-    /// The kinds that only the program activates and that fall off at program end (R1.40).
+    /// The kinds that only the program activates and that switch off at program end (R1.40).
     pub manual: KindSet,
-    /// The kinds that have the values that they need to work.
+    /// The kinds that have all values they need to work.
     pub parameterised: KindSet,
 }
 
 impl AxisSetup {
-    /// An axis on which the kinds are configured and parameterised. Of the others only FRICT is
-    /// known not to be configured.
+    /// Creates an axis on which the kinds are configured and parameterised. Of the other kinds,
+    /// only FRICT is known not to be configured.
     pub fn new(name: impl Into<String>, configured: KindSet) -> Self {
         Self {
             name: name.into(),

@@ -1,4 +1,4 @@
-//! The version of the control's kernel, as far as lists and commands depend on it.
+//! The version of the control's kernel, on which lists and commands depend.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,13 +10,13 @@ use thiserror::Error;
 pub struct CncBuild([u32; 4]);
 
 impl CncBuild {
-    /// A build from its four numbers.
+    /// Creates a build from its four numbers.
     pub const fn new(numbers: [u32; 4]) -> Self {
         Self(numbers)
     }
 }
 
-/// A text that is no CNC build.
+/// A text that is not a CNC build.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{0}` is not a CNC build; write it like `3.1.3132.0`")]
 pub struct NoBuild(String);

@@ -18,7 +18,7 @@ pub enum Selection {
 }
 
 impl Selection {
-    /// The kinds that the command names; `OFF_ALL` names every kind (R1.3).
+    /// Returns the kinds that the command names; `OFF_ALL` names every kind (R1.3).
     pub fn kinds(self) -> KindSet {
         match self {
             Self::On(kinds) | Self::Off(kinds) => kinds,
@@ -31,7 +31,7 @@ impl Selection {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CompCommand {
-    /// The axis in front of the bracket.
+    /// The axis before the bracket.
     pub axis: String,
     /// Kinds to switch.
     pub selection: Selection,

@@ -15,7 +15,7 @@ struct AxisState {
     /// The kinds that are known not to be configured.
     unselected: KindSet,
     parameterised: KindSet,
-    /// The kinds that fall off at program end and reset.
+    /// The kinds that switch off at program end and reset.
     manual: KindSet,
     selected: KindSet,
     unknown: KindSet,
@@ -23,7 +23,7 @@ struct AxisState {
 }
 
 impl AxisState {
-    /// Makes a change to a kind and reports it where the user would see it.
+    /// Makes a change to a kind and reports it if it is visible to the user.
     fn change(
         &mut self,
         axis: AxisIndex,
@@ -83,8 +83,8 @@ pub struct Compensation {
 }
 
 impl Compensation {
-    /// The state after a start of the control (R1.22, R1.29): a kind is selected when its axis
-    /// parameter configures it, unless the program has to activate it.
+    /// Returns the state after a start of the control (R1.22, R1.29): a kind is selected if its
+    /// axis parameter configures it, unless the program has to activate it.
     pub fn at_startup(axes: impl IntoIterator<Item = AxisSetup>) -> Self {
         let mut compensation = Self {
             axes: Vec::new(),
@@ -107,7 +107,7 @@ impl Compensation {
         compensation
     }
 
-    /// Whether it is one of these axes.
+    /// Whether this is a state of these axes.
     pub(crate) fn fits(&self, axes: impl IntoIterator<Item = AxisSetup>) -> bool {
         let setups = axes.into_iter().map(|axis| (axis.name, axis.is_spindle));
         let own = self
@@ -120,7 +120,7 @@ impl Compensation {
             && own.eq(setups)
     }
 
-    /// The state of one kind on one axis.
+    /// Returns the state of one kind on one axis.
     pub fn state(&self, axis: AxisIndex, kind: Kind) -> State {
         self.axes[axis.get()].state(kind)
     }
@@ -130,7 +130,7 @@ impl Compensation {
         self.axes.len()
     }
 
-    /// Whether the machine has no axis at all.
+    /// Whether the machine has no axes.
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
     }
@@ -138,7 +138,7 @@ impl Compensation {
     /// Applies a command and returns what it changed.
     ///
     /// # Errors
-    /// The control's refusal; nothing is changed then (R1.24, R1.41).
+    /// The control's refusal; the state is then unchanged (R1.24, R1.41).
     pub fn apply(&mut self, command: &CompCommand) -> Result<Vec<Change>, CompensationError> {
         let axis = self.resolve(&command.axis)?;
         let mut changes = Vec::new();
@@ -146,10 +146,10 @@ impl Compensation {
         Ok(changes)
     }
 
-    /// The axis that a command may address.
+    /// Returns the axis of this name if a command may address it.
     ///
     /// # Errors
-    /// A name that the machine does not have, or a spindle's.
+    /// The machine has no such axis, or it is a spindle.
     pub fn resolve(&self, name: &str) -> Result<AxisIndex, CompensationError> {
         let found = self.names.iter().position(|axis| axis == name);
         match found {
@@ -163,7 +163,7 @@ impl Compensation {
     /// Applies a selection to an axis and appends what it changed to `changes`.
     ///
     /// # Errors
-    /// The control's refusal; nothing is changed then (R1.24, R1.41).
+    /// The control's refusal; the state is then unchanged (R1.24, R1.41).
     pub fn switch(
         &mut self,
         axis: AxisIndex,
@@ -198,7 +198,7 @@ impl Compensation {
     }
 
     /// Ends a program (R1.27, R1.40): friction compensation keeps its state, kinds with manual
-    /// activation fall off. Returns the changes.
+    /// activation switch off. Returns the changes.
     pub fn program_end(&mut self) -> Vec<Change> {
         let mut changes = Vec::new();
         for index in 0..self.axes.len() {
@@ -220,7 +220,7 @@ impl Compensation {
     }
 
     /// Gives kinds of an axis the selection that they have in another state of the same axes, and
-    /// appends what changed.
+    /// appends the changes.
     pub(crate) fn return_to(
         &mut self,
         other: &Self,
@@ -244,7 +244,7 @@ impl Compensation {
     }
 
     /// Makes kinds of an axis unknown, because a command that decides them depends on a value that
-    /// only the machine knows (R2.51), and appends what changed.
+    /// only the machine knows (R2.51), and appends the changes.
     pub fn havoc(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];
         for kind in kinds.intersection(state.configured).iter() {
@@ -252,41 +252,42 @@ impl Compensation {
         }
     }
 
-    /// Says whether an axis is in a coupling: COMP is refused while it is, and what COMP leaves is
-    /// unknown while that is open.
+    /// Sets whether an axis is in a coupling: COMP is refused while it is, and the effect of COMP
+    /// is unknown while that is open.
     pub fn set_coupled(&mut self, axis: AxisIndex, coupling: Coupling) {
         self.axes[axis.get()].coupling = coupling;
     }
 
-    /// Whether an axis is in a coupling.
+    /// Returns whether an axis is in a coupling.
     pub fn coupling(&self, axis: AxisIndex) -> Coupling {
         self.axes[axis.get()].coupling
     }
 
-    /// The kinds of an axis that are selected, for the state file.
+    /// Returns the selected kinds of an axis, for the state file.
     pub fn selected(&self, axis: AxisIndex) -> KindSet {
         self.axes[axis.get()].selected
     }
 
-    /// The kinds of an axis that are unknown, for the state file.
+    /// Returns the unknown kinds of an axis, for the state file.
     pub fn unknown(&self, axis: AxisIndex) -> KindSet {
         self.axes[axis.get()].unknown
     }
 
-    /// Takes over what an earlier session left on an axis.
+    /// Restores the state of an axis that an earlier session left.
     pub fn restore(&mut self, axis: AxisIndex, selected: KindSet, unknown: KindSet) {
         let state = &mut self.axes[axis.get()];
         state.selected = selected;
         state.unknown = unknown;
     }
 
-    /// Whether the value list of an axis was accepted, by kind. The other kinds' lists are not
+    /// Sets the kinds of an axis whose value list was accepted. The other kinds' lists are not
     /// read; they count as parameterised.
     pub fn set_parameterised(&mut self, axis: AxisIndex, kinds: KindSet) {
         self.axes[axis.get()].parameterised = kinds;
     }
 
-    /// The kinds of an axis that another state may have in another way, or that are unknown in any.
+    /// Returns the kinds of an axis that may differ in another state, or that are unknown in
+    /// either.
     pub(crate) fn differing(&self, other: &Self, axis: AxisIndex) -> KindSet {
         let (mine, theirs) = (&self.axes[axis.get()], &other.axes[axis.get()]);
         let symmetric = |one: KindSet, two: KindSet| one.without(two).union(two.without(one));
@@ -301,7 +302,7 @@ impl Compensation {
         self.axes[axis.get()].parameterised.contains(kind)
     }
 
-    /// A kind becomes known: it is selected, or it is not.
+    /// Makes a kind known: selected or not.
     pub(crate) fn decide(&mut self, axis: AxisIndex, kind: Kind, selected: Membership) {
         let state = &mut self.axes[axis.get()];
         state.selected.assign(kind, selected);

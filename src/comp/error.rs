@@ -1,16 +1,16 @@
-//! Why a COMP command is refused.
+//! Reasons for which a COMP command is refused.
 
 use thiserror::Error;
 
 use super::kind::Kind;
 use crate::diagnostic::Code;
 
-/// Why the control, or this tool in its place, refuses a COMP command.
+/// The reason for which the control, or this tool in its place, refuses a COMP command.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CompensationError {
-    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24), and any other kind that the list of
-    /// the axis does not select (R1.41).
+    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24), and any other kind that the axis
+    /// list does not select (R1.41).
     #[error(
         "{} of axis `{axis}` is switched on, but {} is not set",
         named(*.kind),
@@ -25,7 +25,7 @@ pub enum CompensationError {
     /// `Q[COMP ON FRICT]` on a machine without an axis Q.
     #[error("the machine has no axis `{axis}`")]
     UnknownAxis {
-        /// The name in front of the bracket.
+        /// The name before the bracket.
         axis: String,
     },
     /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
@@ -34,8 +34,7 @@ pub enum CompensationError {
         /// The axis of the command.
         axis: String,
     },
-    /// A command that the documents do not settle, and that the configuration reads as refused
-    /// (R15.2).
+    /// A command that the documents leave open and that the configuration reads as refused (R15.2).
     #[error("by the selected reading ({rule}) the control refuses {what} of axis `{axis}`")]
     ReadAsRefused {
         /// The axis of the command.
@@ -54,7 +53,7 @@ pub enum CompensationError {
 }
 
 impl CompensationError {
-    /// The control's error number, or ours where the control documents none.
+    /// Returns the control's error number, or ours if the control documents none.
     pub fn code(&self) -> Code {
         match self {
             Self::NotConfigured { kind, .. } => kind.facts().refusal,
@@ -65,7 +64,7 @@ impl CompensationError {
         }
     }
 
-    /// The axis that the command names.
+    /// Returns the axis that the command names.
     pub fn axis(&self) -> &str {
         match self {
             Self::NotConfigured { axis, .. }
@@ -77,7 +76,7 @@ impl CompensationError {
     }
 }
 
-/// The name of a kind in a message.
+/// Returns the name of a kind for messages.
 fn named(kind: Kind) -> String {
     match kind {
         Kind::Frict => "friction compensation".to_owned(),

@@ -1,4 +1,4 @@
-//! The facts about each kind of compensation, one row a kind.
+//! The facts about each kind of compensation, one row per kind.
 
 use super::build::CncBuild;
 use super::kind::Kind;
@@ -14,15 +14,16 @@ pub struct Facts {
     pub selector: &'static str,
     /// The number of that parameter.
     pub parameter: &'static str,
-    /// The key that makes the program switch it: off at start-up, at program end and at reset.
+    /// The key that leaves the switching to the program: off at start-up, at program end and at
+    /// reset.
     pub manual_activation: Option<&'static str>,
-    /// The number of the manual-activation parameter where one is documented.
+    /// The number of the manual-activation parameter, if one is documented.
     pub manual_parameter: Option<&'static str>,
     /// The control's error for `COMP ON` of the kind on an axis whose list does not select it.
     pub refusal: Code,
-    /// The bit that stands for the kind in P-AXIS-00465, where one is documented.
+    /// The bit of the kind in P-AXIS-00465, if one is documented.
     pub monitor_bit: Option<u64>,
-    /// The CNC build that brought the keyword.
+    /// The CNC build that introduced the keyword.
     pub since: CncBuild,
 }
 
@@ -103,7 +104,7 @@ const TABLE: [Facts; 7] = [
 ];
 
 impl Kind {
-    /// The facts about this kind.
+    /// Returns the facts about this kind.
     pub fn facts(self) -> &'static Facts {
         &TABLE[self as usize]
     }

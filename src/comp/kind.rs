@@ -27,7 +27,7 @@ crate::words! {
     }
 }
 
-/// A word that names no kind of compensation.
+/// A word that is not a kind of compensation.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("there is no compensation `{0}`")]
 pub struct UnknownKind(pub String);
@@ -35,7 +35,7 @@ pub struct UnknownKind(pub String);
 impl FromStr for Kind {
     type Err = UnknownKind;
 
-    /// The kind that a keyword names, in any case.
+    /// Returns the kind of a keyword, in any case.
     fn from_str(word: &str) -> Result<Self, Self::Err> {
         let mut kinds = Self::ALL.into_iter();
         let found = kinds.find(|kind| kind.as_str().eq_ignore_ascii_case(word));
@@ -61,12 +61,12 @@ impl From<Vec<Kind>> for KindSet {
 }
 
 impl KindSet {
-    /// No kind.
+    /// The empty set.
     pub const NONE: Self = Self(0);
     /// Every kind.
     pub const ALL: Self = Self(0x7f);
 
-    /// The set of one kind.
+    /// Returns the set of one kind.
     pub const fn of(kind: Kind) -> Self {
         Self(1 << kind as u8)
     }
@@ -76,17 +76,17 @@ impl KindSet {
         self.0 & Self::of(kind).0 != 0
     }
 
-    /// Puts a kind into the set.
+    /// Adds a kind to the set.
     pub fn insert(&mut self, kind: Kind) {
         self.0 |= Self::of(kind).0;
     }
 
-    /// Takes a kind out of the set.
+    /// Removes a kind from the set.
     pub fn remove(&mut self, kind: Kind) {
         self.0 &= !Self::of(kind).0;
     }
 
-    /// Puts a kind into the set or takes it out.
+    /// Adds a kind to the set or removes it.
     pub fn assign(&mut self, kind: Kind, present: Membership) {
         match present {
             Membership::In => self.insert(kind),
@@ -94,27 +94,27 @@ impl KindSet {
         }
     }
 
-    /// The kinds in either set.
+    /// Returns the kinds in either set.
     pub fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// The kinds in both sets.
+    /// Returns the kinds in both sets.
     pub fn intersection(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
-    /// The kinds of this set that are not in the other.
+    /// Returns the kinds of this set that are not in the other.
     pub fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
 
-    /// Whether no kind is in the set.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// The kinds of the set, in the order of [`Kind::ALL`].
+    /// Returns the kinds of the set, in the order of [`Kind::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Kind> {
         Kind::ALL
             .into_iter()

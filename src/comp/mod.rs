@@ -1,7 +1,7 @@
 //! The slice itself: the kinds of compensation, the state of every axis, and what a COMP command
 //! does to it.
 //!
-//! It knows no files, no interpreter and no clock. A host with an interpreter of its own hands it
+//! It depends on no files, no interpreter and no clock. A host with its own interpreter passes it
 //! the COMP commands that it meets and gets the changes, or the control's own error.
 
 mod axis;

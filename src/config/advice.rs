@@ -4,7 +4,8 @@ use super::error::ConfigError;
 use crate::diagnostic::Advice;
 use crate::text::{SourceFile, Span};
 
-/// A text that is no TOML: the parser's message with what users of the control meet most.
+/// Reports a text that is not TOML: the parser's message, with advice on the mistakes that users of
+/// the control make most.
 pub(super) fn no_toml(source: &SourceFile, error: &toml::de::Error) -> ConfigError {
     let span = error.span().unwrap_or_default();
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
@@ -40,7 +41,7 @@ pub fn example(key: &str) -> Option<&'static str> {
     Some(example)
 }
 
-/// A row a key.
+/// One row per key.
 const EXAMPLES: [(&str, &str); 25] = [
     ("machine", "write `[machine]`, in single brackets"),
     (

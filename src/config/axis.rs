@@ -67,7 +67,7 @@ pub(super) const VALUE: Shape = Shape {
 };
 
 impl AxisTable {
-    /// The tables in the whole file, each with a name of its own.
+    /// Reads the tables of the whole file; no two have the same name.
     pub(super) fn read_all(root: &Section<'_>) -> Result<Vec<Self>, ConfigError> {
         let mut tables: Vec<Self> = Vec::new();
         for section in root.tables("axis", &AXIS)? {
@@ -163,7 +163,7 @@ fn no_manual_activation(kind: Kind, given: &Given<String>) -> ConfigError {
         .with_help(format!("the kinds that have one are {}", others.join(", ")))
 }
 
-/// A list of compensation keywords.
+/// Reads a list of compensation keywords.
 fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>, ConfigError> {
     let mut found = Vec::new();
     for word in section.strings(key)? {
@@ -176,8 +176,8 @@ fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>,
     Ok(found)
 }
 
-/// The value list that is part of `frictcomp.toml`. Its values have the names, units,
-/// defaults and checks of a list.
+/// Reads the value list that is part of `frictcomp.toml`. Its values have the names, units,
+/// defaults and checks of a list file.
 fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
     let mut draft = FrictionDraft::default();
     if let (Some(whole), Some(pairs)) = (section.given("table"), section.number_pairs("table")?) {

@@ -1,4 +1,4 @@
-//! Errors in a file of the user.
+//! Errors in a user's file.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
 use crate::lists::Given;
 use crate::text::{SourceFile, Span};
 
-/// A `frictcomp.toml` that cannot be used: it is no TOML, or says something that does not exist.
+/// A `frictcomp.toml` that cannot be used: it is not TOML, or has an unknown key or value.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}:{}: {}", .diagnostic.place.file, .diagnostic.place.start(), .diagnostic.message)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -16,7 +16,7 @@ pub struct ConfigError {
 }
 
 impl ConfigError {
-    /// An error about a part of a file.
+    /// Creates an error about a part of a file.
     pub fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
         let place = source.place(span);
         Self {
@@ -24,20 +24,20 @@ impl ConfigError {
         }
     }
 
-    /// An error about a value.
+    /// Creates an error about a value.
     pub fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
         Self {
             diagnostic: Box::new(Diagnostic::new(Code::Fc110, given.place(), message)),
         }
     }
 
-    /// The same with a line of help.
+    /// Adds a line of help.
     pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
         self.diagnostic.advice.push(advice.into());
         self
     }
 
-    /// The same with "did you mean" where a known word is near.
+    /// Adds "did you mean" if a known word is similar.
     pub(crate) fn with_near<'a>(
         mut self,
         found: &str,

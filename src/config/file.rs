@@ -60,7 +60,7 @@ pub(super) const ROOT: Shape = Shape {
     ]),
 };
 
-/// The key of `[variables]` that is no variable.
+/// The key of `[variables]` that is not a variable.
 const STABLE: &str = "stable";
 
 pub(super) const VARIABLES: Shape = Shape {
@@ -99,7 +99,7 @@ impl ConfigFile {
     }
 }
 
-/// Says of a key above all tables in which of them it belongs.
+/// Adds to the error about a key above all tables which of them it belongs in.
 fn at_home(error: ConfigError, table: &DeTable<'_>) -> ConfigError {
     let unknown = ROOT.first_unknown(table);
     let unknown = unknown.map(|key| key.get_ref().as_ref());
@@ -115,7 +115,7 @@ fn at_home(error: ConfigError, table: &DeTable<'_>) -> ConfigError {
     }
 }
 
-/// The extensions of programs, in lower case and without a dot.
+/// Reads the extensions of programs, in lower case and without a dot.
 fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     let Some(check) = root.table("check", &CHECK)? else {
         return Ok(Vec::new());
@@ -133,7 +133,7 @@ fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     given.into_iter().map(extension).collect()
 }
 
-/// The variables of the machine that keep their values while a program runs (R14.1).
+/// Reads the variables of the machine that keep their values while a program runs (R14.1).
 fn stable(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {
         return Ok(Vec::new());
@@ -178,8 +178,8 @@ fn variables(root: &Section<'_>) -> Result<Vec<(String, ConfiguredVariable)>, Co
     Ok(found)
 }
 
-/// A variable that is neither a number nor a text; most often its name lacks the quotes, so that
-/// TOML takes its parts as tables.
+/// Reports a variable that is neither a number nor a text; most often its name lacks the quotes, so
+/// that TOML takes its parts for tables.
 fn no_variable(variables: &Section<'_>, name: &Given<&str>) -> ConfigError {
     match variables.dotted(name.value) {
         Some((dotted, value)) => {

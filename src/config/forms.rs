@@ -33,7 +33,7 @@ pub enum Form {
     NumberOrText,
     /// Skip levels.
     SkipLevels,
-    /// A list of pairs of numbers, with the largest number of them.
+    /// A list of pairs of numbers, with the maximum number of pairs.
     Points(Option<usize>),
     /// The severity of a code.
     Level,
@@ -59,7 +59,7 @@ pub struct KeyForm {
 pub struct TableForm {
     /// Its header, `[[axis]]`; the file itself is named after it.
     pub header: &'static str,
-    /// Its keys, as far as the user does not choose them.
+    /// Its keys, except those that the user chooses.
     pub keys: &'static [KeyForm],
     /// The form of the values of keys that the user chooses.
     pub free: Option<Form>,

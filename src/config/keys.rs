@@ -22,8 +22,8 @@ const TABLES: [(&str, &Shape); 12] = [
     (CONFIRMATION.name, &CONFIRMATION),
 ];
 
-/// The keys of the table of a header, `[[axis]]`; `None` where the user chooses them, or there is no
-/// such table.
+/// Returns the keys of the table with a header such as `[[axis]]`; `None` if the user chooses them, or there is no such
+/// table.
 pub fn keys(header: &str) -> Option<&'static [&'static str]> {
     let table = TABLES.iter().find(|(name, _)| *name == header);
     table.and_then(|(_, shape)| shape.keys)

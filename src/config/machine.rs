@@ -68,7 +68,7 @@ pub(super) const WORDS: Shape = Shape {
 };
 
 impl MachineTable {
-    /// The table in the whole file; without it nothing is reported.
+    /// Reads the table from the whole file; a missing table is not an error.
     pub(super) fn read(root: &Section<'_>) -> Result<Self, ConfigError> {
         let Some(section) = root.table("machine", &MACHINE)? else {
             return Ok(Self::default());
@@ -120,7 +120,8 @@ fn words(section: &Section<'_>) -> Result<Vec<(String, Given<String>)>, ConfigEr
     Ok(words)
 }
 
-/// The programs that keep something: all that are on the machine only, none, or those that match.
+/// Returns the programs that keep something: all that exist only on the machine, none, or those
+/// that match.
 fn kept(keeps: &Section<'_>, key: &str, all: &[String]) -> Result<Vec<String>, ConfigError> {
     if let Ok(on) = keeps.truth(key) {
         let all = on.filter(|on| on.value).map(|_| all.to_vec());

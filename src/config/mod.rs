@@ -1,8 +1,7 @@
-//! The file that users of frictcomp write, `frictcomp.toml`, as data with the place of every key. What
-//! the data mean for a machine is said there. Packages of the same version read their own files with the
-//! same tables.
+//! The file that users of frictcomp write, `frictcomp.toml`, as data with the place of every key. The machine module
+//! gives the data their meaning. Packages of the same version read their own files with the same tables.
 
-// Without the feature, what only they see is as good as private.
+// Without the feature, the items that only they see are in effect private.
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
 mod advice;

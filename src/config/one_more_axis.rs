@@ -11,8 +11,8 @@ struct Replacement {
     after: &'static str,
 }
 
-/// The change that adds an axis to the file, in the way in which the file lists the others. `None`
-/// where it lists none: the first axis of a list ends what is assumed without one (R2.20).
+/// Returns the change that adds an axis to the file, in the form in which the file lists the others. `None` if it lists
+/// none: the first listed axis would end the assumption made without a list (R2.20).
 pub(super) fn one_more_axis(root: &Section<'_>) -> Option<NamedFix> {
     let (source, last) = (root.source(), root.extent_of_last("axis")?);
     let text = source.text();
@@ -29,8 +29,8 @@ pub(super) fn one_more_axis(root: &Section<'_>) -> Option<NamedFix> {
     })
 }
 
-/// A table `[[axis]]` after the last one, and after comments that close it: those with an empty line
-/// or the end of the file below them.
+/// Places a table `[[axis]]` after the last one and after the comments that close it: those followed by an empty line
+/// or the end of the file.
 fn after_table(text: &str, last: Span) -> Replacement {
     let line_end = |from: usize| from + text[from..].lines().next().unwrap_or_default().len();
     let table_end = line_end(last.end as usize);
@@ -57,8 +57,8 @@ fn after_table(text: &str, last: Span) -> Replacement {
     }
 }
 
-/// An entry `{ name = "X" }` after the last one of an array: in its line, or below it where the array
-/// has lines.
+/// Places an entry `{ name = "X" }` after the last one of an array: on the same line, or below it if the array spans
+/// lines.
 fn in_array(text: &str, last: Span, array: Span) -> Replacement {
     let (start, end) = (last.start as usize, last.end as usize);
     let gap = &text[end..array.end as usize - 1];

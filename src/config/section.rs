@@ -13,14 +13,14 @@ use crate::text::{SourceFile, Span};
 
 /// Name and permitted keys of a table.
 pub struct Shape {
-    /// As the user writes it.
+    /// The name as the user writes it.
     pub name: &'static str,
-    /// The keys; `None` when the user chooses them.
+    /// The keys; `None` if the user chooses them.
     pub keys: Option<&'static [&'static str]>,
 }
 
 impl Shape {
-    /// The first key of a table that it does not have.
+    /// Returns the first key of a table that the shape does not have.
     pub(super) fn first_unknown<'a>(
         &self,
         table: &'a DeTable<'_>,
@@ -41,10 +41,10 @@ pub struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    /// A table after a look at its keys.
+    /// Checks the keys of a table.
     ///
     /// # Errors
-    /// A key is not known, or stands twice.
+    /// A key is unknown, or is given twice.
     pub fn new(
         table: &'a DeTable<'a>,
         source: &'a Arc<SourceFile>,
@@ -70,39 +70,39 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// The place of the table itself.
+    /// Returns the place of the table itself.
     pub fn whole(&self) -> Given<()> {
         Given::new((), self.source, self.span)
     }
 
-    /// The place of a value.
+    /// Returns the place of a value.
     pub fn given(&self, key: &str) -> Option<Given<()>> {
         let value = self.table.get(key)?;
         Some(Given::new((), self.source, span(value)))
     }
 
-    /// The file in which the table stands.
+    /// Returns the file that contains the table.
     pub(super) fn source(&self) -> &SourceFile {
         self.source
     }
 
-    /// From where the last value of an array begins to where the last thing in it ends.
+    /// Returns the span from the beginning of the last value of an array to the end of the last item in it.
     pub(super) fn extent_of_last(&self, key: &str) -> Option<Span> {
         let last = self.table.get(key)?.get_ref().as_array()?.last()?;
         Some(Span::new(last.span().start, end(last)))
     }
 
-    /// The keys with their places.
+    /// Returns the keys with their places.
     pub(super) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
         self.table
             .keys()
             .map(|key| Given::new(key.get_ref().as_ref(), self.source, span(key)))
     }
 
-    /// A table in this one.
+    /// Returns a table inside this one.
     ///
     /// # Errors
-    /// The key has no table, or one with an unknown key.
+    /// The key is not a table, or the table has an unknown key.
     pub fn table(&self, key: &str, shape: &Shape) -> Result<Option<Section<'a>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
@@ -113,7 +113,7 @@ impl<'a> Section<'a> {
         Ok(Some(self.section(value, table, shape)?))
     }
 
-    /// The tables of an array, `[[axis]]`.
+    /// Returns the tables of an array, `[[axis]]`.
     pub(super) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
         let mut tables = Vec::new();
         for value in self.array(key, "an array of tables")? {
@@ -125,10 +125,10 @@ impl<'a> Section<'a> {
         Ok(tables)
     }
 
-    /// A text.
+    /// Returns a text.
     ///
     /// # Errors
-    /// The key has no text.
+    /// The value is not a text.
     pub fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
@@ -139,7 +139,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A list of texts; empty without the key.
+    /// Returns a list of texts; empty without the key.
     pub(super) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
         let mut texts = Vec::new();
         for value in self.array(key, "a list of texts")? {
@@ -151,7 +151,7 @@ impl<'a> Section<'a> {
         Ok(texts)
     }
 
-    /// Skip levels: `"none"`, `"all"`, a list of levels or texts as `"1,3-5"`.
+    /// Returns skip levels: `"none"`, `"all"`, a list of levels or texts such as `"1,3-5"`.
     pub(super) fn skip_levels(&self, key: &str) -> Result<Option<SkipLevels>, ConfigError> {
         const WANTED: &str = "`\"none\"`, `\"all\"` or a list of levels from 1 to 10";
         let Some(value) = self.table.get(key) else {
@@ -173,7 +173,7 @@ impl<'a> Section<'a> {
             .ok_or_else(|| self.expected(value, key, WANTED))
     }
 
-    /// A truth value, also as `0` or `1`.
+    /// Returns a truth value, also given as `0` or `1`.
     pub(super) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
@@ -187,14 +187,13 @@ impl<'a> Section<'a> {
         Ok(Some(self.place(value, on)))
     }
 
-    /// Returns the number at a key as it is written; `None` without the key or for a value of another
-    /// type.
+    /// Returns the number of a key as written; `None` without the key or for a value of another type.
     pub fn number(&self, key: &str) -> Option<Given<Written>> {
         let value = self.table.get(key)?;
         Some(self.place(value, self.written(value)?))
     }
 
-    /// A whole number from 0 to 65535.
+    /// Returns a whole number from 0 to 65535.
     pub(super) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
@@ -209,10 +208,10 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A number above 0.
+    /// Returns a number above 0.
     ///
     /// # Errors
-    /// The key has no number above 0.
+    /// The value is not a number above 0.
     pub fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
@@ -224,10 +223,10 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
+    /// Returns a list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
     ///
     /// # Errors
-    /// The key has something else.
+    /// The value is something else.
     pub fn number_pairs(&self, key: &str) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {
         const WANTED: &str = "a list of pairs `[velocity, current]`";
         if !self.table.contains_key(key) {
@@ -279,7 +278,7 @@ impl<'a> Section<'a> {
         Ok(found.into_iter().flat_map(|values| values.iter()))
     }
 
-    /// A number with its text as it stands in the file.
+    /// Returns a number with its text as written in the file.
     fn written(&self, value: &Spanned<DeValue<'_>>) -> Option<Written> {
         let text = || span(value).of(self.source.text()).to_owned();
         match value.get_ref() {
@@ -319,7 +318,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The value of a key that is no number.
+    /// Reports a value that is not a number.
     pub(super) fn no_number(&self, key: &str) -> ConfigError {
         let Some(value) = self.table.get(key) else {
             return ConfigError::at(&self.whole(), format!("`{key}` is missing"));
@@ -328,7 +327,7 @@ impl<'a> Section<'a> {
             .with_help("write it without quotes")
     }
 
-    /// A name with points and its value, where points made tables of it.
+    /// Returns a dotted name and its value if TOML took its parts for tables.
     pub(super) fn dotted(&self, key: &str) -> Option<(String, String)> {
         let mut name = key.to_owned();
         let mut value = self.table.get(key)?;
@@ -348,7 +347,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// A value as it stands there, in backquotes, its beginning if it is long.
+/// Returns a value as written, in backquotes; only its beginning if it is long.
 fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     let line = text.lines().next().unwrap_or_default();

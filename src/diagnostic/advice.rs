@@ -30,16 +30,16 @@ pub enum Budget {
 /// A piece of advice.
 ///
 /// Its [`Display`](fmt::Display) is a clause in lower case that is true in every host. A host that
-/// has its own way to do the thing words it itself: the command line names an option, an editor
-/// offers an action.
+/// has its own way to do it uses its own words: the command line names an option, an editor offers
+/// an action.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Advice {
-    /// Something that only the user can do, in words.
+    /// Advice that only the user can follow, in words.
     Words(Cow<'static, str>),
-    /// This known word may be meant.
+    /// Suggest this known word.
     DidYouMean(String),
-    /// Look at what uses up the budget, or raise it.
+    /// Look for the cause that uses up the budget, or raise it.
     RaiseBudget(Budget),
     /// Assume that friction compensation of these axes is configured and parameterised.
     Enable(Vec<String>),
@@ -60,25 +60,25 @@ pub enum Advice {
     DescribeMachine(Vec<String>),
     /// Give this parameter or variable its value.
     SetVariable(String),
-    /// Say which skip levels are on, of which the blocks of this one wait.
+    /// Say which skip levels are on; the blocks of this level depend on it.
     SetSkip(u8),
     /// Write this parameter or variable before it is read, or give it its value.
     AssignVariable(String),
-    /// Test the value of the machine that ends the loop in its condition, and give it.
+    /// Test the machine value that ends the loop in the loop condition, and give that value.
     EndLoop,
-    /// Write what a motion lacks into the program, or give the values.
+    /// Write the values that a motion lacks into the program, or give them.
     CompleteMotion,
-    /// Say where these axes stand at the start.
+    /// Give the start positions of these axes.
     GiveStart(Vec<String>),
-    /// Let programs be called from the folder of this one, or from anywhere.
+    /// Allow calls of programs in the folder of this one, or anywhere.
     AllowOutside,
-    /// Let the text of lists outside the folders of the machine and the programs be shown.
+    /// Allow the text of lists outside the folders of the machine and the programs to be shown.
     ShowOutside,
-    /// Give the description of the network, which says what the drives exchange.
+    /// Give the network description, which lists the data that the drives exchange.
     GiveNetwork,
     /// Say which device of the network drives this axis.
     AssignSlave(String),
-    /// Begin with a new configuration.
+    /// Create a new configuration.
     WriteConfiguration,
     /// Read the page of this code.
     ReadPage(Code),
@@ -88,7 +88,7 @@ pub enum Advice {
 pub type Wording = fn(&Advice) -> Option<String>;
 
 impl Advice {
-    /// The known words that may be meant, which are equally near.
+    /// Suggests known words that are equally similar.
     pub fn did_you_mean(near: &[&str]) -> Self {
         match near {
             [near] => Self::DidYouMean((*near).to_owned()),
@@ -96,7 +96,7 @@ impl Advice {
         }
     }
 
-    /// The words of a host, or the general ones.
+    /// Returns the wording of a host, or the general one.
     pub fn in_words(&self, wording: Option<Wording>) -> String {
         let words = wording.and_then(|wording| wording(self));
         words.unwrap_or_else(|| self.to_string())
@@ -177,7 +177,7 @@ impl fmt::Display for Advice {
                 "write what is missing into the program (`F`, absolute positions), or give the values; the trace restarts after it",
             ),
             Self::GiveStart(axes) => {
-                write!(f, "give the place at the start of {}", axes.join(", "))
+                write!(f, "give the start position of {}", axes.join(", "))
             }
             Self::AllowOutside => f.write_str(
                 "add its folder to `program_dirs`, or allow calls from anywhere",

@@ -1,8 +1,8 @@
 //! The one table of codes.
 //!
-//! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
+//! The control's own numbers (`P-ERR-…`) are listed only where a document ties the number to the
 //! cause; all others begin with `FC` (R9.23): 1xx files, configuration and lists, 2xx syntax, 3xx
-//! meaning, 4xx lints, 5xx drive, 9xx unknown values and budgets. A number is never used again.
+//! meaning, 4xx lints, 5xx drive, 9xx unknown values and budgets. A number is never reused.
 
 use std::fmt;
 use std::str::FromStr;
@@ -24,12 +24,12 @@ macro_rules! codes {
             /// Every code, in the order of the table.
             pub const ALL: &'static [Self] = &[$(Self::$name,)+];
 
-            /// The code as it is printed.
+            /// Returns the code as printed.
             pub fn as_str(self) -> &'static str {
                 match self { $(Self::$name => $text,)+ }
             }
 
-            /// The severity unless the user's `[lint]` table says otherwise (R9.28).
+            /// Returns the severity, unless the user's `[lint]` table sets another (R9.28).
             pub fn severity(self) -> Severity {
                 match self { $(Self::$name => Severity::$severity,)+ }
             }
@@ -39,7 +39,7 @@ macro_rules! codes {
                 match self { $(Self::$name => $title,)+ }
             }
 
-            /// The page that `frictcomp explain` shows.
+            /// Returns the page that `frictcomp explain` shows.
             pub fn page(self) -> &'static str {
                 match self { $(Self::$name => include_str!(concat!("../../docs/codes/", $text, ".md")),)+ }
             }
@@ -169,7 +169,7 @@ codes! {
 }
 
 impl Code {
-    /// Whether it says that a bound of the dry run was reached (R2.60).
+    /// Whether it reports that a bound of the dry run was reached (R2.60).
     pub fn is_budget(self) -> bool {
         matches!(
             self,
@@ -184,7 +184,7 @@ impl Code {
         )
     }
 
-    /// Whether it is about a text as it is written, whichever way the control goes (R14.5).
+    /// Whether it is about the program text as written, whichever way the control takes (R14.5).
     pub(crate) fn is_about_text(self) -> bool {
         matches!(
             self,
@@ -203,13 +203,13 @@ impl Code {
         )
     }
 
-    /// Whether it is a number of the control; those cannot be silenced (R9.24).
+    /// Whether it is one of the control's numbers; those cannot be silenced (R9.24).
     pub fn is_controller(self) -> bool {
         self.as_str().starts_with("P-ERR-")
     }
 }
 
-/// A text that names no code.
+/// A text that is not a code.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("there is no code `{0}`")]
 pub struct UnknownCode(pub String);

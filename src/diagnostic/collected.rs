@@ -8,7 +8,7 @@ use super::message::Diagnostic;
 /// Number of messages listed for one file; further ones are counted (R2.85).
 pub const MAX_MESSAGES: usize = 10_000;
 
-/// Messages that are collected before they are reported: a limited number, the rest counted by code.
+/// Messages that are collected before they are reported: a limited number is kept, the rest are counted by code.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Collected {
@@ -19,7 +19,7 @@ pub struct Collected {
 }
 
 impl Collected {
-    /// Takes a message. One more is kept than is reported, for the place from which on they are counted.
+    /// Takes a message. One more is kept than is reported, for the place from which the rest are only counted.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         if self.said.len() <= MAX_MESSAGES {
             self.said.push(diagnostic);

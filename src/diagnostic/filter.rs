@@ -11,9 +11,9 @@ use super::severity::Severity;
 pub struct CodeFilter {
     /// Codes that are not reported.
     pub ignore: Vec<Code>,
-    /// The only codes that are reported; all where there are none.
+    /// The only codes that are reported; all if empty.
     pub select: Vec<Code>,
-    /// Severities in place of those that the codes have. The last one counts.
+    /// Severities that replace those of the codes. The last one counts.
     pub severity: Vec<(Code, Severity)>,
 }
 
@@ -24,7 +24,7 @@ impl CodeFilter {
         code.is_controller() || (selected && !self.ignore.contains(&code))
     }
 
-    /// A code with a severity that has no effect, because the code is not reported.
+    /// Returns a code whose severity has no effect, because the code is not reported.
     pub fn without_effect(&self) -> Option<Code> {
         let codes = self.severity.iter().map(|(code, _)| *code);
         codes.into_iter().find(|code| !self.keeps(*code))
@@ -42,7 +42,7 @@ impl CodeFilter {
         }
     }
 
-    /// Changes what was reported already, about lists.
+    /// Applies the filter to messages about lists that were reported already.
     pub fn sift(&self, said: &mut Vec<Diagnostic>) {
         said.retain(|diagnostic| self.keeps(diagnostic.code));
         for diagnostic in said {

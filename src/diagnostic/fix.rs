@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::text::{Place, SourceFile, Span};
 
 crate::words! {
-    /// Whether a fix may be applied without a look at it.
+    /// Whether a fix may be applied without review.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
     pub enum Safety {
         /// The machine does the same before and after it.
         Safe = "safe",
-        /// It guesses what is meant, or changes what the machine does, and has to be reviewed.
+        /// It guesses the intention or changes what the machine does, and has to be reviewed.
         Unsafe = "unsafe",
     }
 }
 
-/// A change to a text: what stands at a place is replaced.
+/// A change to a text: it replaces the text at a place.
 ///
 /// The place of a fix in a [`Fault`](crate::syntax::Fault) is a [`Span`] of the block, that of a
 /// fix in a [`Diagnostic`](super::Diagnostic) a [`Place`] in a file. The fixes of one diagnostic
@@ -30,12 +30,12 @@ pub struct Fix<P = Place> {
     pub place: P,
     /// Replacement, with lines separated by `\n`.
     pub text: String,
-    /// Whether it may be applied without a look at it.
+    /// Whether it may be applied without review.
     pub safety: Safety,
 }
 
 impl<P> Fix<P> {
-    /// A fix that the machine does not notice.
+    /// Creates a fix that changes nothing for the machine.
     pub fn safe(place: P, text: impl Into<String>) -> Self {
         Self {
             place,
@@ -44,7 +44,7 @@ impl<P> Fix<P> {
         }
     }
 
-    /// A fix that has to be reviewed.
+    /// Creates a fix that has to be reviewed.
     pub fn guess(place: P, text: impl Into<String>) -> Self {
         Self {
             place,
@@ -53,7 +53,7 @@ impl<P> Fix<P> {
         }
     }
 
-    /// The same fix at the place that `to` makes of its own.
+    /// Converts the place of the fix with `to`.
     pub fn map<Q>(self, to: impl FnOnce(P) -> Q) -> Fix<Q> {
         Fix {
             place: to(self.place),
@@ -64,7 +64,7 @@ impl<P> Fix<P> {
 }
 
 impl Fix<Span> {
-    /// The fix in a text where the span counts from another offset.
+    /// Shifts the span of the fix by an offset.
     pub fn shifted(self, offset: u32) -> Self {
         self.map(|span| span.shifted(offset))
     }
@@ -85,7 +85,7 @@ impl Serialize for Fix {
     }
 }
 
-/// A fix whose text holds a name that is known only where the message is made.
+/// A fix whose text contains a name that is known only when the message is made.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct NamedFix {
@@ -98,7 +98,7 @@ pub struct NamedFix {
 }
 
 impl NamedFix {
-    /// The fix for a name, which has to be reviewed.
+    /// Returns the fix for a name; it has to be reviewed.
     pub fn guess(&self, name: &str) -> Fix {
         let Self { before, after, .. } = self;
         Fix::guess(self.place.clone(), format!("{before}{name}{after}"))
@@ -109,15 +109,14 @@ impl NamedFix {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Fixed {
-    /// The text that takes the place of what stands there.
+    /// The text that replaces the original.
     pub text: String,
     /// Number of fixes applied; the others overlap an earlier one, or their place is outside the text.
     pub applied: usize,
 }
 
 impl Fixed {
-    /// Applies fixes to a file, from its start to its end. Lines that a fix brings end as the
-    /// first line of the file does.
+    /// Applies fixes to a file, from its start to its end. Lines that a fix adds end like the first line of the file.
     pub fn new<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Self {
         let edits = edits(source, fixes);
         Self {
@@ -137,8 +136,8 @@ pub struct Edit {
     pub text: String,
 }
 
-/// The changes that fixes make in a file, from its start to its end. A fix that overlaps an earlier
-/// one, and one whose place is not in the text, changes nothing.
+/// Returns the changes that fixes make in a file, from its start to its end. A fix that overlaps an earlier one, or
+/// whose place is not in the text, changes nothing.
 pub fn edits<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Vec<Edit> {
     let line_end = line_end(source.text());
     let placed = fixes.into_iter().filter_map(|fix| {
@@ -164,7 +163,7 @@ pub fn edits<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) 
     edits
 }
 
-/// A text after changes from its start to its end.
+/// Returns a text after changes, given from its start to its end.
 pub fn edited(text: &str, edits: &[Edit]) -> String {
     let mut result = String::with_capacity(text.len());
     let mut copied = 0;
@@ -192,7 +191,7 @@ mod tests {
     use super::*;
 
     fn fix(source: &SourceFile, found: &str, text: &str) -> Fix {
-        let start = source.text().find(found).expect("it stands there");
+        let start = source.text().find(found).expect("it is there");
         Fix::guess(source.place(Span::new(start, start + found.len())), text)
     }
 

@@ -1,4 +1,4 @@
-//! Other severities for codes of ours.
+//! Changed severities of frictcomp's own codes.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Gives a code another severity, or none, which silences it. The control's own errors keep
-    /// theirs (R9.24); the return value says whether the code may be changed.
+    /// Gives a code another severity, or none, which silences it. The control's own errors keep theirs (R9.24). Returns
+    /// whether the code may be changed.
     pub fn set(&mut self, code: Code, level: Option<Severity>) -> bool {
         let ours = !code.is_controller();
         if ours {
@@ -23,8 +23,8 @@ impl Levels {
         ours
     }
 
-    /// Gives a diagnostic the severity that the user gave its code; any other, and one that is raised, keeps
-    /// its own, and one that is lowered is not raised. Returns whether it is reported at all.
+    /// Gives a diagnostic the severity that the user set for its code. A raised diagnostic keeps its own, a lowered one
+    /// is not raised again, and all others stay as they are. Returns whether it is reported at all.
     pub(crate) fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
         if diagnostic.is_raised() {
             return true;
@@ -40,7 +40,7 @@ impl Levels {
         true
     }
 
-    /// The severity of a code, `None` when it is off.
+    /// Returns the severity of a code; `None` if it is off.
     pub fn severity(&self, code: Code) -> Option<Severity> {
         self.levels
             .get(&code)

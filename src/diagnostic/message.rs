@@ -16,7 +16,7 @@ use crate::text::{Place, Span};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Label {
-    /// The place that it explains.
+    /// The place to explain.
     pub place: Place,
     /// Text at the label, in a few words.
     pub text: String,
@@ -28,7 +28,7 @@ pub struct Label {
 pub struct Diagnostic {
     /// The control's number, or one of ours.
     pub code: Code,
-    /// Its weight, already changed by `[lint]` where the user did so.
+    /// Its severity, already changed by the user's `[lint]` table.
     pub severity: Severity,
     /// One sentence in lower case.
     pub message: String,
@@ -42,16 +42,16 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
     /// Further places.
     pub labels: Vec<Label>,
-    /// Number of executed blocks of a program to which it applied, as the message says it.
+    /// Number of executed blocks of a program to which it applied, as given in the message.
     pub times: u64,
-    /// The main programs that reach its place, where that is in a called program.
+    /// The main programs that reach its place, if that is in a called program.
     pub reached_from: ReachedFrom,
     /// The program ends that it is about (R1.58).
     pub ends: Vec<Place>,
 }
 
 impl Diagnostic {
-    /// A diagnostic with the code's own severity and nothing but a message.
+    /// Creates a diagnostic with the code's own severity and only a message.
     pub fn new(code: Code, place: Place, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -68,13 +68,13 @@ impl Diagnostic {
         }
     }
 
-    /// The same with a higher severity than that of its code, which no setting lowers.
+    /// Raises its severity above that of its code; no setting lowers it.
     pub(crate) fn raised(mut self, severity: Severity) -> Self {
         self.severity = severity;
         self
     }
 
-    /// Gives it a lower severity than that of its code, which no setting raises.
+    /// Lowers its severity below that of its code; no setting raises it.
     pub(crate) fn lower(&mut self, severity: Severity) {
         self.severity = self.severity.min(severity);
     }
@@ -89,26 +89,26 @@ impl Diagnostic {
         self.severity > self.code.severity()
     }
 
-    /// The same with the axis that it is about.
+    /// Sets the axis that it is about.
     pub fn with_axis(mut self, axis: impl Into<String>) -> Self {
         self.axis = Some(axis.into());
         self
     }
 
-    /// The same with one more piece of advice.
+    /// Adds a piece of advice.
     pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
         self.advice.push(advice.into());
         self
     }
 
-    /// The same with one more change that does what is advised.
+    /// Adds a change that does what is advised.
     pub fn with_fix(mut self, fix: Fix) -> Self {
         self.fixes.push(fix);
         self
     }
 
-    /// The same with the known words that may be meant where `found` stands in its place; only a
-    /// single one is offered as a change (R1.60).
+    /// Suggests the known words that may be meant by `found`, the text at its place; only a single
+    /// one is offered as a change (R1.60).
     pub(crate) fn with_near(self, found: &str, near: &[&str]) -> Self {
         if near.is_empty() {
             return self;
@@ -124,13 +124,13 @@ impl Diagnostic {
         said.with_fix(Fix::guess(place, *near))
     }
 
-    /// Says how often it applied.
+    /// Adds to the message how often it applied.
     pub(crate) fn count(&mut self, times: u64) {
         self.message = format!("{} ({times} times)", self.message);
         self.times = times;
     }
 
-    /// The message without how often it applied: what makes it the same as another one (R17.3).
+    /// Returns the message without its count, by which equal messages are recognised (R17.3).
     pub fn uncounted(&self) -> &str {
         if self.times == 1 {
             return &self.message;
@@ -139,7 +139,8 @@ impl Diagnostic {
         self.message.strip_suffix(&count).unwrap_or(&self.message)
     }
 
-    /// The message with the main programs that reach its place, for formats of one line (R17.1).
+    /// Returns the message with the main programs that reach its place, for one-line formats
+    /// (R17.1).
     pub fn line(&self) -> Cow<'_, str> {
         if self.reached_from.is_empty() {
             Cow::Borrowed(&self.message)
@@ -153,7 +154,7 @@ impl Diagnostic {
         self.advice.iter().map(Advice::to_string).collect()
     }
 
-    /// Words its advice as a host does.
+    /// Replaces its advice by a host's wording.
     pub fn reword(&mut self, wording: Option<Wording>) {
         let Some(wording) = wording else {
             return;
@@ -165,7 +166,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same with one more place.
+    /// Adds another place.
     pub fn with_label(mut self, place: Place, text: impl Into<String>) -> Self {
         self.labels.push(Label {
             place,
@@ -182,7 +183,8 @@ struct EndRecord<'a> {
     line: u32,
 }
 
-/// The keys of a diagnostic record (chapter 9.2), without those that say where it belongs.
+/// The keys of a diagnostic record (chapter 9.2), without those for the program and block that it
+/// belongs to.
 impl Serialize for Diagnostic {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (start, end) = (self.place.start(), self.place.end());

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A number in a message: very large and very small ones with an exponent (R9.78).
+/// A number in a message; very large and very small ones have an exponent (R9.78).
 pub struct ReadableNumber(pub f64);
 
 impl fmt::Display for ReadableNumber {
@@ -17,7 +17,7 @@ impl fmt::Display for ReadableNumber {
     }
 }
 
-/// A number with a number of decimals; what is rounded to zero has no sign.
+/// A number with a fixed number of decimals; a value that rounds to zero has no sign.
 pub struct Rounded(pub f64, pub usize);
 
 impl fmt::Display for Rounded {

@@ -3,14 +3,14 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// Number of programs that are kept by name; further ones are counted.
+/// Number of programs kept by name; further ones are only counted.
 const MAX_NAMED: usize = 20;
 
 /// Number of programs that a sentence names.
 const MAX_IN_SENTENCE: usize = 5;
 
 /// The main programs that reach the place of a message in a called program, in the order in which
-/// they ran (R17.1). Empty where the message is about the main program itself.
+/// they ran (R17.1). Empty if the message is about the main program itself.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReachedFrom {
     named: Vec<Arc<str>>,
@@ -18,12 +18,12 @@ pub struct ReachedFrom {
 }
 
 impl ReachedFrom {
-    /// The files of the first 20 programs.
+    /// Returns the files of the first 20 programs.
     pub fn programs(&self) -> &[Arc<str>] {
         &self.named
     }
 
-    /// The number of programs, those without a name here included.
+    /// Returns the number of programs, including those that are not kept by name.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -33,7 +33,7 @@ impl ReachedFrom {
         self.count == 0
     }
 
-    /// The number of programs, where it is more than [`programs`](Self::programs) has.
+    /// Returns the number of programs if [`programs`](Self::programs) does not contain all of them.
     pub fn count_beyond_names(&self) -> Option<usize> {
         (self.count > self.named.len()).then_some(self.count)
     }

@@ -1,9 +1,9 @@
-//! The weight of a diagnostic.
+//! The severity of a diagnostic.
 
 use serde::{Deserialize, Serialize};
 
 crate::words! {
-    /// Weight of a diagnostic.
+    /// Severity of a diagnostic.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
@@ -12,7 +12,7 @@ crate::words! {
         Info = "info",
         /// Likely a mistake, or an effect that outlives the program.
         Warning = "warning",
-        /// The control stops here, or does not take the list.
+        /// The control stops here, or rejects the list.
         Error = "error",
     }
 }

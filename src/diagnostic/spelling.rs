@@ -1,19 +1,19 @@
 //! Known words that resemble an unknown one.
 
-/// Letters beyond which a word is no slip of the pen, and not compared.
+/// The most letters of a word that is compared; a longer one is not a misspelling.
 const MAX_WORD: usize = 64;
 
-/// Number of equally near words beyond which none of them is worth naming.
+/// The most equally similar words that are worth naming.
 const MAX_EQUALLY_NEAR: usize = 4;
 
-/// The nearest of several known words, close enough to be meant; the first one of several that are
-/// equally near. What offers a change asks [`nearest`].
+/// Returns the most similar of several known words, if it is similar enough to be meant; the first one of several that
+/// are equally similar. Code that offers a change uses [`nearest`].
 pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates(found, known).first().copied()
 }
 
-/// The words that are equally near, in their order: which one is meant is then not for a tool to say
-/// (R1.60). None where they are many.
+/// Returns the most similar words, in their order: a tool cannot decide which of several is meant (R1.60). Empty if
+/// there are many.
 pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut near = candidates(found, known);
     near.truncate(if near.len() > MAX_EQUALLY_NEAR {
@@ -24,15 +24,15 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec
     near
 }
 
-/// The known words at the smallest distance: at most a third of the letters differ, swapped neighbours
-/// count once; or one is the beginning of the other.
+/// Returns the known words at the smallest distance: at most a third of the letters differ, swapped neighbours count
+/// once; or one word is the beginning of the other.
 fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     if found.len() > MAX_WORD {
         return Vec::new();
     }
     let found = found.to_ascii_uppercase();
     let letters = found.chars().count();
-    // Of a single letter only the case can be wrong.
+    // In a single letter only the case can be wrong.
     let allowed = if letters > 1 { (letters / 3).max(1) } else { 0 };
     let near = known
         .into_iter()
@@ -66,7 +66,7 @@ fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<
     words
 }
 
-/// A word in capitals with the digit for each letter that looks like one: `FC4O2` is meant for `FC402`.
+/// Returns a word in capitals with digits in place of letters that look like them: `FC4O2` means `FC402`.
 fn look_alike(word: &str) -> String {
     word.replace('O', "0").replace(['I', 'L'], "1")
 }

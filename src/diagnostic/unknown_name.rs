@@ -1,21 +1,21 @@
-//! Names that are not known.
+//! Unknown names.
 
 use super::spelling::did_you_mean;
 
-/// A name that is not known, and those that are.
+/// An unknown name, and the known ones.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct UnknownName {
     /// The name as it was given.
     pub name: String,
-    /// The known name that is probably meant.
+    /// The known name that is probably intended.
     pub near: Option<String>,
-    /// The names that are known.
+    /// The known names.
     pub known: Vec<String>,
 }
 
 impl UnknownName {
-    /// A name that is not known.
+    /// Creates an unknown name.
     pub fn new<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Self {
         Self {
             name: name.to_owned(),
@@ -24,7 +24,7 @@ impl UnknownName {
         }
     }
 
-    /// The name that is probably meant, else those that there are: `its axes are X, Y`.
+    /// Returns help: the name that is probably intended, else the known ones: `its axes are X, Y`.
     pub fn help(&self, known: &str) -> Option<String> {
         match &self.near {
             Some(near) => Some(format!("did you mean `{near}`?")),

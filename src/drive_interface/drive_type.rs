@@ -13,7 +13,7 @@ pub enum DriveType {
     Sercos,
     /// `PROFIdrive` MC, 3.
     Profidrive,
-    /// Simulation, 4; what the control takes where no list says anything.
+    /// Simulation, 4; the control's default if no list gives a type.
     Simulation,
     /// Lightbus, 5.
     Lightbus,
@@ -33,7 +33,7 @@ pub enum DriveType {
 struct DriveTypeNames {
     drive_type: DriveType,
     number: i64,
-    /// The word that stands for the number (TwinCAT CNC axis parameters, table 3-1).
+    /// The word for the number (TwinCAT CNC axis parameters, table 3-1).
     word: &'static str,
     name: &'static str,
 }
@@ -82,13 +82,13 @@ const NAMES: [DriveTypeNames; 10] = [
 ];
 
 impl DriveType {
-    /// The type that a list value stands for: its number, or the vendor's word for it.
+    /// Returns the type of a list value, which is a number or the vendor's word for it.
     pub fn from_number(number: i64) -> Option<Self> {
         let row = NAMES.iter().find(|row| row.number == number)?;
         Some(row.drive_type)
     }
 
-    /// The type that the vendor's word stands for.
+    /// Returns the type of the vendor's word.
     pub fn from_word(word: &str) -> Option<Self> {
         let row = NAMES.iter().find(|row| row.word == word)?;
         Some(row.drive_type)
@@ -105,7 +105,7 @@ impl DriveType {
         matches!(self, Self::Sercos | Self::CanOpen)
     }
 
-    /// Whether there is no drive that could take a torque.
+    /// Whether no drive exists that could take a torque.
     pub fn is_without_drive(self) -> bool {
         matches!(self, Self::Simulation | Self::Virtual)
     }
@@ -115,7 +115,7 @@ impl DriveType {
         matches!(self, Self::Sercos | Self::Lightbus | Self::CanOpen)
     }
 
-    /// The vendor's words, for a "did you mean".
+    /// Returns the vendor's words, for a "did you mean".
     pub(super) fn words() -> impl Iterator<Item = &'static str> {
         NAMES.iter().map(|row| row.word)
     }

@@ -1,5 +1,5 @@
-//! Whether the torque values of an axis reach its drive and come back, from all that is known
-//! (R7.5 to R7.8).
+//! Decides from all known evidence whether the torque values of an axis reach its drive and come
+//! back (R7.5 to R7.8).
 
 use std::collections::BTreeMap;
 
@@ -48,12 +48,12 @@ pub struct Evidence {
 #[serde(tag = "state", rename_all = "snake_case")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Presence {
-    /// The cyclic data hold it; what says so.
+    /// The cyclic data contain it.
     Present {
         /// The file and the line or the path in it.
         evidence: String,
     },
-    /// The cyclic data do not hold it; what says so.
+    /// The cyclic data do not contain it.
     Missing {
         /// The file and the line or the path in it.
         evidence: String,
@@ -63,7 +63,7 @@ pub enum Presence {
         /// The reason, in words.
         reason: String,
     },
-    /// There is no drive, or none that could take it.
+    /// The axis has no drive, or none that could take it.
     NotApplicable,
 }
 
@@ -101,7 +101,7 @@ enum SourceStatement {
     Nothing,
     Present(Place),
     Missing(Place),
-    /// Why it does not decide.
+    /// The source does not decide; the reason.
     Undecided(String, Place),
 }
 
@@ -113,13 +113,13 @@ pub struct ListedDrive<'a> {
     pub axis: &'a str,
     /// The entries of the drive by their keys.
     pub entries: &'a BTreeMap<String, Entry>,
-    /// P-AXIS-00522, where a list gives it.
+    /// P-AXIS-00522, if a list gives it.
     pub selector: Option<&'a Given<bool>>,
     /// The value list that the control accepts.
     pub friction: Option<&'a FrictionList>,
 }
 
-/// Judges the drive of an axis by its lists and whatever else is known.
+/// Judges the drive of an axis by its lists and the other evidence.
 ///
 /// The codes are P-ERR-110464, P-ERR-110465 and FC130; where friction compensation is configured
 /// FC132, FC137 and FC501 to FC503 as well, and FC504 in [`DriveReport::open`].
@@ -268,7 +268,7 @@ impl Judge<'_> {
         agreed(network, protocol, signal)
     }
 
-    /// The device of the network that drives the axis, where the user named it.
+    /// Returns the device of the network that drives the axis, if the user named it.
     fn slave(&self) -> Option<&Slave> {
         let network = self.evidence.network.as_ref()?;
         let mut slaves = self.evidence.slaves.iter();
@@ -350,7 +350,8 @@ impl Judge<'_> {
         self.open.push(said);
     }
 
-    /// The largest torque of a value list, scaled, in 0.1 %; too large a one is reported (R7.7).
+    /// Returns the largest torque of a value list, scaled, in 0.1 %, and reports it if it is too
+    /// large (R7.7).
     fn largest(&mut self, list: &FrictionList) -> f64 {
         let outputs = list.table.iter().map(|point| point.output.abs());
         let plain = outputs.fold(0.0, f64::max) * f64::from(list.scaling_factor).abs() / 1000.0;
@@ -395,7 +396,7 @@ fn assigned(
         .map(|&channel| slave.maps(signal, channel))
         .collect();
     if slave.axes == 0 {
-        return SourceStatement::Undecided(format!("`{}` is no drive", slave.name), place);
+        return SourceStatement::Undecided(format!("`{}` is not a drive", slave.name), place);
     }
     if !slave.assigns {
         let reason = format!(
@@ -419,7 +420,7 @@ fn assigned(
     }
 }
 
-/// Returns the statement on which all candidate drives of the network agree.
+/// Returns the statement that all candidate drives of the network agree on.
 fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> SourceStatement {
     let may_be = |slave: &&Slave| protocol.is_none_or(|protocol| slave.protocol == protocol);
     let mut drives = network.drives().filter(may_be);
@@ -440,7 +441,7 @@ fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> Sour
     SourceStatement::Undecided("only some drives of the network have it".to_owned(), whole)
 }
 
-/// A place as `file:line`, with the path of an element.
+/// Returns a place as `file:line`, with the path of an element.
 fn shown(place: &Place) -> String {
     let line = place.start().line;
     if place.text.starts_with("EtherCAT") {
@@ -450,7 +451,7 @@ fn shown(place: &Place) -> String {
     }
 }
 
-/// A process data object, as the engineering tools name it.
+/// Returns the name of a process data object in the engineering tools.
 fn pdo(object: &NetworkObject) -> String {
     format!("PDO {:04X}h (`{}`)", object.pdo, object.pdo_name)
 }

@@ -1,8 +1,9 @@
 //! The drive's torque interface: whether the additive torque of friction compensation reaches the
 //! drive, and whether the actual torque comes back (chapter 7).
 //!
-//! The evidence is asked in this order: the axis list, what the network maps (ENI), what the
-//! device could map (ESI). What none of them says is unknown, never fine.
+//! The evidence is used in this order: the axis list, the data that the network maps (ENI), the
+//! data that the device could map (ESI). A value that none of them decides is unknown, never
+//! assumed to be present.
 
 mod drive_type;
 mod judge;

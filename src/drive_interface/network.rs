@@ -48,7 +48,7 @@ pub struct Slave {
     pub protocol: Protocol,
     /// Number of axes it drives; 0 for a device that is not a drive.
     pub axes: u8,
-    /// Whether the file says which process data objects it exchanges.
+    /// Whether the file lists the process data objects that it exchanges.
     pub assigns: bool,
     /// The torque values that it exchanges in every cycle.
     pub mapped: Vec<NetworkObject>,
@@ -83,12 +83,12 @@ pub struct Device {
 }
 
 impl Network {
-    /// The devices that drive axes.
+    /// Returns the devices that drive axes.
     pub fn drives(&self) -> impl Iterator<Item = &Slave> {
         self.slaves.iter().filter(|slave| slave.axes > 0)
     }
 
-    /// A place in the file, shown as the path of an element.
+    /// Returns a place in the file, shown as the path of an element.
     pub(super) fn place(&self, path: &str, line: u32) -> Place {
         Place {
             file: Arc::clone(&self.file),
@@ -100,7 +100,7 @@ impl Network {
 }
 
 impl Slave {
-    /// The element that maps a value for one of its axes.
+    /// Returns the element that maps a value for one of its axes.
     pub(super) fn maps(&self, signal: Signal, channel: u8) -> Option<&NetworkObject> {
         let is_it = |object: &&NetworkObject| object.signal == signal && object.channel == channel;
         self.mapped.iter().find(is_it)

@@ -10,7 +10,8 @@ use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::lists::{Entry, Given, Number};
 use crate::text::Place;
 
-/// By what the control multiplies a torque before it sends it, P-AXIS-00325 and P-AXIS-00326.
+/// The factor by which the control multiplies a torque before sending it, P-AXIS-00325 and
+/// P-AXIS-00326.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TorqueScale {
@@ -30,7 +31,7 @@ impl Default for TorqueScale {
 }
 
 impl TorqueScale {
-    /// The factor; 0 where the denominator is 0.
+    /// Returns the factor; 0 if the denominator is 0.
     pub fn factor(self) -> f64 {
         match self.denominator {
             0 => 0.0,
@@ -42,20 +43,20 @@ impl TorqueScale {
 /// Statement of a telegram of the axis list about a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Telegram {
-    /// It has no entry in this direction; TwinCAT fills it by itself (R7.5).
+    /// It has no entry in this direction; TwinCAT fills it in (R7.5).
     Silent,
-    /// It holds the value.
+    /// It contains the value.
     Holds(Place),
-    /// It holds other values; the first of them.
+    /// It contains other values; the place of the first.
     Lacks(Place),
-    /// It holds the torque command itself in its place.
+    /// It contains the torque command itself instead.
     HoldsCommand(Place),
 }
 
 /// Statements of an axis list about its drive.
 #[derive(Debug, Clone, Default)]
 pub struct DriveSettings {
-    /// P-AXIS-00020; `None` where no list gives it, or none that is known.
+    /// P-AXIS-00020; `None` if no list gives it, or the given one is unknown.
     pub drive_type: Option<Given<DriveType>>,
     /// Place where P-AXIS-00790 switches the drive to simulation.
     pub simulated: Option<Place>,
@@ -76,7 +77,7 @@ struct TelegramEntry {
     place: Place,
 }
 
-/// The patterns of telegram entries and the value for whose direction they stand.
+/// The patterns of telegram entries, each with the value that is sent in that direction.
 const TELEGRAMS: [(&str, Signal); 6] = [
     ("antr.sercos.mdt[].nc_ref", Signal::AdditiveTorque),
     ("antr.sercos.mdt[].ident_nr", Signal::AdditiveTorque),
@@ -87,7 +88,7 @@ const TELEGRAMS: [(&str, Signal); 6] = [
 ];
 
 impl DriveSettings {
-    /// Gathers the values from the entries of the drive; a value that cannot be used is FC130.
+    /// Collects the values from the drive entries; a value that cannot be used is FC130.
     pub fn from_entries(
         entries: &BTreeMap<String, Entry>,
         diagnostics: &mut Vec<Diagnostic>,

@@ -1,15 +1,15 @@
-//! The two torque values of the drive's cyclic data, and the names that they go by (R7.1 to R7.3).
+//! The two torque values of the drive's cyclic data, and their names (R7.1 to R7.3).
 
 use serde::Serialize;
 
-/// `CANopen` objects of a further axis of one device are this much higher.
+/// Distance between the `CANopen` objects of two successive axes of a device.
 const PER_CHANNEL: u16 = 0x800;
 
-/// The objects of drives begin here; eight axes have room.
+/// The objects of drives; there is room for eight axes.
 const DRIVE_OBJECTS: std::ops::RangeInclusive<u16> = 0x6000..=0x9FFF;
 
-/// Bits of an IDN that give the number of its data block, and the one that says that the
-/// manufacturer defines it. Those between choose a parameter set.
+/// Bits of an IDN that give the number of its data block. The top bit marks IDNs that the
+/// manufacturer defines; the bits between choose a parameter set.
 const IDN_NUMBER: u16 = 0x0FFF;
 const IDN_OF_MANUFACTURER: u16 = 0x8000;
 
@@ -27,7 +27,7 @@ crate::words! {
 }
 
 impl Signal {
-    /// Its number in SERCOS.
+    /// Returns its number in SERCOS.
     pub fn idn(self) -> u16 {
         match self {
             Self::AdditiveTorque => 81,
@@ -35,7 +35,7 @@ impl Signal {
         }
     }
 
-    /// Its object in `CANopen`, for the first axis of a device.
+    /// Returns its object in `CANopen`, for the first axis of a device.
     pub fn object(self) -> u16 {
         match self {
             Self::AdditiveTorque => 0x60B2,
@@ -43,7 +43,7 @@ impl Signal {
         }
     }
 
-    /// The axis of a device whose object this is, from 1.
+    /// Returns the axis of a device whose object this is, from 1.
     pub fn channel(self, index: u16) -> Option<u8> {
         channel(self.object(), index)
     }
@@ -82,14 +82,15 @@ pub(super) fn is_torque_command(reference: &str) -> bool {
         || object(reference).is_some_and(|index| channel(0x6071, index).is_some())
 }
 
-/// The axis of a device, from 1, whose object `index` is where `first` is that of its first axis.
+/// Returns the axis, from 1, that object `index` of a device belongs to; `first` is the object of
+/// its first axis.
 pub fn channel(first: u16, index: u16) -> Option<u8> {
     let above = index.checked_sub(first)?;
     let is_one = above % PER_CHANNEL == 0 && DRIVE_OBJECTS.contains(&index);
     is_one.then(|| u8::try_from(above / PER_CHANNEL + 1).ok())?
 }
 
-/// The number of an IDN written as `S-0-0081` or `S_0_0081`.
+/// Returns the number of an IDN written as `S-0-0081` or `S_0_0081`.
 fn idn(reference: &str) -> Option<u16> {
     let rest = reference.strip_prefix(['S', 's'])?;
     let mut parts = rest.strip_prefix(['-', '_'])?.split(['-', '_']);
@@ -102,7 +103,7 @@ fn idn(reference: &str) -> Option<u16> {
     (set < 8 && number <= IDN_NUMBER).then_some(set << 12 | number)
 }
 
-/// The object written as `60B2_00`.
+/// Returns the object written as `60B2_00`.
 fn object(reference: &str) -> Option<u16> {
     let (index, sub) = reference.split_once('_')?;
     let is_whole = index.len() == 4 && matches!(sub, "00" | "0");

@@ -1,4 +1,4 @@
-//! The lints, a file each, and their assignment to commands, motions and ends.
+//! The lints, one file each, and their assignment to commands, motions and ends.
 
 mod jump;
 mod left_away;
@@ -14,19 +14,19 @@ use crate::interpreter::{Ended, EndedBy, Executed};
 use crate::readings::Question;
 use crate::text::Span;
 
-/// The lints on a command, before it is remembered; the first that has something to say wins, so
-/// that nothing is reported twice about it.
+/// The lints on a command, before it is recorded; the first one with a message wins, so that a command is not reported
+/// twice.
 const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
     [repeated::lint, undescribed::lint];
 
 impl Linter<'_> {
-    /// Looks at an executed block and appends what there is to say.
+    /// Checks an executed block and appends the messages.
     pub(crate) fn block(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
         if executed.seq == 1 && **executed.file == *self.file {
             self.begin = Some(memory::place(executed, Span::default()));
         }
         if executed.branch != self.branch.as_deref() {
-            // What moved before moved on another way.
+            // Earlier motions were on another way.
             self.jumps.clear();
             self.branch = executed.branch.map(<[_]>::to_vec);
         }
@@ -75,10 +75,9 @@ impl Linter<'_> {
         said.extend(shared_block::lint(executed));
     }
 
-    /// Looks at the state that an ended program leaves, and remembers what made it. A program that
-    /// an error or a budget stopped is not judged by what it did not reach.
-    /// One that a loop keeps for ever is ended by a reset, which keeps the state unless the machine is
-    /// read otherwise (R1.28).
+    /// Checks the state that an ended program leaves, and records what made it. A program stopped by an error or a
+    /// budget is not judged by what it did not reach. A program in an endless loop is ended by a reset, which keeps the
+    /// state unless another reading is selected (R1.28).
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
         self.history
             .program_ended(&self.program, &self.memory, ended);

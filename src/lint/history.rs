@@ -1,4 +1,4 @@
-//! Memory beyond a program: the block that made each state other than the start-up state (R1.52, R9.32).
+//! Memory across programs: the block that made each state other than the start-up state (R1.52, R9.32).
 
 use serde::{Deserialize, Serialize};
 
@@ -6,17 +6,17 @@ use super::memory::{BlockSite, ProgramEffects};
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::interpreter::Ended;
 
-/// Characters of its text with which a block is remembered.
+/// The most characters of a block's text that are kept.
 const MAX_TEXT: usize = 400;
 
-/// The block that made a state what it is.
+/// The block that caused a state.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Maker {
-    /// The name of the main program after `%`, or else its file.
+    /// The name of the main program after `%`, else its file.
     pub program: String,
-    /// The file that holds the block, as the user named it.
+    /// The file that contains the block, as the user named it.
     pub file: String,
     /// The line of the block.
     pub line: u32,
@@ -36,13 +36,13 @@ impl Maker {
     }
 }
 
-/// Whether it was reported that a state is left away from its start-up state.
+/// Whether a state left away from its start-up state was reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum LeftAwayNotice {
-    /// It was not said.
+    /// It was not reported.
     #[default]
     No,
-    /// FC401 or FC407 stands under a program of this session.
+    /// FC401 or FC407 was reported for a program of this session.
     Said,
     /// The user silenced it.
     Silenced,
@@ -73,12 +73,12 @@ impl History {
         }
     }
 
-    /// The state at the start of the control (R1.22).
+    /// Returns the state at the start of the control (R1.22).
     pub(crate) fn start_up(&self, axis: AxisIndex, kind: Kind) -> State {
         self.start_up.state(axis, kind)
     }
 
-    /// The block that made a state, `None` where that is not known.
+    /// Returns the block that made a state; `None` if that is unknown.
     pub(crate) fn maker(&self, axis: AxisIndex, kind: Kind) -> Option<&Maker> {
         self.axes[axis.get()][kind as usize].maker.as_ref()
     }
@@ -91,22 +91,22 @@ impl History {
         self.axes[axis.get()][kind as usize].told = told;
     }
 
-    /// The kinds of an axis that nothing has switched since the start of the control.
+    /// Returns the kinds of an axis that nothing has switched since the start of the control.
     pub(super) fn unswitched(&self, axis: AxisIndex) -> KindSet {
         self.unswitched[axis.get()]
     }
 
-    /// The states of an axis are those that an earlier session left.
+    /// Marks the states of an axis as left by an earlier session.
     pub(crate) fn inherit(&mut self, axis: AxisIndex) {
         self.unswitched[axis.get()] = KindSet::NONE;
     }
 
-    /// Takes over what an earlier session knows.
+    /// Takes over the block that an earlier session recorded.
     pub(crate) fn restore(&mut self, axis: AxisIndex, kind: Kind, maker: Maker) {
         self.axes[axis.get()][kind as usize].maker = Some(maker);
     }
 
-    /// Takes over what a program did that leaves a state.
+    /// Records the effects of an ended program on the states that it leaves.
     pub(super) fn program_ended(&mut self, program: &str, did: &ProgramEffects, ended: &Ended<'_>) {
         let left = ended.compensation;
         for (position, kinds) in self.axes.iter_mut().enumerate() {

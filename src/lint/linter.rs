@@ -27,18 +27,18 @@ pub(crate) struct LeftAway {
     pub(crate) note: EndNote,
 }
 
-/// A command that the control took.
+/// A command that the control accepted.
 pub(super) struct Taken<'a> {
     pub(super) axis: AxisIndex,
     pub(super) outcome: &'a Outcome,
     pub(super) executed: &'a Executed<'a>,
 }
 
-/// Memory of the lints while a program runs.
+/// Working memory of the lints while a program runs.
 pub(crate) struct Linter<'m> {
     pub(super) machine: &'m Machine,
     pub(super) history: &'m mut History,
-    /// The name of the program after `%`, or else its file.
+    /// The name of the program after `%`, else its file.
     pub(super) program: String,
     pub(super) memory: ProgramEffects,
     /// The file of the program.
@@ -47,14 +47,14 @@ pub(crate) struct Linter<'m> {
     pub(super) begin: Option<Place>,
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
-    /// Changes of friction compensation on axes that moved right before.
+    /// Changes of friction compensation on axes that moved just before.
     pub(super) jumps: Vec<SwitchAfterMove>,
     /// The way on which the last block was executed.
     pub(super) branch: Option<Vec<Vec<WayCondition>>>,
 }
 
 impl<'m> Linter<'m> {
-    /// A program begins.
+    /// Creates the lints for a program.
     pub(crate) fn new(machine: &'m Machine, history: &'m mut History, file: &str) -> Self {
         Self {
             memory: ProgramEffects::new(machine.axes.len()),
@@ -69,25 +69,25 @@ impl<'m> Linter<'m> {
         }
     }
 
-    /// The program starts with these states.
+    /// Records the states with which the program starts.
     pub(crate) fn starts(&mut self, with: &Compensation) {
         let axes = (0..with.len()).map(AxisIndex::new);
         self.found = axes.map(|axis| with.state(axis, Kind::Frict)).collect();
     }
 
-    /// The state of friction compensation that the program found.
+    /// Returns the state of friction compensation that the program found.
     pub(super) fn found(&self, axis: AxisIndex) -> State {
         let start_up = || self.history.start_up(axis, Kind::Frict);
         self.found.get(axis.get()).copied().unwrap_or_else(start_up)
     }
 
-    /// The program has a name.
+    /// Sets the name of the program.
     pub(crate) fn named(&mut self, name: &str) {
         name.clone_into(&mut self.program);
     }
 
-    /// Whether every axis that a block moves has moved before, so that this is nothing new, and nothing
-    /// waits for the next motion.
+    /// Whether every axis that a block moves has moved before, so that the block is nothing new, and no check is
+    /// waiting for the next motion.
     #[inline]
     pub(crate) fn knows(&self, executed: &Executed<'_>) -> bool {
         !self.memory.has_new(executed)
@@ -95,8 +95,8 @@ impl<'m> Linter<'m> {
             && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
     }
 
-    /// The questions about the start of the control whose answers decide with which states the program
-    /// moved axes (R1.29, R1.40, R15.3).
+    /// Returns the questions about the start of the control whose answers decide the states in which the program moved
+    /// axes (R1.29, R1.40, R15.3).
     pub(crate) fn rests_on(&self) -> QuestionSet {
         let mut questions = QuestionSet::default();
         for (at, of) in self.machine.axes.iter().enumerate() {

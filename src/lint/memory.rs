@@ -13,9 +13,9 @@ use crate::text::{Place, Span};
 pub(super) struct BlockSite {
     /// The executed block.
     pub(super) seq: u64,
-    /// The words that are meant.
+    /// The relevant words.
     pub(super) place: Place,
-    /// The ways on which it was executed; none where that is all of them.
+    /// The ways on which it was executed; empty if on all of them.
     ways: Vec<Vec<WayCondition>>,
 }
 
@@ -28,7 +28,7 @@ impl BlockSite {
         }
     }
 
-    /// A command of which only its place matters.
+    /// Creates the site of a command of which only the place matters.
     pub(super) fn at(seq: u64, place: Place) -> Self {
         Self {
             seq,
@@ -47,7 +47,7 @@ impl BlockSite {
         self.ways.is_empty() || (!ways.is_empty() && ways.iter().all(passes))
     }
 
-    /// The block as a message names it, seen from a file: `line 4`, or `sub.nc:4`.
+    /// Returns the block as named by a message in a file: `line 4`, or `sub.nc:4`.
     pub(super) fn seen_from(&self, file: &str) -> String {
         let (place, line) = (&self.place, self.place.start().line);
         if *place.file == *file {
@@ -58,7 +58,7 @@ impl BlockSite {
     }
 }
 
-/// Words of an executed block.
+/// Returns the place of words of an executed block.
 pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
     Place::in_block(executed.file, executed.text, executed.line, span)
 }
@@ -89,9 +89,9 @@ impl From<Selection> for KindEffect {
 #[derive(Debug, Clone)]
 pub(super) struct MovedBefore {
     pub(super) site: Arc<BlockSite>,
-    /// The ways on which this motion or a later one is such.
+    /// The ways on which this or a later motion finds that state.
     on: FoundOn,
-    /// The same as data; none where it is on all ways.
+    /// These ways as data; empty if all ways.
     pub(super) ways: Vec<Vec<WayCondition>>,
 }
 
@@ -100,12 +100,12 @@ pub(super) struct MovedBefore {
 pub(super) struct KindMemory {
     /// Whether a command of the program was about it.
     pub(super) is_commanded: bool,
-    /// The last effect; one site for all kinds of a command.
+    /// The last effect; all kinds of a command share one site.
     pub(super) last: Option<(KindEffect, Arc<BlockSite>)>,
-    /// The first block that moved the axis for sure, homing apart, while it was as the program found
-    /// it, or may have been.
+    /// The first block that certainly moved the axis, other than by homing, while the kind was, or may have been, as
+    /// the program found it.
     pub(super) moved_before: Option<MovedBefore>,
-    /// Whether the control refused to move the axis while it was as the program found it (R1.36).
+    /// Whether the control refused to move the axis while the kind was as the program found it (R1.36).
     pub(super) refused: bool,
     /// The last command that switched it off, and the last that switched it on.
     pub(super) switched: [Option<Arc<BlockSite>>; 2],
@@ -132,7 +132,7 @@ impl KindMemory {
     }
 }
 
-/// A motion of an axis in any way.
+/// A motion of an axis of any kind.
 #[derive(Debug, Clone)]
 pub(super) struct Touch {
     pub(super) site: BlockSite,
@@ -155,24 +155,23 @@ pub(super) struct SwitchAfterMove {
 #[derive(Debug, Clone, Default)]
 pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
-    /// The ways that lead to its last motion that counts.
+    /// The ways that lead to its last counting motion.
     moved_on: Option<FoundOn>,
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// A block that moved it in any way, or may have; what is not known at all apart. The first one, or
-    /// the last while the axis was moved on some ways only.
+    /// A block that moved, or may have moved, it by any kind of motion, except where nothing is known. The first such
+    /// block, or the last one while the axis has moved on some ways only.
     pub(super) touched: Option<Touch>,
-    /// Whether it was moved on all ways that lead to that block, or for sure.
+    /// Whether it has moved on all ways that lead to that block, in any way or with certainty.
     settled: Settled,
 }
 
-/// Settled questions about the first motion of an axis: on some ways of the program it may be
-/// another one (R14.5).
+/// Settled questions about the first motion of an axis, which may differ between the ways of the program (R14.5).
 #[derive(Debug, Clone, Copy, Default)]
 struct Settled {
-    /// Of its motions in any way.
+    /// About motions of any kind.
     any: bool,
-    /// Of those that are sure.
+    /// About certain motions.
     sure: bool,
 }
 
@@ -194,8 +193,8 @@ impl AxisMemory {
     }
 }
 
-/// The latest of the commands that are the last ones on some way and lead to the state at the end, or away from the
-/// start-up state where ways differ (R14.5).
+/// Returns the latest command among those that are last on some way and lead to the state at the end, or away from the
+/// start-up state if ways differ (R14.5).
 pub(super) fn command_to(
     ended: &Ended<'_>,
     (axis, kind): (AxisIndex, Kind),
@@ -218,7 +217,7 @@ fn counts(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
 }
 
-/// Whether a form of R10.7 moves the axis, or may; not something that is not known at all.
+/// Whether a form of R10.7 moves, or may move, the axis; not if nothing about the motion is known.
 fn is_of_a_kind(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
@@ -227,7 +226,7 @@ fn is_of_a_kind(motion: &MovedAxis) -> bool {
 #[derive(Debug, Clone)]
 pub(super) struct ProgramEffects {
     axes: Vec<AxisMemory>,
-    /// The axes that have moved, a bit each by their positions modulo 64.
+    /// The axes that have moved, one bit each by their positions modulo 64.
     moved: u64,
     /// Whether no two axes share a bit.
     is_alone: bool,
@@ -246,7 +245,7 @@ impl ProgramEffects {
         &self.axes[axis.get()]
     }
 
-    /// A command that the control took.
+    /// Records a command that the control accepted.
     pub(super) fn command(&mut self, axis: AxisIndex, outcome: &Outcome, executed: &Executed<'_>) {
         let site = Arc::new(BlockSite::new(executed, outcome.command.span));
         let selection = outcome.command.selection;
@@ -258,8 +257,8 @@ impl ProgramEffects {
         memory.note(selection.kinds(), selection.into(), &site);
     }
 
-    /// The block that made the state of a kind what it is at the end: of the commands that are the last ones on some
-    /// way, the latest that leads to it, or away from the start-up state where ways differ.
+    /// Returns the block that made the state of a kind at the end: the latest of the commands that are last on some way
+    /// and lead to that state, or away from the start-up state if ways differ.
     pub(super) fn made(
         &self,
         ended: &Ended<'_>,
@@ -271,7 +270,7 @@ impl ProgramEffects {
         command.or_else(|| last.map(|(_, site)| Arc::clone(site)))
     }
 
-    /// The states that no command made unknown, but what this block contains.
+    /// Records states made unknown not by a command, but by something else in this block.
     pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
         let site = Arc::new(BlockSite::new(executed, Span::new(0, executed.text.len())));
         let lost = |change: &&Change| change.to == State::Unknown;
@@ -284,13 +283,13 @@ impl ProgramEffects {
         }
     }
 
-    /// Whether an axis word of the block may be the first that moves its axis.
+    /// Whether an axis word of the block may be the first to move its axis.
     #[inline]
     pub(super) fn has_new(&self, executed: &Executed<'_>) -> bool {
         executed.named & !self.moved != 0
     }
 
-    /// Whether none of these motions is anything new.
+    /// Whether none of these motions is new.
     pub(super) fn knows_all(&self, motions: &[MovedAxis]) -> bool {
         let is_known = |motion: &MovedAxis| {
             let memory = &self.axes[motion.axis.get()];
@@ -300,7 +299,7 @@ impl ProgramEffects {
         motions.iter().all(is_known)
     }
 
-    /// A motion. Says whether it is the first of its axis on any way.
+    /// Records a motion. Returns whether it is the first of its axis on any way.
     pub(super) fn moved(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> bool {
         let memory = &mut self.axes[motion.axis.get()];
         let is_on_all_ways = executed.branch.is_none();
@@ -313,7 +312,7 @@ impl ProgramEffects {
             };
             BlockSite::new(executed, span)
         };
-        // On the same ways a later motion finds no state that the earlier one did not.
+        // On the same ways, a later motion finds no state that the earlier one did not find.
         let is_known = memory
             .moved_on
             .as_ref()
@@ -341,7 +340,7 @@ impl ProgramEffects {
         is_new
     }
 
-    /// A motion that the control refuses for what it requires (R1.36).
+    /// Records a motion that the control refuses because a required kind is missing (R1.36).
     pub(super) fn refused(&mut self, axis: AxisIndex, required: KindSet, executed: &Executed<'_>) {
         for kind in required.iter() {
             let memory = &mut self.axes[axis.get()].kinds[kind as usize];
@@ -349,7 +348,7 @@ impl ProgramEffects {
         }
     }
 
-    /// Marks the message about the first motion of an axis as said.
+    /// Marks the message about the first motion of an axis as reported.
     pub(super) fn settle(&mut self, axis: AxisIndex) {
         self.axes[axis.get()].settled.any = true;
     }

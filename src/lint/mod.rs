@@ -1,5 +1,5 @@
-//! Lints on the use of COMP (chapter 1.4): the checks, one memory of what the program did, one of what
-//! programs left.
+//! Lints on the use of COMP (chapter 1.4): the checks, a memory of the running program's effects, and a memory of the
+//! states that programs left.
 //!
 //! FC404 and FC406 are statements about a block's text and come from `syntax`.
 

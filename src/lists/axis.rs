@@ -25,23 +25,22 @@ pub struct AxisValues {
     pub selectors: BTreeMap<Kind, Given<bool>>,
     /// The manual activation of the kinds (R1.40).
     pub manual: BTreeMap<Kind, Given<bool>>,
-    /// The kinds whose selector or manual activation is given, but with no value that can be used.
+    /// The kinds whose selector or manual activation is given, but without a usable value.
     pub unread: KindSet,
     /// The kinds that must be active while the axis moves, P-AXIS-00465.
     pub required: Option<Given<Monitor>>,
-    /// The number of the master of a static gantry, P-AXIS-00070; `None` on any axis but its slave.
+    /// The number of the master of a static gantry, P-AXIS-00070; `None` unless the axis is a slave.
     pub gantry_master: Option<Given<u32>>,
     /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     pub drive: BTreeMap<String, Entry>,
     /// Velocity, acceleration and ramp times.
     pub dynamics: DynamicsDraft,
-    /// The end of the last entry, after which another one could stand, and how many columns the key
-    /// takes there.
+    /// The end of the last entry, after which another one could be added, and the columns that its key takes.
     pub end: Option<Given<usize>>,
 }
 
-/// Whether a name can stand in a program: a letter, then letters, digits or `_`, 16 at most (R2.20).
-/// Those of spindles begin with other letters than those of axes.
+/// Whether a name can be used in a program: a letter, then letters, digits or `_`, 16 at most (R2.20). Names of
+/// spindles begin with other letters than those of axes.
 pub(crate) fn is_axis_name(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -53,7 +52,7 @@ pub(crate) fn is_axis_name(name: &str) -> bool {
 pub(crate) const AXIS_NAME_HELP: &str =
     "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 
-/// More drive entries than any axis list has; what lies beyond is not kept.
+/// More drive entries than any axis list has; further ones are not kept.
 const MAX_DRIVE_ENTRIES: usize = 4096;
 
 /// Whether a key belongs to the drive (chapter 7).
@@ -66,7 +65,7 @@ fn is_drive_key(pattern: &str) -> bool {
 }
 
 impl AxisValues {
-    /// Gathers the values; all keys that are not named in R3.10 and R3.11 are passed over.
+    /// Collects the values; all keys that are not named in R3.10 and R3.11 are passed over.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut values = Self {
             end: list.entries.last().map(Entry::end),
@@ -97,7 +96,7 @@ impl AxisValues {
         values
     }
 
-    /// Lets the values of another list replace those that are here.
+    /// Replaces values by those of another list.
     pub fn override_with(&mut self, other: Self) {
         self.number = other.number.or(self.number.take());
         self.name = other.name.or(self.name.take());
@@ -112,14 +111,13 @@ impl AxisValues {
         self.end = other.end.or(self.end.take());
     }
 
-    /// Whether P-AXIS-00522 is set, and where; `None` when no list sets it.
+    /// Returns the value of P-AXIS-00522 and its place; `None` if no list sets it.
     pub fn frict_comp(&self) -> Option<&Given<bool>> {
         self.selectors.get(&Kind::Frict)
     }
 
-    /// The change of the list that sets P-AXIS-00522: in the line that sets it to 0, unless that
-    /// stands in the list `shared` by all axes, or else in a line of its own. `None` where it is set,
-    /// or where no list is about the axis alone.
+    /// Returns the change to the list that sets P-AXIS-00522: in the line that sets it to 0, unless that line is in the
+    /// list `shared` by all axes, else in a new line. `None` if it is set, or if no list is for this axis alone.
     pub(crate) fn configuring(&self, shared: Option<&str>) -> Option<Fix> {
         let own = |given: &&Given<bool>| shared != Some(given.file());
         match self.frict_comp() {
@@ -131,8 +129,8 @@ impl AxisValues {
         }
     }
 
-    /// The rows of the table of effective parameters. P-AXIS-00522 is always among them, other
-    /// selectors when a list sets them.
+    /// Returns the rows of the table of effective parameters. P-AXIS-00522 is always included, other selectors if a
+    /// list sets them.
     pub fn parameters(&self) -> Vec<Parameter> {
         let mut rows = Vec::new();
         let mut row = |number, key: &str, value: String, origin| {
@@ -195,7 +193,7 @@ impl AxisValues {
             } else {
                 continue;
             };
-            // P-AXIS-00021 is a number: backlash compensation is on when it is not 0 (R1.40).
+            // P-AXIS-00021 is a number: backlash compensation is on if it is not 0 (R1.40).
             let on = match entry.number().value.number {
                 Some(Number::Integer(value)) if kind == Kind::Backlash => {
                     Some(entry.word().with(value != 0))
@@ -211,7 +209,7 @@ impl AxisValues {
     }
 }
 
-/// The kinds that a key selects or activates.
+/// Returns the kinds that a key selects or activates.
 fn switched_by(pattern: &str) -> KindSet {
     let switches = |kind: &Kind| {
         let facts = kind.facts();
@@ -220,7 +218,7 @@ fn switched_by(pattern: &str) -> KindSet {
     Kind::ALL.into_iter().filter(switches).collect()
 }
 
-/// The line that sets P-AXIS-00522, after the last entry of a list.
+/// Adds a line that sets P-AXIS-00522 after the last entry of a list.
 fn added(end: &Given<usize>) -> Fix {
     let (key, columns) = (Kind::Frict.facts().selector, end.value);
     let line = if columns > key.len() {
@@ -231,7 +229,7 @@ fn added(end: &Given<usize>) -> Fix {
     Fix::guess(end.place(), line)
 }
 
-/// FC130 for a value that is none of the values in `expected`; the value is not used.
+/// Returns FC130 for a value that is not one of those in `expected`; the value is not used.
 fn no_value(entry: &Entry, expected: &str) -> Diagnostic {
     let word = entry.word();
     let found = if word.value.is_empty() {
@@ -255,7 +253,7 @@ fn truth(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<bool>
     given.value.map(|on| given.with(on))
 }
 
-/// An axis number, a whole number of type UNS16.
+/// Reads an axis number, a whole number of type UNS16.
 pub(super) fn axis_number(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<u32>> {
     let given = entry.number();
     let number = match given.value.number {
@@ -268,7 +266,7 @@ pub(super) fn axis_number(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> O
     number.map(|number| given.with(u32::from(number)))
 }
 
-/// A text that is not empty.
+/// Returns a text that is not empty.
 pub(super) fn text(entry: &Entry) -> Option<Given<String>> {
     let given = entry.text();
     (!given.value.is_empty()).then(|| given.with(given.value.to_owned()))

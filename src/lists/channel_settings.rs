@@ -25,7 +25,7 @@ pub enum FeedUnit {
 }
 
 impl FeedUnit {
-    /// The unit in mm/min, where it is known.
+    /// Returns the unit in mm/min, if it is known.
     pub fn in_mm(self) -> Option<f64> {
         match self {
             Self::MillimetresPerMinute => Some(1.0),
@@ -43,19 +43,18 @@ pub struct ChannelSettings {
     pub feed_unit: FeedUnit,
     /// The feed where a program has no F, in mm/min, P-CHAN-00099.
     pub feed_mm_per_min: Option<f64>,
-    /// The G functions in force at the start of a program, P-CHAN-00063, where they are not those
-    /// of the control.
+    /// The G functions in force at the start of a program, P-CHAN-00063, if they differ from the control's defaults.
     pub functions: Vec<u32>,
     /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
     pub inch: bool,
-    /// The profile of the acceleration at the start of a program, P-CHAN-00071, where the list gives it.
+    /// The acceleration profile at the start of a program, P-CHAN-00071, if the list gives it.
     pub slope: Option<SlopeProfile>,
-    /// The names of the main spindle beside `S`, P-CHAN-00053 and the name of the spindle with the
-    /// number of P-CHAN-00051.
+    /// The names of the main spindle in addition to `S`: P-CHAN-00053 and the name of the spindle with the number of
+    /// P-CHAN-00051.
     pub main_spindle: Vec<String>,
 }
 
-/// The profile of the acceleration, P-CHAN-00071.
+/// The acceleration profile, P-CHAN-00071.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum SlopeProfile {
@@ -63,14 +62,14 @@ pub enum SlopeProfile {
     Step,
     /// Ramps of constant jerk.
     Trapez,
-    /// Ramps like the square of a sine.
+    /// Sine-squared ramps.
     Sin2,
     /// Ramps with the longest of the four ramp times.
     Hsc,
 }
 
 impl SlopeProfile {
-    /// The profile with a number of P-CHAN-00071.
+    /// Returns the profile with a number of P-CHAN-00071.
     pub(crate) fn numbered(number: f64) -> Option<Self> {
         let all = [Self::Step, Self::Trapez, Self::Sin2, Self::Hsc];
         let is_it = |at: &u8| f64::from(*at).total_cmp(&number).is_eq();
@@ -81,8 +80,8 @@ impl SlopeProfile {
     }
 }
 
-/// The groups of G functions that have a default at the start of a program, with the functions that
-/// each takes (P-CHAN-00063).
+/// The groups of G functions that have a default at the start of a program, each with its permitted functions
+/// (P-CHAN-00063).
 const GROUPS: [(u32, &[u32]); 11] = [
     (0, &[0, 1, 2, 3, 4]),
     (4, &[17, 18, 19]),
@@ -97,7 +96,7 @@ const GROUPS: [(u32, &[u32]); 11] = [
     (32, &[140, 141]),
 ];
 
-/// Values as a channel list gives them.
+/// Values as given by a channel list.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelDraft {
     factor: Option<Given<Number>>,
@@ -110,8 +109,7 @@ pub struct ChannelDraft {
 }
 
 impl ChannelDraft {
-    /// Gathers what a list gives. FC130 for values that are none, FC132 for those without a
-    /// documented meaning.
+    /// Collects the values of a list. Reports FC130 for invalid values, FC132 for those without a documented meaning.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut draft = Self::default();
         for entry in &list.entries {
@@ -189,7 +187,7 @@ impl ChannelDraft {
         diagnostics.push(odd(entry, &expected));
     }
 
-    /// Lets the values of another list replace those that are here.
+    /// Replaces values by those of another list.
     pub(super) fn override_with(&mut self, other: Self) {
         self.factor = other.factor.or(self.factor.take());
         self.feed = other.feed.or(self.feed.take());
@@ -209,7 +207,7 @@ impl ChannelDraft {
         let number = self.spindle_number.as_ref().map(|given| given.value);
         let main = spindles.iter().filter(|(_, own)| match number {
             Some(number) => *own == Some(number),
-            // Even a single spindle has to be the main one.
+            // A single spindle is the main one.
             None => spindles.len() == 1,
         });
         let given = self.spindle_name.iter().map(|given| given.value.as_str());
@@ -231,7 +229,7 @@ impl ChannelDraft {
         }
     }
 
-    /// The parameters that the list gives.
+    /// Returns the parameters that the list gives.
     pub fn parameters(&self) -> Vec<Parameter> {
         let mut rows = Vec::new();
         let mut row = |number, key: String, value: String, (unit, origin)| {
@@ -285,7 +283,7 @@ impl ChannelDraft {
     }
 }
 
-/// 100 is mm/min, 0.1 is m/min; for 0 and less the control takes mm/min.
+/// Returns the unit of a factor: 100 is mm/min, 0.1 is m/min; for 0 and less the control uses mm/min.
 fn unit_of(factor: &Given<Number>) -> FeedUnit {
     let factor = factor.value.to_f64();
     let near = |known: f64| (factor - known).abs() < 1e-9;
@@ -298,7 +296,7 @@ fn unit_of(factor: &Given<Number>) -> FeedUnit {
     }
 }
 
-/// FC132 for a factor that the control warns about, or whose meaning is not documented.
+/// Returns FC132 for a factor that the control warns about, or whose meaning is not documented.
 fn odd_factor(entry: &Entry, factor: &Given<Number>) -> Option<Diagnostic> {
     let value = factor.value.to_f64();
     if unit_of(factor) == FeedUnit::Unknown {
@@ -316,7 +314,7 @@ fn odd_factor(entry: &Entry, factor: &Given<Number>) -> Option<Diagnostic> {
     })
 }
 
-/// FC132 for a value that has no documented meaning.
+/// Returns FC132 for a value that has no documented meaning.
 fn odd(entry: &Entry, help: &str) -> Diagnostic {
     let word = entry.word();
     let message = format!(

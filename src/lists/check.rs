@@ -8,17 +8,17 @@ use super::value::{Given, Number, Written};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 
-/// Messages after which the rest of a broken table is not checked.
+/// Number of messages after which the rest of a broken table is not checked.
 const MAX_DIAGNOSTICS: usize = 50;
 
-/// Facts that the checks depend on besides the list.
+/// Facts that the checks depend on, in addition to the list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
-    /// The kernel version, where it is known.
+    /// The kernel version, if it is known.
     pub build: Option<CncBuild>,
     /// The type of the axis.
     pub axis_type: AxisType,
-    /// The feed in mm/min of the circle by which FC136 judges.
+    /// The feed in mm/min of the circle that FC136 is based on.
     pub feed_mm_min: f64,
 }
 
@@ -36,7 +36,7 @@ impl Default for Conditions {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// There are no friction parameters at all.
+    /// The list has no friction parameters.
     Absent,
     /// Mode 0.
     Off,
@@ -54,16 +54,15 @@ pub struct FrictionReading {
     pub verdict: Verdict,
     /// The table size that is reserved, P-COMP-00062.
     pub max_points: u32,
-    /// Every parameter with its value and where that came from.
+    /// Every parameter with its value and origin.
     pub parameters: Vec<Parameter>,
     /// Messages of the checks.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl FrictionDraft {
-    /// Checks what is written as the control does when it loads the list (R3.20 to R3.29), and
-    /// whether it is plausible. Checks that need the axis list are made where the axis is put
-    /// together.
+    /// Checks the parameters as the control does when it loads the list (R3.20 to R3.29), and their plausibility.
+    /// Checks that need the axis list are made when the axis is assembled.
     pub fn check(&self, conditions: &Conditions) -> FrictionReading {
         let mut check = Check {
             draft: self,
@@ -119,8 +118,8 @@ impl Check<'_> {
             .any(|diagnostic| diagnostic.code == code)
     }
 
-    /// The mode and the values, where every scalar is a number of its type; an error is reported where a
-    /// point is not.
+    /// Returns the mode and the values if every scalar is a number of its type; an invalid point is reported as an
+    /// error.
     fn values(&mut self) -> Option<(u16, FrictionList)> {
         let mode = self.scalar(Field::Mode);
         let max_points = self.scalar(Field::MaxPoints);
@@ -154,8 +153,8 @@ impl Check<'_> {
         ))
     }
 
-    /// The value of a parameter or its default; `None` after FC130 (R3.24). Says FC132 for a value
-    /// outside the documented range (R3.25).
+    /// Returns the value of a parameter or its default; `None` after FC130 (R3.24). Reports FC132 for a value outside
+    /// the documented range (R3.25).
     fn scalar<T: TryFrom<i64>>(&mut self, field: Field) -> Option<T> {
         let Some(given) = self.draft.get(field) else {
             return T::try_from(field.default()).ok();
@@ -206,7 +205,7 @@ impl Check<'_> {
         T::try_from(if field.floors(value) { 0 } else { value }).ok()
     }
 
-    /// The points that are used, as far as they are numbers, after all checks of the table.
+    /// Returns the used points that are numbers, after all checks of the table.
     fn table(&mut self, entries: Option<u16>) -> Vec<TablePoint> {
         if let Some(entries) = entries {
             self.check_count(u32::from(entries));
@@ -216,7 +215,7 @@ impl Check<'_> {
         points.into_iter().map(|(_, point)| point).collect()
     }
 
-    /// R3.23: whether the table fits into the reserved room; `≤` (reading C6).
+    /// R3.23: the table must fit into the reserved size; `≤` (reading C6).
     fn check_size(&mut self, entries: u16) {
         let max_points = self.draft.max_points();
         let Some(given) = self.draft.get(Field::TableEntries) else {
@@ -262,7 +261,7 @@ impl Check<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// R3.26: whether there are as many points as are used.
+    /// R3.26: there must be exactly as many points as are used.
     fn check_count(&mut self, entries: u32) {
         let surplus = self.draft.table.range(entries..).next();
         if let Some((index, point)) = surplus
@@ -275,7 +274,7 @@ impl Check<'_> {
             self.diagnostics
                 .push(Diagnostic::new(Code::Fc134, given.place(), message));
         }
-        // A number of entries that has no room is wrong itself, and said.
+        // A number of entries that exceeds the reserved size is itself wrong, and already reported.
         let number = self.draft.get(Field::TableEntries);
         let Some(given) = number.filter(|_| !self.has(Code::Fc131)) else {
             return;
@@ -295,7 +294,7 @@ impl Check<'_> {
             .push(Diagnostic::new(Code::Fc133, given.place(), message));
     }
 
-    /// The points below an index whose values are numbers of their type (R3.24).
+    /// Returns the points below an index whose values are numbers of their type (R3.24).
     fn points(&mut self, end: u32) -> Vec<(u32, TablePoint)> {
         let mut points = Vec::new();
         for (&index, point) in self.draft.table.range(..end) {
@@ -310,7 +309,7 @@ impl Check<'_> {
         points
     }
 
-    /// One value of a point, 0 when it is not written; `None` after FC130 (R3.24).
+    /// Returns one value of a point, 0 if it is missing; `None` after FC130 (R3.24).
     fn point_value(
         &mut self,
         given: Option<&Given<Written>>,
@@ -383,9 +382,8 @@ impl Check<'_> {
         }
     }
 
-    /// R3.28: a first point (0, 0) leaves the axis without current until it reaches the second
-    /// one. On a circle an axis leaves its reversal with a = v²/r; chapter 4.3 sets r = 100 mm and
-    /// the limit of 10 ms.
+    /// R3.28: with a first point (0, 0) the axis has no current until it reaches the second one. On a circle an axis
+    /// leaves its reversal with a = v²/r; chapter 4.3 sets r = 100 mm and the limit of 10 ms.
     fn check_first_point(&mut self, list: &FrictionList) {
         const RADIUS_MM: f64 = 100.0;
         const LIMIT_MS: f64 = 10.0;
@@ -424,7 +422,7 @@ impl Check<'_> {
         }
     }
 
-    /// R3.29: the torque object of the drive has 16 bit.
+    /// R3.29: the torque object of the drive has 16 bits.
     fn check_drive_range(&mut self, list: &FrictionList) {
         let scaled = |point: &TablePoint| point.output * f64::from(list.scaling_factor) / 1000.0;
         let largest = (0_u32..)
@@ -450,7 +448,7 @@ impl Check<'_> {
     }
 }
 
-/// The text in backquotes, or words for none.
+/// Returns the text in backquotes, or words for an empty one.
 fn quoted(text: &str) -> String {
     if text.is_empty() {
         "empty".to_owned()

@@ -50,7 +50,7 @@ const KEYS: [(&str, &str, DynamicQuantity); 18] = {
 #[derive(Debug, Clone, Default)]
 pub struct DynamicsDraft(BTreeMap<&'static str, (String, Given<Number>)>);
 
-/// The dynamics of an axis as its list gives them: mm or degrees, and seconds.
+/// The dynamics of an axis as given by its list: in mm or degrees, and seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ListedDynamics {
@@ -75,8 +75,8 @@ pub struct ListedDynamics {
 }
 
 impl DynamicsDraft {
-    /// Takes an entry of gear step 0; whether the key is one of these. FC130 for what is no number, or
-    /// no number above 0 where a limit must be one.
+    /// Takes an entry of gear step 0 and returns whether its key is one of these. Reports FC130 for a value that is not
+    /// a number, or not above 0 if it is a limit.
     pub(super) fn take(&mut self, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> bool {
         let Some(key) = entry.pattern.strip_prefix("getriebe[].") else {
             return false;
@@ -112,12 +112,12 @@ impl DynamicsDraft {
         true
     }
 
-    /// Lets the values of another list replace those that are here.
+    /// Replaces values by those of another list.
     pub(super) fn override_with(&mut self, other: Self) {
         self.0.extend(other.0);
     }
 
-    /// The values in mm or degrees and seconds.
+    /// Returns the values in mm or degrees and seconds.
     pub(crate) fn dynamics(&self) -> ListedDynamics {
         let value = |number: &str| self.0.get(number).map(|(_, given)| given.value.to_f64());
         let known = |numbers: &[&str]| -> Vec<f64> {
@@ -154,7 +154,7 @@ impl DynamicsDraft {
         }
     }
 
-    /// The parameters that the list gives.
+    /// Returns the parameters that the list gives.
     pub(super) fn parameters(&self, axis_type: AxisType) -> Vec<Parameter> {
         let linear = axis_type == AxisType::Linear;
         let rows = self.0.iter().map(|(&number, (key, given))| {

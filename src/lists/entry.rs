@@ -1,6 +1,6 @@
 //! One line of a list: its key, and its value as a number, a text or a set of words.
 //!
-//! What a value may be depends on the key, which is not known here.
+//! The permitted form of a value depends on the key, which is not interpreted here.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,14 +8,14 @@ use std::sync::Arc;
 use super::value::{Given, Number, Written};
 use crate::text::{Place, SourceFile, Span};
 
-/// Quotes around a value that holds `(`; printed samples have the slanted ones (TF5200 Channel
+/// Quotes around a value that contains `(`; printed samples use typographic quotes (TF5200 Channel
 /// parameters, comments in the ASCII list file).
 const QUOTES: [char; 4] = ['"', '\u{201c}', '\u{201d}', '\u{2033}'];
 
 /// One line `path.with[index].dots  value  comment`.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// The key with every index left empty: `frict_comp.table[].in`.
+    /// The key with all indices left empty: `frict_comp.table[].in`.
     pub pattern: String,
     /// The indices from left to right.
     pub indices: Vec<u32>,
@@ -29,7 +29,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The key without blanks: `frict_comp.table[0].in`.
+    /// Returns the key without blanks: `frict_comp.table[0].in`.
     pub fn key(&self) -> String {
         let mut key = String::with_capacity(self.pattern.len() + 4 * self.indices.len());
         let mut indices = self.indices.iter();
@@ -44,7 +44,7 @@ impl Entry {
         key
     }
 
-    /// The key as it stands there.
+    /// Returns the key as written.
     pub(super) fn written_key(&self) -> &str {
         self.key_span.of(self.source.text())
     }
@@ -54,7 +54,7 @@ impl Entry {
         self.source.place(self.key_span)
     }
 
-    /// The end of its line, and how many columns its key takes with the blanks after it.
+    /// Returns the end of its line, and the columns of its key with the blanks after it.
     pub(super) fn end(&self) -> Given<usize> {
         let (source, start) = (&self.source, self.key_span.start);
         let line = source
@@ -65,8 +65,8 @@ impl Entry {
         Given::new(columns, source, Span::new(end, end))
     }
 
-    /// The value as one word, as numbers and truth values are written: it ends at a blank or at
-    /// the start of a comment (R3.2).
+    /// Returns the value as one word, the form of numbers and truth values: it ends at a blank or
+    /// at the start of a comment (R3.2).
     pub fn word(&self) -> Given<&str> {
         let value = self.meant.of(self.source.text());
         let end = value
@@ -76,8 +76,8 @@ impl Entry {
         self.part(0..end)
     }
 
-    /// The value as a text; only `(` opens a comment after it. A text in quotes may hold one
-    /// (R3.2).
+    /// Returns the value as a text; only `(` opens a comment after it. A text in quotes may contain
+    /// `(` (R3.2).
     pub fn text(&self) -> Given<&str> {
         let value = self.meant.of(self.source.text());
         if let Some(quote) = value.chars().next().filter(|first| QUOTES.contains(first))
@@ -89,13 +89,14 @@ impl Entry {
         self.part(0..value[..end].trim_end().len())
     }
 
-    /// The value as a number, with the word that stands there.
+    /// Returns the value as a number, with the word as written.
     pub fn number(&self) -> Given<Written> {
         let word = self.word();
         word.with(Written::new(word.value))
     }
 
-    /// The value as a truth value, `0`, `1`, `FALSE` or `TRUE`; `None` when it is none (R3.4).
+    /// Returns the value as a truth value, `0`, `1`, `FALSE` or `TRUE`; `None` for anything else
+    /// (R3.4).
     pub fn truth(&self) -> Given<Option<bool>> {
         let word = self.word();
         let truth = match Number::parse(word.value) {
@@ -108,8 +109,8 @@ impl Entry {
         word.with(truth)
     }
 
-    /// The value as a set of words and numbers, `A | '16#3' |` (R3.4). After the last one all is
-    /// comment.
+    /// Returns the value as a set of words and numbers, `A | '16#3' |` (R3.4). Everything after the
+    /// last one is a comment.
     pub fn words(&self) -> Vec<Given<&str>> {
         let value = self.meant.of(self.source.text());
         let is_between = |c: char| c.is_whitespace() || QUOTES.contains(&c);
@@ -131,7 +132,8 @@ impl Entry {
         }
     }
 
-    /// The bytes `range` of the value with their place; nothing has the place of the key.
+    /// Returns the bytes `range` of the value with their place; an empty part has the place of the
+    /// key.
     fn part(&self, range: Range<usize>) -> Given<&str> {
         let start = self.meant.range().start;
         let span = if range.is_empty() {
@@ -144,7 +146,7 @@ impl Entry {
     }
 }
 
-/// The end of the word or number that a text begins with; `'16#3'` and `16#3` are numbers.
+/// Returns the end of the word or number at the start of a text; `'16#3'` and `16#3` are numbers.
 fn word_end(text: &str) -> usize {
     let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
     let plain = |text: &str| text.find(|c| !is_word(c)).unwrap_or(text.len());

@@ -1,6 +1,6 @@
 //! Friction compensation in a value list: the `frict_comp` structure (chapter 3.3).
 //!
-//! This file gathers what is written, `check` decides on the control's reaction.
+//! This file collects the written values; `check` decides on the control's reaction.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -12,7 +12,7 @@ use super::table::DEFAULT_MAX_POINTS;
 use super::value::{Given, Number, Written};
 use crate::diagnostic::{Code, Diagnostic, nearest};
 
-/// The keys that exist without being documented; they are not looked at (R3.5).
+/// The keys that exist but are not documented; they are ignored (R3.5).
 const UNDOCUMENTED: [&str; 10] = [
     "file_path",
     "f_i",
@@ -26,13 +26,13 @@ const UNDOCUMENTED: [&str; 10] = [
     "sample",
 ];
 
-/// One documented parameter of the structure, apart from the table (chapter 3.3).
+/// A documented parameter of the structure, except the table (chapter 3.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Field {
     /// P-COMP-00041: 0 off, 3 on.
     Mode,
-    /// P-COMP-00042: how many points of the table are used.
+    /// P-COMP-00042: number of points of the table that are used.
     TableEntries,
     /// P-COMP-00043: distance of the build-up after a reversal.
     PositionDelay,
@@ -58,7 +58,7 @@ impl Field {
         Self::DelayCycles,
     ];
 
-    /// The name after `frict_comp.`.
+    /// Returns the name after `frict_comp.`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mode => "mode",
@@ -71,12 +71,12 @@ impl Field {
         }
     }
 
-    /// The parameter with this name after `frict_comp.`.
+    /// Returns the parameter with this name after `frict_comp.`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|field| field.name() == name)
     }
 
-    /// The number in the parameter descriptions.
+    /// Returns the number in the parameter descriptions.
     pub fn number(self) -> &'static str {
         match self {
             Self::Mode => "P-COMP-00041",
@@ -89,7 +89,7 @@ impl Field {
         }
     }
 
-    /// The documented default.
+    /// Returns the documented default.
     pub fn default(self) -> i64 {
         match self {
             Self::ScalingFactor => 1000,
@@ -98,7 +98,7 @@ impl Field {
         }
     }
 
-    /// The unit for an axis of this type.
+    /// Returns the unit for an axis of this type.
     pub fn unit(self, axis_type: AxisType) -> &'static str {
         match self {
             Self::Mode | Self::TableEntries | Self::MaxPoints => "",
@@ -109,7 +109,7 @@ impl Field {
         }
     }
 
-    /// The name of its type in the control.
+    /// Returns the name of its type in the control.
     pub(super) fn type_name(self) -> &'static str {
         match self {
             Self::Mode | Self::TableEntries | Self::ReversalLookahead => "UNS16",
@@ -119,7 +119,7 @@ impl Field {
         }
     }
 
-    /// The values that its type admits; the interval of the scaling factor is open (R3.24).
+    /// Returns the range of its type; the interval of the scaling factor is open (R3.24).
     pub(super) fn type_range(self) -> RangeInclusive<i64> {
         match self {
             Self::Mode | Self::TableEntries | Self::ReversalLookahead => 0..=i64::from(u16::MAX),
@@ -130,7 +130,7 @@ impl Field {
         }
     }
 
-    /// Whether a value of this parameter counts as 0: a distance or a time below zero (R3.25).
+    /// Whether a value of this parameter counts as 0, being a negative distance or time (R3.25).
     pub(super) fn floors(self, value: i64) -> bool {
         let counted = matches!(
             self,
@@ -143,13 +143,13 @@ impl Field {
         counted && (smallest..0).contains(&value)
     }
 
-    /// The values that it may have: the documented range, or that of its type.
+    /// Returns the permitted values: the documented range, or that of its type.
     pub fn range(self) -> RangeInclusive<i64> {
         let documented = self.documented_range();
         documented.unwrap_or_else(|| self.type_range())
     }
 
-    /// The documented range where it is narrower than the type and no other check holds it
+    /// Returns the documented range if it is narrower than the type and no other check enforces it
     /// (R3.25).
     pub(super) fn documented_range(self) -> Option<RangeInclusive<i64>> {
         match self {
@@ -161,7 +161,7 @@ impl Field {
     }
 }
 
-/// One point of the table as it is written.
+/// One point of the table as written.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct WrittenPoint {
@@ -171,17 +171,17 @@ pub struct WrittenPoint {
     pub output: Option<Given<Written>>,
 }
 
-/// The friction parameters as they are written, before any check.
+/// The friction parameters as written, before any check.
 #[derive(Debug, Clone, Default)]
 pub struct FrictionDraft {
     scalars: BTreeMap<Field, Given<Written>>,
-    /// By index; only what is written takes room, however large the index.
+    /// By index; only written points take memory, however large the index.
     pub(super) table: BTreeMap<u32, WrittenPoint>,
 }
 
 impl FrictionDraft {
-    /// Gathers the friction parameters of a value list; keys of the structure that do not exist
-    /// are FC122 (R3.5).
+    /// Collects the friction parameters of a value list; unknown keys of the structure are FC122
+    /// (R3.5).
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut draft = Self::default();
         for entry in &list.entries {
@@ -212,8 +212,8 @@ impl FrictionDraft {
         self.scalars.insert(field, value);
     }
 
-    /// Replaces the whole table; what an earlier source said about its points is gone. The number
-    /// of entries is set to that of the points.
+    /// Replaces the whole table; points from earlier sources are dropped. The number of entries is
+    /// set to the number of points.
     pub fn set_table(&mut self, points: Vec<WrittenPoint>, whole: &Given<()>) {
         let count = points.len();
         self.table = (0..).zip(points).collect();
@@ -223,7 +223,7 @@ impl FrictionDraft {
         );
     }
 
-    /// Lets the values of another source replace those that are here.
+    /// Replaces values by those of another source.
     pub fn override_with(&mut self, other: Self) {
         if !other.table.is_empty() {
             self.table = other.table;
@@ -231,7 +231,7 @@ impl FrictionDraft {
         self.scalars.extend(other.scalars);
     }
 
-    /// Whether the list says nothing about friction compensation.
+    /// Whether the list has no values of friction compensation.
     pub fn is_empty(&self) -> bool {
         self.scalars.is_empty() && self.table.is_empty()
     }
@@ -241,7 +241,8 @@ impl FrictionDraft {
         self.scalars.get(&field)
     }
 
-    /// The place that stands for the whole: the mode, else the first thing that is written.
+    /// Returns the place that represents the whole structure: the mode, else the first written
+    /// value.
     pub fn anchor(&self) -> Option<Given<()>> {
         let point = || self.table.values().next();
         self.get(Field::Mode)
@@ -250,7 +251,7 @@ impl FrictionDraft {
             .map(|given| given.with(()))
     }
 
-    /// The reserved table size; 0 and nonsense stand for the default (P-COMP-00062).
+    /// Returns the reserved table size; 0 and invalid values mean the default (P-COMP-00062).
     pub(super) fn max_points(&self) -> u32 {
         let number = self.get(Field::MaxPoints).and_then(|g| g.value.number);
         match number {
@@ -262,7 +263,7 @@ impl FrictionDraft {
         }
     }
 
-    /// The rows of the table of effective parameters; none when nothing is written.
+    /// Returns the rows of the table of effective parameters; none if nothing is written.
     pub(super) fn parameters(&self, axis_type: AxisType) -> Vec<Parameter> {
         if self.is_empty() {
             return Vec::new();
@@ -326,7 +327,7 @@ fn after_structure(pattern: &str) -> Option<&str> {
     ours.then_some(rest)
 }
 
-/// FC122 for a key of the structure, unless it is one of the undocumented ones.
+/// Returns FC122 for a key of the structure, unless it is one of the undocumented ones.
 fn unknown_key(entry: &Entry, name: &str) -> Option<Diagnostic> {
     let base = name.trim_end_matches("[]");
     if entry.pattern.starts_with(STRUCTURE) && UNDOCUMENTED.contains(&base) {

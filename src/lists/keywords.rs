@@ -1,12 +1,12 @@
-//! The keys of the lists with the numbers of their parameters, for references to them (R3.40), for
-//! keys that lost their underscores, and for `explain`.
+//! The list keys with the numbers of their parameters, for references to them (R3.40), for keys
+//! that lost their underscores, and for `explain`.
 
 /// A key of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct KnownKey {
     /// The number in the parameter descriptions; empty where none is documented.
     pub number: &'static str,
-    /// The key with every index left empty: `frict_comp.table[].in`.
+    /// The key with all indices left empty: `frict_comp.table[].in`.
     pub pattern: &'static str,
 }
 
@@ -16,8 +16,8 @@ macro_rules! keys {
     };
 }
 
-/// Every key that is read, and those that others refer to (TF5200 Axis, Compensation, Channel and
-/// Start-up parameters).
+/// Every key that is read or referred to (TF5200 Axis, Compensation, Channel and Start-up
+/// parameters).
 pub const KEYS: &[KnownKey] = keys! {
     "P-AXIS-00016" "kopf.achs_nr"
     "P-AXIS-00297" "kopf.log_achs_name"
@@ -121,21 +121,21 @@ pub const KEYS: &[KnownKey] = keys! {
     "P-CHAN-00187" "g800_prog_file[]"
 };
 
-/// Whether a key is one of them, its indices left empty.
+/// Whether a key, with its indices left empty, is one of them.
 pub(super) fn is_known(pattern: &str) -> bool {
     KEYS.iter().any(|key| key.pattern == pattern)
 }
 
-/// A key whose underscores became blanks, as in a list copied from a PDF: `frict comp.mode 3`.
+/// A key whose underscores turned into blanks, as in a list copied from a PDF: `frict comp.mode 3`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Blanked {
-    /// The key that is meant, its indices left empty.
+    /// The intended key, with its indices left empty.
     pub(super) pattern: &'static str,
-    /// The bytes that it takes in the line.
+    /// The number of bytes that it takes in the line.
     pub(super) length: usize,
 }
 
-/// The longest known key that a line begins with, at least one of its underscores a blank.
+/// Returns the longest known key that a line begins with, with a blank for at least one underscore.
 pub(super) fn blanked(line: &str) -> Option<Blanked> {
     let found = KEYS.iter().filter_map(|key| {
         let length = blanked_length(key.pattern, line)?;
@@ -147,7 +147,8 @@ pub(super) fn blanked(line: &str) -> Option<Blanked> {
     found.max_by_key(|found| found.length)
 }
 
-/// The bytes that a key takes at the start of a line, with blanks for at least one underscore.
+/// Returns the length in bytes of a key at the start of a line, with a blank for at least one
+/// underscore.
 fn blanked_length(pattern: &str, line: &str) -> Option<usize> {
     let is_blank = |c: char| matches!(c, ' ' | '\t');
     let mut rest = line;

@@ -1,6 +1,6 @@
-//! The line format that all lists share: one entry a line, key, value, comment (R3.1 to R3.5).
+//! The line format that all lists share: one entry per line, key, value, comment (R3.1 to R3.5).
 //!
-//! Keys are known here only where they lost their underscores.
+//! Keys matter here only if they lost their underscores.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,13 +11,13 @@ use super::reference::resolve;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{SourceFile, Span, changed_direction};
 
-/// More lines that are no entries than a list has by mistake. What follows is counted.
+/// More invalid lines than a list has by mistake; further ones are only counted.
 const MAX_ODD: usize = 20;
 
 /// The entries of one list.
 #[derive(Debug, Clone)]
 pub struct Entries {
-    /// The entries in the order of their lines; of a key given twice only the last.
+    /// The entries in the order of their lines; only the last one of a repeated key.
     pub entries: Vec<Entry>,
     /// Messages on the lines themselves: FC120, FC121, FC124.
     pub diagnostics: Vec<Diagnostic>,
@@ -29,7 +29,7 @@ pub struct Entries {
 }
 
 impl Entries {
-    /// Reads the lines of a list up to `Ende` (R3.3). Never fails: a line that is no entry is
+    /// Reads the lines of a list up to `Ende` (R3.3). Never fails: a line that is not an entry is
     /// passed over with FC124.
     pub fn parse(source: &Arc<SourceFile>) -> Self {
         let mut reader = Reader {
@@ -74,22 +74,22 @@ impl Entries {
         }
     }
 
-    /// Whether keys lost their underscores, which is reported.
+    /// Whether keys lost their underscores, which has been reported.
     pub(crate) fn lost_underscores(&self) -> bool {
         self.lost > 0
     }
 
-    /// The list as a source.
+    /// Returns the source of the list.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source
     }
 
-    /// The entry with this key, for keys without an index.
+    /// Returns the entry with this key, for keys without an index.
     pub fn find(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.pattern == key)
     }
 
-    /// The entries whose key has this pattern, `achs_mds[]`, each with its first index.
+    /// Returns the entries whose key has this pattern, `achs_mds[]`, each with its first index.
     pub fn indexed<'a>(&'a self, pattern: &'a str) -> impl Iterator<Item = (u32, &'a Entry)> {
         self.entries
             .iter()
@@ -97,7 +97,7 @@ impl Entries {
             .filter_map(|entry| entry.indices.first().map(|&index| (index, entry)))
     }
 
-    /// Keeps the last of several entries with one key and says so (R3.5).
+    /// Keeps the last of several entries with the same key and reports them (R3.5).
     fn drop_repeated(&mut self) {
         let mut last: HashMap<(&str, &[u32]), usize> = HashMap::new();
         let mut repeated = Vec::new();
@@ -130,22 +130,22 @@ impl Entries {
 
 /// Kind of a line.
 enum LineKind {
-    /// Nothing, or a comment.
+    /// An empty line, or a comment.
     Blank,
     /// `Ende`.
     End,
     /// An entry.
     Entry(Entry),
-    /// A key whose underscores became blanks, and the key that is meant.
+    /// A key whose underscores turned into blanks, and the intended key.
     Lost(Span, &'static str),
-    /// Nothing of these; the reason as a sentence without its start.
+    /// None of these; the reason, to be completed to a sentence.
     Odd(&'static str),
 }
 
 struct Reader<'a> {
     source: &'a Arc<SourceFile>,
     lines: Vec<Entry>,
-    /// Keys that lost their underscores, with those that are meant.
+    /// Keys that lost their underscores, each with the intended one.
     lost: Vec<(Span, &'static str)>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -187,7 +187,7 @@ impl Reader<'_> {
         ended
     }
 
-    /// FC102 for characters that change the order in which a line is shown (R9.94).
+    /// Reports FC102 for characters that change the order in which a line is shown (R9.94).
     fn look_at(&mut self, line: Span) {
         if let Some((span, message)) = changed_direction(line.of(self.source.text())) {
             let place = self.source.place(span.shifted(line.start));
@@ -197,7 +197,7 @@ impl Reader<'_> {
         }
     }
 
-    /// FC124 for a line that is no entry.
+    /// Reports FC124 for a line that is not an entry.
     fn pass_over(&mut self, span: Span, why: &str) {
         let line = span.of(self.source.text());
         let start = line.len() - line.trim_start().len();
@@ -212,7 +212,7 @@ impl Reader<'_> {
         );
     }
 
-    /// FC124 for keys without their underscores, once for all of them.
+    /// Reports FC124 for keys without their underscores, once for all of them.
     fn tell_lost(&mut self) {
         let Some(&(span, key)) = self.lost.first() else {
             return;
@@ -232,7 +232,7 @@ impl Reader<'_> {
         );
     }
 
-    /// FC124 for a list in the control's other format.
+    /// Reports FC124 for a list in the control's other format.
     fn refuse_xml(&mut self) {
         let span = self.source.lines().line_span(self.source.text(), 1);
         self.diagnostics.push(
@@ -255,7 +255,7 @@ impl Reader<'_> {
                 None => return LineKind::Odd("a comment is not closed on its line"),
             }
         }
-        // Printed samples write `:` or `...` for entries that they leave out (R3.2).
+        // Printed samples use `:` or `...` for omitted entries (R3.2).
         let left_out = |c: char| matches!(c, ':' | '.' | '\u{2026}' | ' ' | '\t');
         if line.starts_with('#') || line.chars().all(left_out) {
             return LineKind::Blank;
@@ -271,7 +271,7 @@ impl Reader<'_> {
         self.entry(line, start)
     }
 
-    /// Reads an entry. `line` begins with its key and lies at `start` of the text.
+    /// Reads an entry. `line` begins with its key, at `start` of the text.
     fn entry(&self, line: &str, start: usize) -> LineKind {
         let mut pattern = String::new();
         let mut indices = Vec::new();

@@ -1,4 +1,4 @@
-//! The control's ASCII lists: their lines, what they say, and the control's checks.
+//! The control's ASCII lists: their lines, their contents, and the control's checks.
 
 mod axis;
 mod channel_settings;

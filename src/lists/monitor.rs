@@ -14,20 +14,20 @@ pub(super) const REQUIRED: &str = "lr_param.prog_movement_requires_compensations
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Monitor {
-    /// The kinds that are named, or whose bit is set.
+    /// The kinds that are named or whose bit is set.
     pub kinds: KindSet,
-    /// The bits for which no kind is documented; what they require is not judged.
+    /// The bits for which no kind is documented; their requirement is not judged.
     pub open: u64,
 }
 
 impl Monitor {
-    /// A monitor of these kinds.
+    /// Creates a monitor of these kinds.
     pub fn of_kinds(kinds: KindSet) -> Self {
         Self { kinds, open: 0 }
     }
 
-    /// Reads words joined by `|`, or a bit code in any form of number. Says once what of it is not
-    /// judged.
+    /// Reads words joined by `|`, or a bit code in any form of number. Reports once which of them
+    /// are not judged.
     pub(super) fn of(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<Self> {
         let mut monitor = Self::default();
         for word in entry.words() {
@@ -61,7 +61,7 @@ impl Monitor {
     }
 }
 
-/// The words of an axis list, and what is not judged as a bit code.
+/// The words of an axis list, followed by a bit code for what is not judged.
 impl fmt::Display for Monitor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut words: Vec<String> = self.kinds.iter().map(|kind| kind.to_string()).collect();
@@ -72,7 +72,7 @@ impl fmt::Display for Monitor {
     }
 }
 
-/// A bit code: `2`, `0x02`, `'16#2'`, `2#10`.
+/// Reads a bit code: `2`, `0x02`, `'16#2'`, `2#10`.
 fn bit_code(word: &str) -> Option<u64> {
     let word = word.trim_matches('\'');
     if let Some((base, digits)) = word.split_once('#') {
@@ -85,7 +85,7 @@ fn bit_code(word: &str) -> Option<u64> {
     }
 }
 
-/// FC124 for bits that stand for no documented kind.
+/// Returns FC124 for bits without a documented kind.
 fn undocumented(word: &Given<&str>, bits: u64) -> Diagnostic {
     let message = format!(
         "no document says which compensation the bits {bits:#x} of `{REQUIRED}` require; whether \
@@ -95,7 +95,7 @@ fn undocumented(word: &Given<&str>, bits: u64) -> Diagnostic {
         .with_help("name the kinds in words: `LEAD | FRICT`")
 }
 
-/// FC124 for a word that names no kind.
+/// Returns FC124 for a word that is not a kind.
 fn no_kind(word: &Given<&str>) -> Diagnostic {
     let message = format!(
         "`{}` is not a kind of compensation; whether the axis moves without it is not judged",

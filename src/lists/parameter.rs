@@ -24,7 +24,7 @@ pub enum AxisType {
 }
 
 impl AxisType {
-    /// The value in an axis list.
+    /// Returns the value in an axis list.
     pub fn list_value(self) -> &'static str {
         match self {
             Self::Linear => "1",
@@ -34,7 +34,7 @@ impl AxisType {
     }
 }
 
-/// A text that names no axis type.
+/// A text that is not an axis type.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{0}` is not an axis type")]
 pub struct UnknownAxisType(pub String);
@@ -42,7 +42,7 @@ pub struct UnknownAxisType(pub String);
 impl FromStr for AxisType {
     type Err = UnknownAxisType;
 
-    /// The type that a letter of the parameter descriptions names: `T`, `R`, `S`.
+    /// Returns the type for a letter of the parameter descriptions: `T`, `R`, `S`.
     fn from_str(letter: &str) -> Result<Self, Self::Err> {
         match letter {
             "T" => Ok(Self::Linear),
@@ -57,7 +57,7 @@ impl FromStr for AxisType {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Origin {
-    /// No list sets it; the documented default holds.
+    /// No list sets it; the documented default applies.
     Default,
     /// A line of a list or of `frictcomp.toml`.
     File {
@@ -66,7 +66,7 @@ pub enum Origin {
         /// The line, from 1.
         line: u32,
     },
-    /// The user assumes it, with `enable = true` for instance.
+    /// The user assumes it, for example with `enable = true`.
     Assumed,
 }
 
@@ -87,7 +87,7 @@ pub struct Parameter {
     pub number: &'static str,
     /// The key in a list, `frict_comp.position_delay`.
     pub key: String,
-    /// The value that holds, as a list would write it.
+    /// The effective value, in list notation.
     pub value: String,
     /// Its unit for the axis' type, empty for plain numbers.
     pub unit: &'static str,

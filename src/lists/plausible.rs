@@ -1,4 +1,4 @@
-//! Values that the control takes although they are implausible (FC139).
+//! Values that the control accepts although they are implausible (FC139).
 
 use super::friction::{Field, FrictionDraft};
 use super::parameter::AxisType;
@@ -6,13 +6,13 @@ use super::table::TablePoint;
 use super::value::Number;
 use crate::diagnostic::{Code, Diagnostic, ReadableNumber, Severity};
 
-/// A linear axis whose fastest point is slower than 1 mm/s has velocities in mm/s, most likely.
+/// A linear axis whose fastest point is slower than 1 mm/s most likely has velocities in mm/s.
 const SLOW_TABLE: f64 = 1000.0;
 
-/// A smaller scaling factor leaves less than a tenth of the outputs.
+/// A smaller scaling factor reduces the outputs to less than a tenth.
 const SMALL_SCALING: i64 = 100;
 
-/// Returns remarks on points that are hardly intended.
+/// Returns remarks on points that are probably unintended.
 pub(super) fn doubts(
     draft: &FrictionDraft,
     points: &[TablePoint],
@@ -26,8 +26,8 @@ pub(super) fn doubts(
     checks.into_iter().flatten().collect()
 }
 
-/// A scaling factor that leaves little of the outputs, as 10 in the manual's sample (C13). It may be
-/// meant, for a table of integers becomes finer by it.
+/// Reports a scaling factor that reduces the outputs to almost nothing, such as 10 in the manual's sample (C13). It may
+/// be intended, because it gives a table of integers a finer resolution.
 fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     let given = draft.get(Field::ScalingFactor)?;
     let Some(Number::Integer(factor)) = given.value.number else {
@@ -51,7 +51,7 @@ fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnos
     Some(said)
 }
 
-/// A table of velocities in mm/s instead of \u{b5}m/s.
+/// Reports a table of velocities in mm/s instead of \u{b5}m/s.
 fn slow(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     // A single point is a constant, whatever its velocity.
     let (index, last) = (0_u32..).zip(points).skip(1).last()?;
@@ -70,7 +70,7 @@ fn slow(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     )
 }
 
-/// Outputs of both signs: at one speed the current would push, at another it would brake.
+/// Reports outputs of both signs: the current would push at one speed and brake at another.
 fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     let mut outputs = (0..).zip(points).filter(|(_, point)| point.output != 0.0);
     let (_, first) = outputs.next()?;
@@ -84,7 +84,7 @@ fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     said(draft, index, message)
 }
 
-/// Outputs that fall to less than half from one point to the next and rise like that further on, or the
+/// Reports outputs that drop to less than half from one point to the next and rise as sharply further on, or the
 /// reverse. Friction may fall and rise over several points, and a table may begin at 0.
 fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     let (mut valley, mut peak) = (None, None);
@@ -99,7 +99,7 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
         if let Some((index, what)) = found {
             let output = points.get(index as usize)?.output;
             let message = format!(
-                "`frict_comp.table[{index}].out` is {output}, {what} of what stands before and after it"
+                "`frict_comp.table[{index}].out` is {output}, {what} the outputs before and after it"
             );
             return said(draft, index, message);
         }
@@ -113,7 +113,7 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     None
 }
 
-/// FC139 at an output.
+/// Returns FC139 at an output.
 fn said(draft: &FrictionDraft, index: u32, message: String) -> Option<Diagnostic> {
     let place = draft.table.get(&index)?.output.as_ref()?.place();
     Some(

@@ -19,8 +19,8 @@ pub enum ProgramRole {
     Word(String),
 }
 
-/// The keys that name a program, with the number of the parameter where the descriptions give one,
-/// and the word that calls it (TF5200 Channel parameters).
+/// The keys that name a program, each with the number of the parameter, if the descriptions give
+/// one, and the word that calls the program (TF5200 Channel parameters).
 const WORDS: [(&str, &str, &str); 13] = [
     ("m6_prog_file", "P-CHAN-00118", "M6"),
     ("t_prog_file", "", "T"),
@@ -40,7 +40,7 @@ const WORDS: [(&str, &str, &str); 13] = [
 /// The number of `g800_prog_file[i]`.
 const G800: &str = "P-CHAN-00187";
 
-/// More macros than any channel list has; what lies beyond is not kept.
+/// More macros than any channel list has; further ones are not kept.
 const MAX_MACROS: usize = 4096;
 
 /// A program that a channel list names.
@@ -65,12 +65,12 @@ struct Macro {
 pub struct ChannelPrograms {
     named: BTreeMap<ProgramRole, ListedProgram>,
     macros: BTreeMap<u32, Macro>,
-    /// `einrechnen_mit_t`, P-CHAN-00014: a T word does what a D word does, too.
+    /// `einrechnen_mit_t`, P-CHAN-00014: a T word also has the effect of a D word.
     data_with_tool: Option<Given<bool>>,
 }
 
 impl ChannelPrograms {
-    /// Gathers what a list names.
+    /// Collects the programs and macros that a list names.
     pub fn from_entries(list: &Entries) -> Self {
         let mut programs = Self::default();
         for entry in &list.entries {
@@ -113,7 +113,7 @@ impl ChannelPrograms {
         }
     }
 
-    /// An empty name takes a program away again.
+    /// Sets a program; an empty name removes it.
     fn name(&mut self, role: ProgramRole, number: &'static str, entry: &Entry) {
         let named = ListedProgram {
             number,
@@ -128,7 +128,7 @@ impl ChannelPrograms {
         is_room.then(|| self.macros.entry(index).or_default())
     }
 
-    /// Lets what another list names replace what is here.
+    /// Replaces programs and macros by those of another list.
     pub fn override_with(&mut self, other: Self) {
         self.named.extend(other.named);
         for (index, found) in other.macros {
@@ -139,7 +139,7 @@ impl ChannelPrograms {
         self.data_with_tool = other.data_with_tool.or(self.data_with_tool.take());
     }
 
-    /// The programs, by what runs them.
+    /// Returns the programs with the events that run them.
     pub fn programs(&self) -> impl Iterator<Item = (&ProgramRole, &str)> {
         let named = self
             .named
@@ -148,7 +148,7 @@ impl ChannelPrograms {
         named.filter(|(_, name)| !name.is_empty())
     }
 
-    /// The macros: name and code.
+    /// Returns the macros: name and code.
     pub fn macros(&self) -> impl Iterator<Item = (&str, &str)> {
         self.macros.values().filter_map(|found| {
             let symbol = found.symbol.as_ref()?;
@@ -157,14 +157,15 @@ impl ChannelPrograms {
         })
     }
 
-    /// Whether a T word does what a D word does, too.
+    /// Whether a T word also has the effect of a D word.
     pub fn data_with_tool(&self) -> bool {
         self.data_with_tool
             .as_ref()
             .is_some_and(|given| given.value)
     }
 
-    /// The parameters that hold, in the order of their keys; those of some roles are set elsewhere.
+    /// Returns the effective parameters, in the order of their keys, except those of roles set
+    /// elsewhere.
     pub fn parameters(&self, elsewhere: &dyn Fn(&ProgramRole) -> bool) -> Vec<Parameter> {
         let row = |number, key: String, given: &Given<String>| Parameter {
             number,
@@ -199,14 +200,14 @@ impl ChannelPrograms {
     }
 }
 
-/// The word of `g812_prog_file`, as some lists write `g800_prog_file[12]`.
+/// Returns the word of `g812_prog_file`, a form that some lists use for `g800_prog_file[12]`.
 fn numbered(key: &str) -> Option<String> {
     let number = key.strip_prefix('g')?.strip_suffix("_prog_file")?;
     let number: u32 = number.parse().ok()?;
     (800..1000).contains(&number).then(|| format!("G{number}"))
 }
 
-/// The text of an entry; the descriptions write `*` for an empty one.
+/// Returns the text of an entry; the descriptions use `*` for an empty one.
 fn text(entry: &Entry) -> Given<String> {
     let given = entry.text();
     let text = given.value.trim();

@@ -28,7 +28,7 @@ impl Reference {
         })
     }
 
-    /// The entry of the parameter. An index that is left out is 0.
+    /// Returns the entry of the parameter. An omitted index is 0.
     fn find(&self, entries: &[Entry]) -> Result<usize, &'static str> {
         let mut keys = KEYS
             .iter()
@@ -49,8 +49,8 @@ impl Reference {
     }
 }
 
-/// Gives every known entry that refers to another one the value of that one. Returns those whose
-/// reference leads nowhere, which are taken out, each with FC124.
+/// Gives every known entry that refers to another one the value of that one. Removes and returns
+/// those whose reference cannot be resolved, each reported with FC124.
 pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry> {
     let begins = |entry: &Entry| matches!(entry.word().value.as_bytes(), [b'P' | b'p', b'-', ..]);
     let referring = (0..entries.len())
@@ -61,7 +61,7 @@ pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic
         match follow(entries, at) {
             Ok(Some(value)) => entries[at].meant = value,
             Ok(None) => {}
-            // A circle is said at the first of its members.
+            // A circle is reported at the first of its members.
             Err((_, passed)) if passed.iter().any(|it| broken.contains(it)) => broken.push(at),
             Err((why, _)) => {
                 let entry = &entries[at];
@@ -86,7 +86,7 @@ pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic
     unresolved
 }
 
-/// Returns the span of the value that an entry refers to; `None` for an entry that refers to none.
+/// Returns the span of the value that an entry refers to; `None` for an entry without a reference.
 fn follow(entries: &[Entry], first: usize) -> Result<Option<Span>, (&'static str, Vec<usize>)> {
     let mut passed = vec![first];
     loop {

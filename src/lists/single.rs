@@ -1,4 +1,4 @@
-//! A compensation value list by itself, as the control would take it.
+//! A single compensation value list, as the control would read it.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::table::FrictionList;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::text::SourceFile;
 
-/// A value list that the control would take.
+/// A value list that the control would accept.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ReadList {
@@ -26,17 +26,17 @@ pub struct ReadList {
 #[error("{reason}")]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NoValues {
-    /// Why, in a few words.
+    /// The reason, in a few words.
     pub reason: &'static str,
-    /// The lines that are the reason.
+    /// Messages on the lines that are the reason.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl FrictionList {
-    /// The values that a list by itself would give the control.
+    /// Reads the values that this list alone would give the control.
     ///
     /// # Errors
-    /// The control would not take them.
+    /// The control would not accept them.
     pub fn read(source: SourceFile) -> Result<ReadList, NoValues> {
         let source = Arc::new(source);
         let entries = Entries::parse(&source);

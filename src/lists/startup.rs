@@ -23,12 +23,12 @@ pub enum ListKind {
     Axis,
     /// The compensation values of one axis.
     Value,
-    /// Number and name of an axis and nothing else, as in an axis list or a value list.
+    /// Only the number and name of an axis, as in an axis list or a value list.
     Head,
 }
 
-/// The keys by which a kind of list is known, beginnings of their patterns. The rows are looked at
-/// from the top, the first one with a key in the list counts.
+/// The keys that identify a kind of list, given as beginnings of their patterns. The rows are tried
+/// from the top; the first one with a key in the list counts.
 const KEYS: [(ListKind, &[&str]); 5] = [
     (
         ListKind::Startup,
@@ -89,14 +89,14 @@ fn holds(list: &Entries, beginnings: &[&str]) -> bool {
 }
 
 impl ListKind {
-    /// The kind of a list by its keys; `None` when no key belongs to any of them.
+    /// Returns the kind of a list by its keys; `None` if no key belongs to any kind.
     pub fn detect(list: &Entries) -> Option<Self> {
         let row = KEYS.iter().find(|(_, keys)| holds(list, keys))?;
         Some(row.0)
     }
 
-    /// Whether a list can stand where one of this kind is asked for: none of its keys says that it
-    /// is another one, or one of them says that it is this one.
+    /// Whether a list can serve as one of this kind: none of its keys identifies another kind, or
+    /// one of them identifies this kind.
     pub fn admits(self, list: &Entries) -> bool {
         let own = KEYS.iter().find(|(kind, _)| *kind == self);
         own.is_some_and(|(_, keys)| holds(list, keys))
@@ -119,9 +119,9 @@ impl ListKind {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct NamedList {
-    /// Its path, as it is written.
+    /// Its path as written.
     pub path: Given<String>,
-    /// The axis that it belongs to, where the start-up list says so.
+    /// The axis that it belongs to, if the start-up list gives it.
     pub axis_number: Option<Given<u32>>,
 }
 
@@ -129,21 +129,21 @@ pub struct NamedList {
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct StartupList {
-    /// The axis list that applies before each axis' own one.
+    /// The axis list that applies before each axis' own list.
     pub default_axis_list: Option<Given<String>>,
     /// Axis lists in the order of their indices.
     pub axis_lists: Vec<Given<String>>,
     /// Value lists in the order of their indices.
     pub value_lists: Vec<NamedList>,
-    /// The channel list that applies before each channel's own one.
+    /// The channel list that applies before each channel's own list.
     pub default_channel_list: Option<Given<String>>,
     /// Channel lists in the order of their channels.
     pub channel_lists: Vec<Given<String>>,
 }
 
 impl StartupList {
-    /// Gathers the files. Lists with an index beyond `zahl_mds` or `zahl_kw` are not loaded by
-    /// the control, FC124 says so.
+    /// Collects the files. The control does not load lists with an index beyond `zahl_mds` or
+    /// `zahl_kw`, which FC124 reports.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let axis_lists = counted(list, "achs_mds[]", "zahl_mds", diagnostics);
         let value_lists = counted(list, "achs_kw[]", "zahl_kw", diagnostics);
@@ -171,7 +171,7 @@ impl StartupList {
     }
 }
 
-/// The files under a key, as many as another key says.
+/// Returns the files under a key; another key gives their number.
 fn counted(
     list: &Entries,
     files_key: &str,
@@ -205,7 +205,7 @@ fn counted(
             .with_label(count.place(), "the number of lists"),
         );
     }
-    // P-STUP-00015: the control tries to open what is missing, and does not start.
+    // P-STUP-00015: the control tries to open the missing list and does not start.
     if let Some(count) = count
         && let Some(hole) = (0..count.value).find(|index| !files.contains_key(index))
     {
@@ -239,7 +239,7 @@ pub struct ChannelList {
     axes: BTreeMap<u32, ChannelAxis>,
     /// The spindles by their indices.
     spindles: BTreeMap<u32, ChannelAxis>,
-    /// `gruppe[0].achs_anzahl`, P-CHAN-00003: how many axes there are.
+    /// `gruppe[0].achs_anzahl`, P-CHAN-00003: the number of axes.
     count: Option<u32>,
     /// The programs and macros that it names.
     pub programs: ChannelPrograms,
@@ -248,7 +248,7 @@ pub struct ChannelList {
 }
 
 impl ChannelList {
-    /// Gathers the axes of the first group and the spindles.
+    /// Collects the axes of the first group and the spindles.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut channel = Self {
             programs: ChannelPrograms::from_entries(list),
@@ -284,7 +284,7 @@ impl ChannelList {
         channel
     }
 
-    /// Lets the values of another list replace those that are here.
+    /// Replaces values by those of another list.
     pub fn override_with(&mut self, other: Self) {
         for (mine, others) in [
             (&mut self.axes, other.axes),
@@ -301,8 +301,8 @@ impl ChannelList {
         self.motion.override_with(other.motion);
     }
 
-    /// The axes in the order of their indices, as many as the group has. An axis with the number 0
-    /// is a place that nothing fills.
+    /// Returns the axes in the order of their indices, as many as the group has. An axis with the
+    /// number 0 is an empty slot.
     pub fn axes(&self) -> impl Iterator<Item = &ChannelAxis> {
         let count = self.count.unwrap_or(u32::MAX);
         let axes = self.axes.range(..count).map(|(_, axis)| axis);
@@ -319,21 +319,21 @@ impl ChannelList {
         self.motion.settings(spindles)
     }
 
-    /// The spindles in the order of their indices.
+    /// Returns the spindles in the order of their indices.
     pub fn spindles(&self) -> impl Iterator<Item = &ChannelAxis> {
         self.spindles.values().filter(|axis| axis.is_there())
     }
 }
 
 impl ChannelAxis {
-    /// Whether it is one: number 0 is none.
+    /// Whether it is an axis: number 0 is an empty slot.
     fn is_there(&self) -> bool {
         self.number.as_ref().is_none_or(|number| number.value != 0)
     }
 }
 
-/// The name of an axis, one word. What follows it without `(` is no comment to the control; here it
-/// is taken as one and said.
+/// Returns the name of an axis, one word. Text after it without `(` is not a comment to the
+/// control; here it is treated as one and reported.
 fn axis_name(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<String>> {
     let given = text(entry)?;
     let word = given.value.split_whitespace().next().unwrap_or_default();

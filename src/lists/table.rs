@@ -1,8 +1,8 @@
-//! A friction value list that the control takes.
+//! A friction value list that the control accepts.
 
 use serde::{Deserialize, Serialize};
 
-/// The table size that P-COMP-00062 has when no list, or the value 0, is given.
+/// The table size without P-COMP-00062, or with the value 0.
 pub const DEFAULT_MAX_POINTS: u32 = 20;
 
 /// One point of the friction table.

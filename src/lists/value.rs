@@ -1,4 +1,4 @@
-//! Values as they are written, with their places.
+//! Values as written, with their places.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,19 +6,19 @@ use std::sync::Arc;
 use crate::diagnostic::Fix;
 use crate::text::{Place, SourceFile, Span};
 
-/// A number as a list or `frictcomp.toml` writes it.
+/// A number as written in a list or `frictcomp.toml`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Number {
-    /// Without point and exponent, decimal or hexadecimal.
+    /// Without decimal point and exponent, decimal or hexadecimal.
     Integer(i64),
-    /// With point or exponent; always finite.
+    /// With decimal point or exponent; always finite.
     Real(f64),
 }
 
 impl Number {
-    /// Reads a number of the forms of R3.4. `None` for anything else and for numbers that no type
-    /// of the control can hold.
+    /// Reads a number in the forms of R3.4. Returns `None` for anything else and for numbers that
+    /// no type of the control can hold.
     pub fn parse(text: &str) -> Option<Self> {
         let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
         if let Some(hex) = digits
@@ -47,7 +47,7 @@ impl Number {
             .map(Self::Real)
     }
 
-    /// The number as a real one.
+    /// Returns the number as a real number.
     pub fn to_f64(self) -> f64 {
         match self {
             Self::Real(value) => value,
@@ -69,13 +69,13 @@ impl fmt::Display for Number {
     }
 }
 
-/// A value in the place of a number.
+/// A value where a number is expected.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Written {
-    /// The word as it stands there.
+    /// The word as written.
     pub text: String,
-    /// The number that it is, if it is one.
+    /// Its number, if it is one.
     pub number: Option<Number>,
 }
 
@@ -89,7 +89,7 @@ impl Written {
     }
 }
 
-/// A value together with the place that gave it.
+/// A value together with its place of origin.
 #[derive(Debug, Clone)]
 pub struct Given<T> {
     /// The value.
@@ -99,7 +99,7 @@ pub struct Given<T> {
 }
 
 impl<T> Given<T> {
-    /// A value that stands at `span` of `source`.
+    /// Creates a value found at `span` of `source`.
     pub fn new(value: T, source: &Arc<SourceFile>, span: Span) -> Self {
         Self {
             value,
@@ -108,7 +108,7 @@ impl<T> Given<T> {
         }
     }
 
-    /// Another value from the same place.
+    /// Returns another value from the same place.
     pub fn with<U>(&self, value: U) -> Given<U> {
         Given::new(value, &self.source, self.span)
     }
@@ -123,19 +123,19 @@ impl<T> Given<T> {
         self.span
     }
 
-    /// The name of the file that gave it.
+    /// Returns the name of its file.
     pub fn file(&self) -> &str {
         self.source.name()
     }
 
-    /// The line that gave it, from 1.
+    /// Returns its line, from 1.
     pub fn line(&self) -> u32 {
         self.source.lines().line(self.span.start)
     }
 }
 
 impl Given<bool> {
-    /// The change of the file that makes it true.
+    /// Returns the change to the file that sets it to true.
     pub(crate) fn made_true(&self) -> Fix {
         let place = self.place();
         let word = match place.span.of(&place.text) {

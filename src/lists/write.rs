@@ -30,7 +30,7 @@ impl Points {
         }
     }
 
-    /// The points as they are written. Velocities that fall together are one point (R3.20).
+    /// Returns the points as written. Velocities that round to the same value become one point (R3.20).
     pub fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
         if self == Self::Real {
             let written = |point: &TablePoint| TablePoint {
@@ -50,7 +50,7 @@ impl Points {
         whole
     }
 
-    /// An output in drive units; never a negative zero.
+    /// Formats an output in drive units; never a negative zero.
     fn output(self, output: f64) -> String {
         match self {
             Self::Whole => format!("{:.0}", output + 0.0),
@@ -63,16 +63,16 @@ impl Points {
 /// Comment above the values of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListHead<'a> {
-    /// Remarks of a line each.
+    /// Remarks, one line each.
     pub remarks: &'a [&'a str],
     /// The logical number of the axis, P-COMP-00001 (`kopf.achs_nr`).
     pub number: Option<u32>,
-    /// Its name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is no plain word.
+    /// Its name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is not a plain word.
     pub name: Option<&'a str>,
 }
 
-/// A value list as the control reads it, switched on, below its head. Reading it back gives the
-/// same list, but for the decimals of its points.
+/// Writes a value list as the control reads it, switched on, below its head. Reading it back gives the same list,
+/// except for the decimals of its points.
 ///
 /// ```
 /// use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};

@@ -1,5 +1,5 @@
-//! From all that the lists and `frictcomp.toml` say about one axis to the axis, with the checks
-//! that need the axis list and the value list side by side (R3.14, R3.27, R3.30).
+//! Assembles one axis from the lists and `frictcomp.toml`, with the checks that need both the axis
+//! list and the value list (R3.14, R3.27, R3.30).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use crate::lists::{
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisReport {
-    /// The name in NC programs; empty when a list is looked at by itself and names no axis.
+    /// The name in NC programs; empty if a list is checked by itself and names no axis.
     pub axis: String,
     /// The type of the axis.
     pub axis_type: AxisType,
@@ -28,7 +28,7 @@ pub struct AxisReport {
     /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     #[serde(skip)]
     pub drive: BTreeMap<String, Entry>,
-    /// P-AXIS-00522, where a list gives it.
+    /// P-AXIS-00522, if a list gives it.
     #[serde(skip)]
     pub selector: Option<Given<bool>>,
     /// Whether an axis list of the control describes the axis.
@@ -71,11 +71,11 @@ pub(super) struct AxisDraft {
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
     pub(super) dynamics: ConfiguredDynamics,
-    /// Whether compensation is assumed, as by [`Axis::enable`].
+    /// Whether compensation is assumed, see [`Axis::enable`].
     pub(super) enabled: bool,
-    /// Whether an axis list of the control describes the axis.
+    /// Whether the axis has an axis list of the control.
     pub(super) is_listed: bool,
-    /// The list of defaults for all axes.
+    /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
 }
 
@@ -95,7 +95,7 @@ impl AxisDraft {
         }
     }
 
-    /// Lets another axis list override what is here.
+    /// Overrides values by those of another axis list.
     pub(super) fn add_list(&mut self, list: AxisValues) {
         self.is_listed = true;
         if list.number.is_some() {
@@ -104,7 +104,7 @@ impl AxisDraft {
         self.values.override_with(list);
     }
 
-    /// Takes the number that the channel list gives; it holds where no axis list has one.
+    /// Sets the number that the channel list gives; it applies if no axis list has one.
     pub(super) fn set_channel_number(&mut self, number: Option<Given<u32>>) {
         if self.number_in_list.is_none() {
             self.number_in_list.clone_from(&number);
@@ -113,12 +113,12 @@ impl AxisDraft {
         self.channel_number = number;
     }
 
-    /// The axis number that the axis lists give.
+    /// Returns the axis number that the axis lists give.
     pub(super) fn list_number(&self) -> Option<u32> {
         self.number_in_list.as_ref().map(|number| number.value)
     }
 
-    /// The axis, and what its parameters are worth.
+    /// Returns the axis and the effective values of its parameters.
     pub(super) fn finish(
         self,
         conditions: &Conditions,
@@ -214,7 +214,7 @@ impl AxisDraft {
         (axis, report)
     }
 
-    /// The kinds that the axis list leaves at their default, which is not selected (R1.41).
+    /// Returns the kinds that the axis list leaves at their default, not selected (R1.41).
     fn unselected(&self) -> KindSet {
         if !self.is_listed {
             return KindSet::NONE;
@@ -225,7 +225,7 @@ impl AxisDraft {
         known.without(on.collect())
     }
 
-    /// FC124 for kinds that are required where nothing says whether they are configured (R1.36).
+    /// Returns FC124 for required kinds that may or may not be configured (R1.36).
     fn check_monitor(&self, axis: &Axis) -> Option<Diagnostic> {
         let required = self.values.required.as_ref()?;
         let known = axis.configured.union(axis.unselected);
@@ -264,8 +264,8 @@ impl AxisDraft {
         }
     }
 
-    /// R3.14: all lists give the axis one number. `Some` when the value list has another one, for
-    /// then it is not taken.
+    /// R3.14: all lists give the axis the same number. `Some` if the value list has another one; it
+    /// is then rejected.
     fn check_numbers(&self, diagnostics: &mut Vec<Diagnostic>) -> Option<Code> {
         let code = Code::PErr110229;
         let differ = |list: &Given<u32>, other: &Given<u32>| {
@@ -295,7 +295,7 @@ impl AxisDraft {
         Some(code)
     }
 
-    /// R3.27 and R3.30: whether the axis list and the value list want the same.
+    /// R3.27 and R3.30: the axis list and the value list must agree.
     fn check_selection(&self, axis: &Axis) -> Option<Diagnostic> {
         let anchor = self.value_list.friction.anchor();
         let selector = self.values.frict_comp();
@@ -342,7 +342,7 @@ impl AxisDraft {
     }
 }
 
-/// FC138: a spindle whose lists want friction compensation.
+/// Returns FC138 for a spindle whose lists select friction compensation.
 pub(super) fn on_spindle(
     name: &str,
     values: Option<&Given<()>>,

@@ -8,14 +8,14 @@ use crate::drive_interface::TorqueScale;
 use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, ListedDynamics, Origin};
 use crate::text::Place;
 
-/// Whether an axis has a friction value list that the control would take.
+/// Whether an axis has a friction value list that the control would accept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Parameterisation {
     /// No value list belongs to the axis.
     #[default]
     Missing,
-    /// The list says mode 0, off.
+    /// The list has mode 0, off.
     Off,
     /// The list was read and rejected with this code.
     Rejected {
@@ -42,39 +42,37 @@ pub struct Axis {
     pub axis_type: AxisType,
     /// The kinds whose selector in the axis list is set; FRICT is P-AXIS-00522.
     pub configured: KindSet,
-    /// The kinds that the axis list of the control is known not to select (R1.41); none where no
-    /// such list describes the axis.
+    /// The kinds that the axis list of the control is known not to select (R1.41); empty if the axis has no such list.
     pub unselected: KindSet,
     /// Origin of P-AXIS-00522.
     pub frict_comp_origin: Origin,
-    /// The change of the list of the axis that sets P-AXIS-00522, where it has one and it is not set.
+    /// The change to the axis list that sets P-AXIS-00522, if there is a list that does not set it.
     pub configuring: Option<Fix>,
-    /// The kinds that only the program activates and that fall off at program end (R1.40).
+    /// The kinds that only the program activates and that switch off at program end (R1.40).
     pub manual: KindSet,
-    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36). The control
-    /// monitors those of them that are configured.
+    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36). The control monitors the configured
+    /// ones.
     pub required: KindSet,
     /// The friction value list.
     pub friction: Parameterisation,
     /// The table size that was reserved at start-up, P-COMP-00062.
     pub max_points: u32,
-    /// Place of that size, or else of the value list; `None` without a value list.
+    /// Place of that size, else of the value list; `None` without a value list.
     pub max_points_place: Option<Place>,
-    /// The maximum velocity in mm/min or °/min, where known.
+    /// The maximum velocity in mm/min or °/min, if known.
     pub max_velocity_per_min: Option<f64>,
-    /// The maximum acceleration in m/s² or °/s², where known.
+    /// The maximum acceleration in m/s² or °/s², if known.
     pub max_acceleration_per_s2: Option<f64>,
-    /// The maximum jerk in m/s³ or °/s³, where known.
+    /// The maximum jerk in m/s³ or °/s³, if known.
     pub max_jerk_per_s3: Option<f64>,
-    /// Velocity, acceleration and ramp times as the axis list gives them; what stands in
-    /// `frictcomp.toml` goes before them.
+    /// Velocity, acceleration and ramp times from the axis list; values in `frictcomp.toml` take precedence.
     pub listed: ListedDynamics,
-    /// By what the torque to the drive is multiplied, P-AXIS-00325 and P-AXIS-00326.
+    /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
     pub torque_scale: TorqueScale,
 }
 
 impl Axis {
-    /// An axis with the documented defaults: P-AXIS-00522 is 0, no value list.
+    /// Creates an axis with the documented defaults: P-AXIS-00522 is 0, no value list.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -97,13 +95,13 @@ impl Axis {
         }
     }
 
-    /// The kinds without which the control refuses a motion of the axis (R1.36).
+    /// Returns the kinds without which the control refuses a motion of the axis (R1.36).
     pub fn monitored(&self) -> KindSet {
         self.required.intersection(self.configured)
     }
 
-    /// The kinds that have what they need to work. Only the friction value list is read; the
-    /// other kinds count as parameterised.
+    /// Returns the kinds that have all they need to work. Only the friction value list is read; the other kinds count
+    /// as parameterised.
     pub fn parameterised(&self) -> KindSet {
         let mut kinds = KindSet::ALL;
         if !matches!(
@@ -143,7 +141,7 @@ impl Axis {
         self.axis_type == AxisType::Spindle
     }
 
-    /// Assumes P-AXIS-00522 = 1 and an accepted value list. A list that was accepted stays.
+    /// Assumes P-AXIS-00522 = 1 and an accepted value list. A list that was actually accepted is kept.
     pub fn enable(&mut self) {
         if !self.configured.contains(Kind::Frict) {
             self.configured.insert(Kind::Frict);

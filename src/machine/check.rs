@@ -1,4 +1,4 @@
-//! One list judged by itself, or a start-up list with all that it names.
+//! Checks one list by itself, or a start-up list with all lists that it names.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,15 +23,15 @@ use crate::text::{SourceFile, Span};
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ListsReport {
-    /// The kind of the list, by its keys; `None` when they belong to no kind that is read.
+    /// The kind of the list, by its keys; `None` if they belong to no kind that is read.
     pub kind: Option<ListKind>,
     /// Messages of the checks, with their own severities.
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters of each axis that the list describes.
     pub reports: Vec<AxisReport>,
-    /// The programs and macros of the channel, what holds for motion in it, and where that stands.
+    /// The programs and macros of the channel and its settings of motion, each with its place.
     pub programs: Vec<Parameter>,
-    /// The value lists that the control would take.
+    /// The value lists that the control would accept.
     pub accepted: Vec<AcceptedList>,
     /// The lists that were read, in the order of reading.
     pub files: Vec<Arc<str>>,
@@ -39,11 +39,11 @@ pub struct ListsReport {
     pub missing: usize,
 }
 
-/// A value list that the control would take, and the axis that it is for.
+/// A value list that the control would accept, and its axis.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AcceptedList {
-    /// The name of the axis; empty when a list is looked at by itself and names none.
+    /// The name of the axis; empty if a list is checked by itself and names none.
     pub axis: String,
     /// The type of the axis, for the unit of the velocities.
     pub axis_type: AxisType,
@@ -52,7 +52,7 @@ pub struct AcceptedList {
 }
 
 impl AcceptedList {
-    /// The value lists of a machine, in the order of its axes.
+    /// Returns the value lists of a machine, in the order of its axes.
     pub fn of(machine: &Machine) -> Vec<Self> {
         let lists = machine.axes.iter().filter_map(|axis| match &axis.friction {
             Parameterisation::Accepted(list) => Some(Self {
@@ -66,9 +66,8 @@ impl AcceptedList {
     }
 }
 
-/// Checks one list of any kind, under a kernel version where that is known. A start-up list is
-/// checked with every list that it names; any other list by itself, so nothing is reported about what
-/// stands in its neighbours.
+/// Checks one list of any kind, for a kernel version if that is known. A start-up list is checked with every list that
+/// it names; any other list by itself, so nothing is reported about related lists.
 pub fn check_list(
     file: SourceFile,
     build: Option<CncBuild>,
@@ -135,7 +134,7 @@ pub fn check_list(
                     list,
                 });
             }
-            // A value list has no selectors; their defaults would say nothing.
+            // A value list has no selectors; their defaults would be meaningless.
             report.parameters = list.head.parameters();
             report
                 .parameters
@@ -200,7 +199,7 @@ pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> Lists
     }
 }
 
-/// The report of a list by itself, without parameters.
+/// Returns the report of a list by itself, without parameters.
 fn head(values: &AxisValues) -> AxisReport {
     AxisReport {
         axis: values
@@ -219,8 +218,7 @@ fn head(values: &AxisValues) -> AxisReport {
 }
 
 impl Configuration {
-    /// Says which axes have friction compensation and no drive that takes it (R3.41), under the
-    /// user's severities.
+    /// Reports axes with friction compensation but without a drive that takes it (R3.41), with the user's severities.
     fn check_drives(&mut self) {
         for report in &self.reports {
             let said = without_torque(report).map(|mut said| (self.levels.weigh(&mut said), said));
@@ -230,15 +228,15 @@ impl Configuration {
     }
 }
 
-/// FC503 for an axis with P-AXIS-00522 and a simulated or virtual drive, which takes no additive
-/// torque. Without `kenngr.antr_typ` the drive is a simulation (R3.41).
+/// Returns FC503 for an axis with P-AXIS-00522 and a simulated or virtual drive, which takes no additive torque.
+/// Without `kenngr.antr_typ` the drive is a simulation (R3.41).
 fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
     let selector = report.selector.as_ref().filter(|given| given.value)?;
     if report.axis_type == AxisType::Spindle {
         return None;
     }
     let settings = DriveSettings::from_entries(&report.drive, &mut Vec::new());
-    // Entries of telegrams are those of a drive, whose type TwinCAT fills in (R7.5).
+    // Telegram entries imply a drive, whose type TwinCAT fills in (R7.5).
     let mut keys = report.drive.keys();
     let is_given = keys.any(|key| key == "kenngr.antr_typ" || key.starts_with("antr."));
     let (place, message) = match &settings.drive_type {
@@ -259,7 +257,7 @@ fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
     };
     let mut said = Diagnostic::new(Code::Fc503, place, message)
         .with_help("set `kenngr.antr_typ` to `2` for SERCOS or `8` for CANopen");
-    // That the default holds is not sure: TwinCAT fills in what belongs to a drive (R7.5).
+    // The default may not apply: TwinCAT fills in the entries of a drive (R7.5).
     if !is_given {
         said.severity = Severity::Warning;
     }

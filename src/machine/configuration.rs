@@ -1,4 +1,4 @@
-//! A machine and what else its configuration says.
+//! A machine and the other contents of its configuration.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::diagnostic::{Code, Diagnostic, Levels};
 use crate::lists::{Conditions, Entries, ListKind, Parameter};
 use crate::text::{SourceFile, Span};
 
-/// A machine and everything else that its configuration says.
+/// A machine and the other contents of its configuration.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct Configuration {
@@ -21,28 +21,28 @@ pub struct Configuration {
     pub machine: Machine,
     /// The values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
-    /// The user's severities; those of `diagnostics` follow them already.
+    /// The user's severities, already applied to `diagnostics`.
     pub levels: Levels,
     /// The extensions of files that are programs, in lower case; empty for the usual ones.
     pub extensions: Vec<String>,
-    /// The folders in which called programs are looked for, as written.
+    /// The folders that are searched for called programs, as written.
     pub program_dirs: Vec<String>,
     /// Messages on the lists.
     pub diagnostics: Vec<Diagnostic>,
-    /// The lists that were read, as they are named in diagnostics, in the order of reading.
+    /// The lists that were read, named as in diagnostics, in the order of reading.
     pub files: Vec<Arc<str>>,
     /// Number of named lists that do not exist.
     pub missing: usize,
     /// The effective parameters of each axis, in the order of [`Machine::axes`], then those of the
     /// slaves of static gantries.
     pub reports: Vec<AxisReport>,
-    /// The programs and macros that the configuration names, and what the channel list says about
-    /// motion; and where.
+    /// The programs and macros that the configuration names and the channel list's settings of
+    /// motion, each with its place.
     pub programs: Vec<Parameter>,
 }
 
 impl Configuration {
-    /// The machine that a start-up list describes, with every list that it names.
+    /// Reads the machine that a start-up list describes, with every list that it names.
     pub fn from_startup(file: SourceFile, files: &mut dyn ListFiles) -> Self {
         let mut configuration = Self::default();
         configuration.read_startup(&Arc::new(file), files);
@@ -62,8 +62,8 @@ impl Configuration {
         self.assemble(axes, loader);
     }
 
-    /// Puts the axes together under the machine's build and takes over what the lists gave reason
-    /// to say, with the user's severities.
+    /// Assembles the axes for the machine's build and takes over the messages about the lists, with
+    /// the user's severities.
     pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, mut loader: Loader<'_>) {
         loader.merge_missing();
         self.diagnostics.extend(loader.diagnostics);
@@ -104,7 +104,7 @@ impl Configuration {
 }
 
 impl Configuration {
-    /// Takes the slave of a static gantry: it is no axis of a program (R1.43).
+    /// Adds the slave of a static gantry, which is not an axis for programs (R1.43).
     fn add_slave(&mut self, draft: AxisDraft, conditions: &Conditions) {
         let link = draft.values.gantry_master.clone();
         let (slave, report) = draft.finish(conditions, &mut self.diagnostics);
@@ -123,7 +123,7 @@ impl Configuration {
     }
 }
 
-/// FC125 for a file that is given as a start-up list and names nothing.
+/// Returns FC125 for a file that is given as a start-up list but names no lists.
 fn not_startup(entries: &Entries) -> Diagnostic {
     let source = entries.source();
     let what = describe(entries);

@@ -1,4 +1,4 @@
-//! Recognition of a file that is named in place of a list.
+//! Recognition of a file that is given in place of a list.
 
 use crate::lists::{Entries, Entry, ListKind};
 
@@ -36,7 +36,7 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
     }
 }
 
-/// Lists of the control that say nothing about compensation, by the beginnings of their keys.
+/// Lists of the control that do not concern compensation, by the beginnings of their keys.
 const OTHERS: [(&str, &str); 17] = [
     ("wz[", "a tool list"),
     ("np_grp[", "a zero offset list"),
@@ -57,19 +57,19 @@ const OTHERS: [(&str, &str); 17] = [
     ("kin_step[", "a kinematics list"),
 ];
 
-/// Whether a list belongs to the control and says nothing about compensation.
+/// Whether a list belongs to the control and does not concern compensation.
 pub(super) fn is_no_matter(entries: &Entries) -> bool {
     let other = |entry: &Entry| OTHERS.iter().any(|(key, _)| entry.pattern.starts_with(key));
     entries.entries.iter().any(other)
 }
 
-/// Whether a list is closed with `Ende` and has comments at most before it, as a template has.
+/// Whether a list contains nothing before its `Ende` except comments, like a template.
 pub(super) fn has_nothing(entries: &Entries) -> bool {
     let is_plain = entries.diagnostics.is_empty() && entries.entries.is_empty();
     is_plain && !entries.source().text().trim().is_empty()
 }
 
-/// Whether a line begins as NC programs do: a name, a comment, a letter with its number.
+/// Whether a line begins like an NC program: with a name, a comment or a letter with its number.
 fn is_block(line: &str) -> bool {
     let word = line.split([' ', '\t', '[']).next().unwrap_or_default();
     let mut letters = word.chars();

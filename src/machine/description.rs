@@ -1,4 +1,4 @@
-//! A machine as far as NC programs see it.
+//! A machine as NC programs see it.
 
 use super::axis::Axis;
 use super::harmless::HarmlessWords;
@@ -13,14 +13,14 @@ use crate::syntax::SkipLevels;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum AxisSet {
-    /// The configuration lists them; any other name is P-ERR-21947.
+    /// The configuration lists them; any other name raises P-ERR-21947.
     #[default]
     Configured,
-    /// Nothing is configured: X Y Z A B C U V W are taken as they occur (R2.20).
+    /// Nothing is configured: X Y Z A B C U V W are added as they occur (R2.20).
     AsTheyOccur,
 }
 
-/// A machine as far as NC programs see it.
+/// A machine as NC programs see it.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Machine {
@@ -28,25 +28,24 @@ pub struct Machine {
     pub axes: Vec<Axis>,
     /// Whether the configuration lists the axes.
     pub axis_set: AxisSet,
-    /// Whether start-up lists of the control name the axes, and all of them were read: a word of any
-    /// other axis is then said (R2.94).
+    /// Whether start-up lists of the control name the axes, and all of them were read: a word of any other axis is then
+    /// reported (R2.94).
     pub axes_are_listed: bool,
-    /// The change of the configuration that adds an axis, where it lists the axes and no list of the
-    /// control does.
+    /// The change to the configuration that adds an axis, if it lists the axes and no list of the control does.
     pub one_more_axis: Option<NamedFix>,
-    /// The slaves of static gantries, which no program knows (R1.43).
+    /// The slaves of static gantries, which programs cannot use (R1.43).
     pub gantry_slaves: Vec<GantrySlave>,
     /// The CNC cycle in milliseconds.
     pub cycle_time_ms: Option<f64>,
-    /// The kernel version, where the user gave it.
+    /// The kernel version, if the user gave it.
     pub build: Option<CncBuild>,
     /// Programs that run by themselves or are called by a word.
     pub programs: ConfiguredPrograms,
-    /// Commands of the user's own machine that change nothing that frictcomp follows.
+    /// Commands of the user's own machine that change nothing that frictcomp tracks.
     pub harmless: HarmlessWords,
     /// Effect of a program start on P parameters.
     pub parameters: Parameters,
-    /// The skip levels that are on, where the configuration says so (R2.90).
+    /// The skip levels that are on, if the configuration gives them (R2.90).
     pub skip: Option<SkipLevels>,
     /// The variables of the machine that keep their values while a program runs (R14.1).
     pub stable: Vec<String>,
@@ -60,9 +59,9 @@ pub struct Machine {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GantrySlave {
-    /// Its name, where its list gives one.
+    /// Its name, if its list gives one.
     pub name: String,
-    /// The name of its master; `None` where no list describes it.
+    /// The name of its master; `None` if no list describes the master.
     pub master: Option<String>,
 }
 
@@ -73,13 +72,13 @@ pub enum Parameters {
     /// They are cleared.
     #[default]
     Cleared,
-    /// They keep what an earlier program wrote.
+    /// They keep the values that an earlier program wrote.
     Kept,
 }
 
 impl Machine {
-    /// The machine without any configuration: X Y Z A B C U V W with the documented defaults,
-    /// taken as they occur (R2.20).
+    /// Returns the machine without any configuration: X Y Z A B C U V W with the documented defaults, added as they
+    /// occur (R2.20).
     pub fn unconfigured() -> Self {
         Self {
             axes: ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"]
@@ -91,7 +90,7 @@ impl Machine {
         }
     }
 
-    /// The unconfigured machine with friction compensation assumed on some axes.
+    /// Returns the unconfigured machine with friction compensation assumed on some axes.
     pub fn enabled<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let mut machine = Self::unconfigured();
         for name in names {
@@ -116,14 +115,14 @@ impl Machine {
         admitted
     }
 
-    /// Whether a configuration, a list or an assumption says anything about friction compensation.
-    /// Without, every axis has the documented default (R1.37).
+    /// Whether a configuration, a list or an assumption describes friction compensation. Otherwise every axis has the
+    /// documented default (R1.37).
     pub fn is_described(&self) -> bool {
         let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;
         self.axis_set == AxisSet::Configured || self.axes.iter().any(given)
     }
 
-    /// The state of all compensations after a start of the control.
+    /// Returns the state of all compensations after a start of the control.
     pub fn compensation(&self) -> Compensation {
         let mut compensation = Compensation::at_startup(self.axis_setups());
         if self.readings.takes_second(Question::ManualActivation) {
@@ -134,7 +133,7 @@ impl Machine {
         compensation
     }
 
-    /// The axes as the compensation sees them.
+    /// Returns the properties of the axes that matter to compensation.
     pub(crate) fn axis_setups(&self) -> impl Iterator<Item = AxisSetup> {
         self.axes.iter().map(|axis| {
             let mut setup = AxisSetup::new(&axis.name, axis.configured);
@@ -146,7 +145,7 @@ impl Machine {
         })
     }
 
-    /// The position of an axis by its name.
+    /// Returns the position of an axis by its name.
     pub fn find(&self, name: &str) -> Option<AxisIndex> {
         self.axes
             .iter()
@@ -154,7 +153,7 @@ impl Machine {
             .map(AxisIndex::new)
     }
 
-    /// An axis by its position.
+    /// Returns an axis by its position.
     pub fn axis(&self, index: AxisIndex) -> &Axis {
         &self.axes[index.get()]
     }

@@ -1,41 +1,41 @@
 //! The list files of the host, and their paths (R3.12).
 //!
-//! The control resolves relative paths from its own working folder, which lies somewhere above the
-//! start-up list, and Windows paths on its own disk. The library opens no file: it says which paths
-//! are to be tried, the host which of them there is.
+//! The control resolves relative paths from its own working folder, which is somewhere above the
+//! start-up list, and Windows paths on its own disk. The library opens no files: it gives the paths
+//! to try, and the host determines which of them exists.
 
 use crate::text::SourceFile;
 
-/// Why there is no list at a path.
+/// The reason for which a path has no list.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoList {
-    /// Nothing is there.
+    /// Nothing exists there.
     #[error("it is not found")]
     Missing,
-    /// Something is there that cannot be read; the reason.
+    /// Something exists there that cannot be read; the reason.
     #[error("{0}")]
     Unreadable(String),
 }
 
-/// Hands list files to the library, which opens none itself.
+/// Provides list files to the library, which opens none itself.
 pub trait ListFiles {
-    /// The list at a path. A relative path has been resolved against the folder of the list that
-    /// asks, as far as that list's own name has one. The name of the source is what diagnostics
-    /// show, and what further paths are resolved against.
+    /// Reads the list at a path. A relative path has been resolved against the folder in the name
+    /// of the referring list, if that name has one. Diagnostics show the name of the source, and
+    /// further paths are resolved against it.
     ///
     /// # Errors
     /// It does not exist or cannot be read.
     fn read(&mut self, path: &str) -> Result<SourceFile, NoList>;
 
-    /// The folder above a folder; both are empty for the folder in which relative paths begin.
-    /// `None` when there is none, or the host knows none.
+    /// Returns the folder above a folder; an empty text means the folder in which relative paths
+    /// begin. `None` if there is none, or the host does not know it.
     fn above(&self, folder: &str) -> Option<String> {
         parent(folder).map(str::to_owned)
     }
 }
 
-/// A host that has no list files.
+/// A host without list files.
 pub struct NoLists;
 
 impl ListFiles for NoLists {
@@ -44,7 +44,7 @@ impl ListFiles for NoLists {
     }
 }
 
-/// The folder of a path as it is written, without its separator; empty for a bare name.
+/// Returns the folder of a path as written, without its separator; empty for a bare name.
 pub(super) fn folder(path: &str) -> &str {
     match path.rfind(['/', '\\']) {
         Some(0) => "/",
@@ -53,7 +53,7 @@ pub(super) fn folder(path: &str) -> &str {
     }
 }
 
-/// The folder above, as far as the path itself says.
+/// Returns the folder above if the path itself contains it.
 fn parent(path: &str) -> Option<&str> {
     let named = !matches!(path, "" | "." | "/") && !path.ends_with("..");
     named.then(|| folder(path))
@@ -63,7 +63,7 @@ pub(super) fn is_absolute(path: &str) -> bool {
     path.starts_with(['/', '\\']) || path.get(1..2) == Some(":")
 }
 
-/// A path seen from a folder, with `/` between its parts and without `.` among them.
+/// Returns a path relative to a folder, with `/` between its parts and without `.` parts.
 pub(super) fn join(folder: &str, path: &str) -> String {
     let slashed = path.replace('\\', "/");
     if is_absolute(path) {

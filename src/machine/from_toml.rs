@@ -1,4 +1,4 @@
-//! The machine that a `frictcomp.toml` describes, by itself or over the control's lists.
+//! The machine that a `frictcomp.toml` describes, by itself or on top of the control's lists.
 
 use std::sync::Arc;
 
@@ -15,11 +15,11 @@ use crate::lists::{AxisValues, Given, ListKind, Parameter};
 use crate::text::SourceFile;
 
 impl Configuration {
-    /// The machine that a `frictcomp.toml` describes, with every list that it names. What the file
-    /// itself says overrides the lists.
+    /// Reads the machine that a `frictcomp.toml` describes, with every list that it names. The
+    /// file's own values override the lists.
     ///
     /// # Errors
-    /// The file is no TOML, or has a key or a value that does not exist.
+    /// The file is not TOML, or has an unknown key or value.
     pub fn from_toml(file: SourceFile, files: &mut dyn ListFiles) -> Result<Self, ConfigError> {
         let file = ConfigFile::parse(&Arc::new(file))?;
         let mut configuration = Self {
@@ -81,7 +81,8 @@ impl Configuration {
         Ok(())
     }
 
-    /// The programs that run by themselves, are called by words, or are on the machine only.
+    /// Takes the programs that run by themselves, are called by words, or exist only on the
+    /// machine.
     fn take_programs(&mut self, table: MachineTable) {
         let mut named = |number, key: String, given: Given<String>| {
             self.programs.push(Parameter {
@@ -119,7 +120,7 @@ fn setting((name, value): (String, ConfiguredVariable)) -> (String, Setting) {
 }
 
 impl AxisDraft {
-    /// Lets the values of the user's table replace those of the lists.
+    /// Replaces values of the lists by those of the user's table.
     fn take_table(&mut self, table: AxisTable, loader: &mut Loader<'_>) {
         let list = table.axis_list.as_ref();
         if let Some(values) = list.and_then(|asked| loader.axis_list(asked)) {
@@ -144,7 +145,7 @@ impl AxisDraft {
 }
 
 impl Machine {
-    /// The machine that the text of a `frictcomp.toml` describes by itself, without lists.
+    /// Reads the machine that the text of a `frictcomp.toml` describes by itself, without lists.
     ///
     /// ```
     /// use frictcomp::comp::Kind;
@@ -156,7 +157,7 @@ impl Machine {
     /// ```
     ///
     /// # Errors
-    /// The text is no TOML, or has a key or a value that does not exist.
+    /// The text is not TOML, or has an unknown key or value.
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         let file = SourceFile::new("frictcomp.toml", text);
         Ok(Configuration::from_toml(file, &mut NoLists)?.machine)

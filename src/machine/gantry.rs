@@ -1,13 +1,13 @@
 //! Static gantries: axes that follow others in the position controller (R1.43).
 //!
-//! A slave is not known in the channel (TF5200 Gantry operation, 285764875, P-AXIS-00070).
+//! The channel does not know the slave (TF5200 Gantry operation, 285764875, P-AXIS-00070).
 
 use super::axis::{Axis, Parameterisation};
 use crate::comp::Kind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{FrictionList, Given};
 
-/// FC140 where the friction compensation of a slave differs from that of its master. `link` is
+/// Returns FC140 if the friction compensation of a slave differs from that of its master. `link` is
 /// P-AXIS-00070 of the slave.
 pub(super) fn compare(master: &Axis, slave: &Axis, link: &Given<u32>) -> Option<Diagnostic> {
     let difference = difference(master, slave)?;
@@ -23,7 +23,7 @@ pub(super) fn compare(master: &Axis, slave: &Axis, link: &Given<u32>) -> Option<
     )
 }
 
-/// The name of a slave, or else its number.
+/// Returns the name of a slave, else its number.
 fn named(slave: &Axis) -> String {
     match slave.number {
         _ if !slave.name.is_empty() => format!("`{}`", slave.name),
@@ -32,7 +32,7 @@ fn named(slave: &Axis) -> String {
     }
 }
 
-/// Returns the difference between two axes, if the friction of either is compensated.
+/// Returns the difference between two axes, if either has friction compensation.
 fn difference(master: &Axis, slave: &Axis) -> Option<String> {
     let is_on = |axis: &Axis| axis.configured.contains(Kind::Frict);
     match (is_on(master), is_on(slave)) {
@@ -58,7 +58,7 @@ fn values(master: &Parameterisation, slave: &Parameterisation) -> Option<String>
     }
 }
 
-/// The keys of the values that differ.
+/// Returns the keys of the values that differ.
 fn differing(one: &FrictionList, other: &FrictionList) -> Vec<&'static str> {
     let checks = [
         ("table", one.table == other.table),

@@ -11,8 +11,8 @@ pub struct HarmlessWords {
     functions: Vec<(u8, i64)>,
 }
 
-/// Whether a G function takes effect in a dry run, so that nothing can be declared about it: those of the
-/// groups, and mirroring (R2.45).
+/// Whether a G function takes effect in a dry run, so that it cannot be declared harmless: those of the groups, and
+/// mirroring (R2.45).
 fn is_followed(number: i64) -> bool {
     matches!(
         number,
@@ -33,7 +33,7 @@ fn is_followed(number: i64) -> bool {
 }
 
 impl HarmlessWords {
-    /// Adds a word; `false` when it is neither a `#` command nor a G or M function.
+    /// Adds a word; `false` if it is neither a `#` command nor a G or M function.
     pub fn add(&mut self, word: &str) -> bool {
         let word = word.trim();
         let is_command = word
@@ -59,8 +59,7 @@ impl HarmlessWords {
         number.is_some()
     }
 
-    /// Whether a text begins with a `#` command that is one of them; one stands for all that
-    /// continue it.
+    /// Whether a text begins with one of these `#` commands; a command includes all longer ones that begin with it.
     pub fn has_command(&self, text: &str) -> bool {
         if self.commands.is_empty() || !text.starts_with('#') {
             return false;
@@ -77,7 +76,7 @@ impl HarmlessWords {
         self.functions.contains(&(letter, number))
     }
 
-    /// All of them as they are written.
+    /// Returns all of them as written.
     pub fn words(&self) -> impl Iterator<Item = String> {
         let functions = self.functions.iter();
         let functions =

@@ -1,4 +1,4 @@
-//! Reads the lists that others name (R3.12).
+//! Reads the lists that other lists name (R3.12).
 
 use std::sync::Arc;
 
@@ -13,21 +13,21 @@ use crate::lists::{
 };
 use crate::text::SourceFile;
 
-/// More folders above a list than there are on any disk.
+/// More nested folders above a list than on any disk.
 const MAX_ABOVE: usize = 64;
 
-/// Reads lists through the host and collects what they give reason to say.
+/// Reads lists through the host and collects the messages about them.
 pub(super) struct Loader<'f> {
     pub(super) files: &'f mut dyn ListFiles,
-    /// The folder of the start-up list, for paths of the control's own disk.
+    /// The folder of the start-up list, for paths on the control's own disk.
     pub(super) startup_folder: Option<String>,
     pub(super) diagnostics: Vec<Diagnostic>,
     pub(super) names: Vec<Arc<str>>,
-    /// Number of requested lists that do not exist.
+    /// Number of named lists that do not exist.
     pub(super) missing: usize,
-    /// Paths at which they were looked for.
+    /// Paths that were searched for them.
     lookups: MissingLists,
-    /// The slaves of static gantries, which no channel knows (R1.43).
+    /// The slaves of static gantries, which belong to no channel (R1.43).
     pub(super) slaves: Vec<AxisDraft>,
     /// Contents of the first channel's list.
     pub(super) channel: Option<FirstChannel>,
@@ -54,7 +54,7 @@ impl<'f> Loader<'f> {
         }
     }
 
-    /// The entries of a list that is here already.
+    /// Parses a list that was read already.
     pub(super) fn entries(&mut self, file: &Arc<SourceFile>) -> Entries {
         if !self.names.contains(file.name()) {
             self.names.push(file.name().clone());
@@ -74,8 +74,8 @@ impl<'f> Loader<'f> {
         Some(ValueList::from_entries(&entries, &mut self.diagnostics))
     }
 
-    /// The entries of a list that another one names; FC123 when there is no such file (R3.14),
-    /// FC125 when it is a list of another kind.
+    /// Reads a list that another one names; reports FC123 if there is no such file (R3.14), FC125
+    /// if it is a list of another kind.
     pub(super) fn load(&mut self, asked: &Given<String>, wanted: ListKind) -> Option<Entries> {
         match self.find(asked) {
             Ok(file) => {
@@ -96,13 +96,14 @@ impl<'f> Loader<'f> {
         }
     }
 
-    /// Says once what is missing of a folder that is not there at all.
+    /// Merges the messages about the lists of a missing folder.
     pub(super) fn merge_missing(&mut self) {
         std::mem::take(&mut self.lookups).merge(&mut self.diagnostics);
     }
 
-    /// The first of the files that a path may mean: from the folder of the list that names it, from
-    /// each folder above, and by its last part beside the start-up list.
+    /// Returns the first existing file that a path may mean: relative to the folder of the list
+    /// that names it, relative to each folder above, and by its last part in the folder of the
+    /// start-up list.
     fn find(&mut self, asked: &Given<String>) -> Result<SourceFile, Box<Diagnostic>> {
         let beside = folder(asked.file());
         let first = join(beside, &asked.value);
@@ -167,7 +168,7 @@ impl<'f> Loader<'f> {
     }
 }
 
-/// FC125 for a list that stands where one of another kind belongs.
+/// Returns FC125 for a list where one of another kind belongs.
 fn mistaken(asked: &Given<String>, wanted: ListKind, entries: &Entries) -> Diagnostic {
     let message = format!(
         "`{}` is {}, not {}",

@@ -1,4 +1,4 @@
-//! Lists that are named and are not there, said once for each folder (R3.12).
+//! Named lists that are missing, reported once for each folder (R3.12).
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -7,10 +7,10 @@ use super::files::{folder, is_absolute, join};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::Given;
 
-/// The folders in which lists were looked for, and what of it was not found.
+/// The folders that were searched for lists, and the lists that were not found.
 #[derive(Debug, Default)]
 pub(super) struct MissingLists {
-    /// Folders with a list that was found: the list that names it, and the folder.
+    /// Folders in which a list was found: the list that names it, and the folder.
     found: BTreeSet<(Arc<str>, String)>,
     lacking: Vec<Lacking>,
 }
@@ -28,12 +28,12 @@ struct Lacking {
 }
 
 impl MissingLists {
-    /// Remembers that a list is there.
+    /// Records that a list exists.
     pub(super) fn find(&mut self, asked: &Given<String>) {
         self.found.insert(whereabouts(asked));
     }
 
-    /// Remembers that a list is not there, which the diagnostic with this number says.
+    /// Records that a list is missing, as reported by the diagnostic with this index.
     pub(super) fn lack(&mut self, asked: &Given<String>, message: usize) {
         let (list, folder) = whereabouts(asked);
         if folder.is_empty() || is_absolute(&asked.value) {
@@ -48,8 +48,8 @@ impl MissingLists {
         });
     }
 
-    /// Makes one message of those about the lists of a folder of which none was found: the control
-    /// finds it from its own working folder, here it does not exist.
+    /// Merges the messages about the lists of a folder if none of them was found: the control finds
+    /// the folder from its own working folder, but it does not exist here.
     pub(super) fn merge(self, diagnostics: &mut Vec<Diagnostic>) {
         let mut surplus = Vec::new();
         let mut rest = self.lacking;
@@ -72,7 +72,7 @@ impl MissingLists {
             );
             first.advice.insert(
                 0,
-                "the control finds it from its own working folder; copy it beside this list".into(),
+                "the control finds it from its working folder; copy it next to this list".into(),
             );
             first
                 .advice
@@ -90,7 +90,7 @@ impl MissingLists {
     }
 }
 
-/// The list that names a path, and the folder of the path.
+/// Returns the list that names a path, and the folder of the path.
 fn whereabouts(asked: &Given<String>) -> (Arc<str>, String) {
     (asked.file().into(), join("", folder(&asked.value)))
 }

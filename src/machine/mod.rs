@@ -1,4 +1,4 @@
-//! The machine: its axes and their parameters, wherever they came from.
+//! The machine: its axes and their parameters, whatever their source.
 
 mod assemble;
 mod axis;

@@ -1,10 +1,10 @@
-//! Knowledge of a machine that is not described (R9.73).
+//! Knowledge about a machine that is not described (R9.73).
 
 use std::collections::BTreeMap;
 
 use crate::syntax::{AxisUse, axis_uses};
 
-/// Knowledge of a machine that is not described.
+/// Knowledge about a machine that is not described.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Outline {
@@ -15,7 +15,7 @@ pub enum Outline {
 }
 
 impl Outline {
-    /// The axes that programs use, executed or not.
+    /// Collects the axes that programs use, executed or not.
     pub fn of_programs(texts: impl IntoIterator<Item = String>) -> Self {
         let mut uses: BTreeMap<String, AxisUse> = BTreeMap::new();
         for (name, how) in texts.into_iter().flat_map(|text| axis_uses(&text)) {
@@ -25,7 +25,7 @@ impl Outline {
         Self::Programs(uses)
     }
 
-    /// The axes in the usual order, longer names last; none where a start-up list names them.
+    /// Returns the axes in the usual order, longer names last; none if a start-up list names them.
     pub fn axes(&self) -> Vec<(&str, AxisUse)> {
         const USUAL: &str = "XYZABCUVW";
         let Self::Programs(uses) = self else {

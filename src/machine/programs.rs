@@ -1,5 +1,5 @@
-//! The programs that the configuration names, and those that only the machine has (R2.14, R2.15,
-//! R2.75, R2.83).
+//! The programs that the configuration names, and those that exist only on the machine (R2.14,
+//! R2.15, R2.75, R2.83).
 
 use crate::lists::{ChannelPrograms, ProgramRole};
 
@@ -15,19 +15,19 @@ pub struct ConfiguredPrograms {
     pub words: Vec<(String, String)>,
     /// The macros of the channel list: name and code.
     pub macros: Vec<(String, String)>,
-    /// Whether a T word does what a D word does, too, P-CHAN-00014.
+    /// Whether a T word also has the effect of a D word, P-CHAN-00014.
     pub data_with_tool: bool,
-    /// Patterns of programs that only the machine has (R2.83).
+    /// Patterns of programs that exist only on the machine (R2.83).
     pub external: Vec<String>,
-    /// Patterns of those that leave the compensation as it is.
+    /// Patterns of those that do not change the compensation.
     pub keep_compensation: Vec<String>,
-    /// Patterns of those that leave the axes where they are.
+    /// Patterns of those that do not change the axis positions.
     pub keep_positions: Vec<String>,
     /// Patterns of those that write neither parameters nor variables.
     pub keep_parameters: Vec<String>,
 }
 
-/// The part of the state that a program which only the machine has leaves unchanged.
+/// The part of the state that a program on the machine leaves unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Keeps {
@@ -40,7 +40,7 @@ pub struct Keeps {
 }
 
 impl ConfiguredPrograms {
-    /// Adds what the channel list names; what is here already counts before it (R2.75).
+    /// Adds the programs of the channel list; those already configured take precedence (R2.75).
     pub(super) fn add_channel(&mut self, channel: &ChannelPrograms) {
         for (role, name) in channel.programs() {
             let name = name.to_owned();
@@ -59,7 +59,7 @@ impl ConfiguredPrograms {
         self.data_with_tool |= channel.data_with_tool();
     }
 
-    /// Whether a program is named for a role.
+    /// Whether a role has a program.
     pub(super) fn has(&self, role: &ProgramRole) -> bool {
         match role {
             ProgramRole::Start => self.start.is_some(),
@@ -68,7 +68,7 @@ impl ConfiguredPrograms {
         }
     }
 
-    /// The program that a word calls, which is written in its canonical form, such as `M6`.
+    /// Returns the program that a word calls; the word has its canonical form, such as `M6`.
     pub fn word(&self, word: &str) -> Option<&str> {
         let found = self
             .words
@@ -77,12 +77,12 @@ impl ConfiguredPrograms {
         found.map(|(_, program)| program.as_str())
     }
 
-    /// Whether only the machine has a program.
+    /// Whether a program exists only on the machine.
     pub fn is_external(&self, name: &str) -> bool {
         any_matches(&self.external, name)
     }
 
-    /// Returns the part of the state that a program which only the machine has leaves unchanged.
+    /// Returns the part of the state that a program on the machine leaves unchanged.
     pub fn keeps(&self, name: &str) -> Keeps {
         Keeps {
             compensation: any_matches(&self.keep_compensation, name),
@@ -92,7 +92,7 @@ impl ConfiguredPrograms {
     }
 }
 
-/// A word in upper case with a number without leading zeros: `m06` is `M6`.
+/// Returns a word in upper case with a number without leading zeros: `m06` is `M6`.
 pub(crate) fn canonical_word(word: &str) -> String {
     let upper = word.trim().to_ascii_uppercase();
     let (letter, number) = upper.split_at(upper.len().min(1));
@@ -104,7 +104,7 @@ pub(crate) fn canonical_word(word: &str) -> String {
     }
 }
 
-/// Whether one of the patterns is a program's name, its folders aside unless the pattern has any.
+/// Whether one of the patterns matches a program's name, without its folders unless the pattern has any.
 fn any_matches(patterns: &[String], name: &str) -> bool {
     let name = name.replace('\\', "/").to_lowercase();
     let last = name.rsplit('/').next().unwrap_or(&name);
@@ -115,9 +115,8 @@ fn any_matches(patterns: &[String], name: &str) -> bool {
     })
 }
 
-/// `*` stands for any letters, `?` for one. Both texts are gone through from the left; what the last
-/// `*` stands for grows where the rest does not fit, so the work is bounded by the product of both
-/// lengths.
+/// `*` matches any letters, `?` matches one. Both texts are scanned from the left; the match of the last `*` grows if
+/// the rest does not fit, so the work is bounded by the product of both lengths.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), name.chars().collect());

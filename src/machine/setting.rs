@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The value that the user gives to a variable that only the machine knows.
+/// The user's value of a variable that only the machine knows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]

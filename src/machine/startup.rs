@@ -1,4 +1,4 @@
-//! From a start-up list to the axes that it describes (R3.12 to R3.14).
+//! Reads the axes that a start-up list describes (R3.12 to R3.14).
 
 use super::assemble::AxisDraft;
 use super::files::folder;
@@ -9,12 +9,12 @@ use crate::lists::{
     NamedList, StartupList, is_axis_name,
 };
 
-/// More axes than any control has; what lies beyond is not read.
+/// More axes than any control has; further ones are not read.
 pub(super) const MAX_AXES: usize = 1024;
 
 impl Loader<'_> {
-    /// The axes of a start-up list: in the order of the channel list, then those that no channel
-    /// names.
+    /// Returns the axes of a start-up list: in the order of the channel list, then those that no
+    /// channel names.
     pub(super) fn startup(&mut self, list: &Entries) -> Vec<AxisDraft> {
         self.startup_folder = Some(folder(list.source().name()).to_owned());
         let startup = StartupList::from_entries(list, &mut self.diagnostics);
@@ -64,7 +64,8 @@ impl Loader<'_> {
         axes
     }
 
-    /// The axes that the channels name, each with its axis list, which is taken out of `listed`.
+    /// Returns the axes that the channels name, each with its axis list, which is removed from
+    /// `listed`.
     fn channels(
         &mut self,
         startup: &StartupList,
@@ -82,7 +83,7 @@ impl Loader<'_> {
             };
             let mut channel = base.clone();
             channel.override_with(own);
-            // A program runs in one channel; the first one is taken.
+            // A program runs in one channel; the first one is used.
             self.channel.get_or_insert_with(|| FirstChannel {
                 programs: channel.programs.clone(),
                 motion: channel.motion.clone(),
@@ -125,7 +126,7 @@ impl Loader<'_> {
         Some(ChannelList::from_entries(&entries, &mut self.diagnostics))
     }
 
-    /// The values of the default list, which describes no axis of its own.
+    /// Returns the values of the default list, which is not for a particular axis.
     fn default_values(&mut self, startup: &StartupList) -> AxisValues {
         let list = startup.default_axis_list.as_ref();
         let mut default = list
@@ -138,7 +139,7 @@ impl Loader<'_> {
         default
     }
 
-    /// Leaves out axes whose name no program can write (R2.20).
+    /// Drops axes whose name no program can use (R2.20).
     fn drop_nameless(&mut self, axes: &mut Vec<AxisDraft>) {
         axes.retain(|axis| {
             if is_axis_name(&axis.name) {
@@ -153,7 +154,7 @@ impl Loader<'_> {
         });
     }
 
-    /// Keeps the first of several axes with one name, and a number of axes that a control can
+    /// Keeps the first of several axes with the same name, and no more axes than a control can
     /// have.
     fn drop_repeated(&mut self, axes: &mut Vec<AxisDraft>) {
         axes.truncate(MAX_AXES);
@@ -213,8 +214,8 @@ impl Loader<'_> {
     }
 }
 
-/// FC124 for a channel whose axes have the names of another one's. Programs are taken to run in the
-/// channel that comes first (R3.13).
+/// Returns FC124 for a channel whose axes have names of an earlier channel. Programs are assumed to
+/// run in the first channel (R3.13).
 fn other_channel(asked: &Given<String>, names: &[String]) -> Diagnostic {
     let message = format!(
         "the axes of `{}` have names of an earlier channel and are left out: {}",
@@ -225,7 +226,7 @@ fn other_channel(asked: &Given<String>, names: &[String]) -> Diagnostic {
         .with_help("programs are run in the first channel that has the axis")
 }
 
-/// The axis list of a channel's axis: the one with its number, else the one with its name.
+/// Returns the axis list of a channel's axis: the one with its number, else the one with its name.
 fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Option<usize> {
     let find = |test: &dyn Fn(&AxisDraft) -> bool| listed.iter().position(|(_, d)| test(d));
     let by_number = axis
@@ -245,7 +246,7 @@ fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Opt
     by_number.or_else(by_name)
 }
 
-/// An axis as a channel names it, with its list if there is one. `None` when nothing names it.
+/// Returns an axis of a channel, with its list if there is one. `None` if the axis has no name.
 fn channel_axis(
     axis: &ChannelAxis,
     found: Option<AxisDraft>,

@@ -1,4 +1,4 @@
-//! A value list as it is written.
+//! A value list as written.
 
 use crate::diagnostic::Diagnostic;
 use crate::lists::{AxisValues, Entries, FrictionDraft};

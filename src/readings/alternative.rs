@@ -4,8 +4,8 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Alternative {
-    /// The first one.
+    /// The first reading.
     First,
-    /// The second one.
+    /// The second reading.
     Second,
 }

@@ -8,16 +8,16 @@ crate::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Way {
-        /// By an NC program that leaves its answer in a file of the control.
+        /// By an NC program that writes the answer to a file on the control.
         Program = "program",
         /// By a recording of a motion.
         Recording = "recording",
-        /// By what an operator sees and writes down.
+        /// By an operator's written observation.
         Note = "note",
     }
 }
 
-/// Facts about a question. The texts name words of programs in backquotes.
+/// Facts about a question. The texts put program words in backquotes.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct QuestionFacts {
@@ -29,9 +29,9 @@ pub struct QuestionFacts {
     pub readings: [&'static str; 2],
     /// Meaning of each reading.
     pub meanings: [&'static str; 2],
-    /// The one that is assumed; `None` where neither is, and what differs is unknown.
+    /// The assumed reading; `None` if neither is assumed, so that the differences are unknown.
     pub assumed: Option<Alternative>,
-    /// Why that one.
+    /// The reason for assuming it.
     pub why: &'static str,
     /// Results that depend on the answer.
     pub depends: &'static str,
@@ -42,7 +42,7 @@ pub struct QuestionFacts {
 }
 
 impl QuestionFacts {
-    /// The name of what is taken without an answer, `unknown` where neither reading is.
+    /// Returns the name of the reading assumed without an answer, `unknown` if neither is.
     pub fn assumed_name(&self) -> &'static str {
         self.assumed
             .map_or("unknown", |reading| self.readings[reading as usize])
@@ -61,7 +61,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         ],
         assumed: Some(First),
         why: "programs in lower case exist; every document prints upper case",
-        depends: "programs with such keywords stop or go on (FC404, FC306)",
+        depends: "programs with such keywords stop or continue (FC404, FC306)",
         way: Program,
         how: "`V.A.FRICT_COMP_ACTIVE` after the command; an error is noted by hand",
     },
@@ -77,7 +77,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         why: "technology functions of a block act before its motion",
         depends: "which motion is compensated where COMP shares a block (FC405, P-ERR-70435)",
         way: Recording,
-        how: "`frict_comp.f_is_active` beside the commanded position in a block with both",
+        how: "`frict_comp.f_is_active` with the commanded position in a block with both",
     },
     QuestionFacts {
         rule: "R1.24",
@@ -103,9 +103,9 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         ],
         assumed: Some(First),
         why: "the documents tie P-ERR-70495 to switching on",
-        depends: "programs that switch off an axis without 00522 stop or go on (FC402, FC306)",
+        depends: "programs that switch off an axis without 00522 stop or continue (FC402, FC306)",
         way: Program,
-        how: "whether the program comes to its last message; an error is noted by hand",
+        how: "whether the program reaches its last message; an error is noted by hand",
     },
     QuestionFacts {
         rule: "R1.26",
@@ -119,7 +119,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         why: "the documents say when it is active and name no error",
         depends: "whether such programs stop (FC303, FC306)",
         way: Program,
-        how: "whether the program comes to its last message; an error is noted by hand",
+        how: "whether the program reaches its last message; an error is noted by hand",
     },
     QuestionFacts {
         rule: "R1.28",
@@ -249,8 +249,8 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         question: "Does a block search execute the COMP commands that it passes?",
         readings: ["executed", "decoded"],
         meanings: [
-            "what stands before the searched block acts",
-            "what stands before the searched block is only read",
+            "commands before the searched block act",
+            "commands before the searched block are only read",
         ],
         assumed: None,
         why: "the pages on block search do not mention axis commands",
@@ -298,11 +298,11 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         why: "the description of the parameter says all values; its title names the reversal",
         depends: "the current after every change of velocity",
         way: Recording,
-        how: "`frict_comp.output` beside the velocity at a change of feed",
+        how: "`frict_comp.output` with the velocity at a change of feed",
     },
     QuestionFacts {
         rule: "R4.6",
-        question: "Is the current held while the axis stands still?",
+        question: "Is the current held at standstill?",
         readings: ["hold", "zero"],
         meanings: [
             "the last value is held at standstill",
@@ -312,7 +312,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         why: "a servo at rest needs the value; the documents say that it compensates path motion",
         depends: "the current of an axis at rest (C11)",
         way: Recording,
-        how: "`frict_comp.output` while the axis stands after a motion",
+        how: "`frict_comp.output` at standstill after a motion",
     },
     QuestionFacts {
         rule: "R4.7",

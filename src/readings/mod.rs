@@ -1,7 +1,7 @@
 //! The questions that the documents leave open, and how a machine reads them.
 //!
-//! A question has two readings. One of them is assumed, unless `[reading]` in `frictcomp.toml` selects
-//! the other; `[confirmed]` says on which build of the control it was seen.
+//! A question has two readings. One of them is assumed, unless `[reading]` in `frictcomp.toml` selects the other;
+//! `[confirmed]` names the build of the control on which it was observed.
 
 mod alternative;
 mod facts;

@@ -1,4 +1,4 @@
-//! The questions by name.
+//! The names of the questions.
 
 use super::alternative::Alternative;
 use super::facts::{FACTS, QuestionFacts};
@@ -11,7 +11,7 @@ pub enum Question {
     LowerCase,
     /// Does a command act before the motion of its block?
     WithMotion,
-    /// Does a syntax check find the refusal?
+    /// Does a syntax check report the refusal?
     SyntaxCheck,
     /// Is switching off an axis that is not configured refused?
     OffUnconfigured,
@@ -33,7 +33,7 @@ pub enum Question {
     AxisExchange,
     /// When is a skip level read?
     SkipLevel,
-    /// What does a write to the machine data leave?
+    /// What state does a write to the machine data leave?
     MachineData,
     /// Does a block search execute commands?
     BlockSearch,
@@ -79,19 +79,19 @@ impl Question {
         &FACTS[self as usize]
     }
 
-    /// The question of a rule, `R1.28`.
+    /// Returns the question of a rule, `R1.28`.
     pub fn of_rule(rule: &str) -> Option<Self> {
         let mut all = Self::ALL.into_iter();
         all.find(|question| question.facts().rule == rule)
     }
 
-    /// The reading of this name.
+    /// Returns the reading of this name.
     pub fn reading(self, name: &str) -> Option<Alternative> {
         let mut both = [Alternative::First, Alternative::Second].into_iter();
         both.find(|reading| self.name_of(*reading) == name)
     }
 
-    /// The name of a reading.
+    /// Returns the name of a reading.
     pub fn name_of(self, reading: Alternative) -> &'static str {
         self.facts().readings[reading as usize]
     }

@@ -26,7 +26,7 @@ impl QuestionSet {
         Self(self.0 | other.0)
     }
 
-    /// The questions, in the order of their rules.
+    /// Returns the questions, in the order of their rules.
     pub fn iter(self) -> impl Iterator<Item = Question> {
         Question::ALL
             .into_iter()

@@ -41,12 +41,12 @@ impl Readings {
         self.selected.insert(question, reading);
     }
 
-    /// Remembers that a control answered with the reading in force.
+    /// Records that a control confirmed the reading in force.
     pub fn confirm(&mut self, question: Question, confirmation: Confirmation) {
         self.confirmed.insert(question, confirmation);
     }
 
-    /// The reading in force; `None` where neither is assumed and none selected.
+    /// Returns the reading in force; `None` if none is assumed or selected.
     pub fn of(&self, question: Question) -> Option<Alternative> {
         let selected = self.selected.get(&question).copied();
         selected.or(question.facts().assumed)
@@ -57,7 +57,7 @@ impl Readings {
         self.of(question) == Some(Alternative::Second)
     }
 
-    /// The name of the reading in force, `unknown` where there is none.
+    /// Returns the name of the reading in force, `unknown` if there is none.
     pub fn name(&self, question: Question) -> &'static str {
         self.of(question)
             .map_or("unknown", |reading| question.name_of(reading))
@@ -68,8 +68,8 @@ impl Readings {
         self.confirmed.get(&question)
     }
 
-    /// Returns the basis of the reading in force on a machine of this build. An answer holds only for
-    /// the build that gave it (R15.2).
+    /// Returns the basis of the reading in force on a machine of this build. An answer applies only to the build that
+    /// gave it (R15.2).
     pub fn basis(&self, question: Question, build: Option<CncBuild>) -> Basis<'_> {
         let confirmed = self.confirmed.get(&question);
         match confirmed.filter(|it| Some(it.build) == build) {
@@ -97,7 +97,7 @@ mod tests {
         }
     }
 
-    /// R15.2: an answer holds for the build that gave it.
+    /// R15.2: an answer applies to the build that gave it.
     #[test]
     fn an_answer_of_another_build_confirms_nothing() {
         let [own, other] = [[3, 1, 3081, 5], [3, 1, 3132, 0]].map(CncBuild::new);

@@ -57,12 +57,12 @@ pub struct Causes {
 }
 
 impl Causes {
-    /// Adds what one program has to say.
+    /// Adds the messages of one program.
     pub fn add(&mut self, findings: Findings) {
         findings.into_diagnostics().for_each(|said| self.say(said));
     }
 
-    /// Adds one message, about a list for instance.
+    /// Adds one message, for example about a list.
     pub fn say(&mut self, said: Diagnostic) {
         let next = self.said.len();
         let at = *self.known.entry(CauseKey::of(&said)).or_insert(next);
@@ -74,7 +74,7 @@ impl Causes {
         if said.times > known.times {
             (known.times, known.message) = (said.times, said.message);
         }
-        // What remains is done by one change for all the programs.
+        // The changes that remain serve all the programs.
         known.fixes.retain(|fix| said.fixes.contains(fix));
     }
 

@@ -16,7 +16,7 @@ struct Watched {
 pub(super) struct FeedMoveCounter {
     counts: Vec<FeedMoves>,
     watched: Vec<Watched>,
-    /// The version of the states that [`watched`](Self::watched) holds for.
+    /// The version of the states that [`watched`](Self::watched) applies to.
     version: Option<u64>,
 }
 

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::Position;
 use crate::timeline::{Record, Repeat, Sink};
 
-/// Key by which two diagnostics are the same.
+/// Key that is equal for equal diagnostics.
 type FindingKey = (Arc<str>, Position, Position, Code, String);
 
 /// Diagnostics of a dry run: a sink that keeps each one once, however often a loop repeats it.
@@ -27,7 +27,7 @@ impl Findings {
         self.diagnostics.values()
     }
 
-    /// The same, taken out.
+    /// Takes out the diagnostics, in the order of their places.
     pub(super) fn into_diagnostics(self) -> impl Iterator<Item = Diagnostic> {
         self.diagnostics.into_values()
     }
@@ -62,7 +62,7 @@ impl Findings {
         });
     }
 
-    /// Says how often a message occurred that is shown once.
+    /// Adds to a message that is shown once how often it occurred.
     fn count(&mut self, repeat: &Repeat) {
         let from = (
             Arc::from(repeat.file.as_str()),
@@ -90,7 +90,7 @@ impl Sink for Findings {
                 end.notes.iter().for_each(|note| self.add(&note.diagnostic));
                 end.repeated.iter().for_each(|repeat| self.count(repeat));
             }
-            // What the lists say is listed once a machine, not once a program.
+            // Messages about the lists are listed once per machine, not once per program.
             Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
             Record::Program { file, .. } => self.program = Some(Arc::from(*file)),
             Record::Session { .. } | Record::Join(_) | Record::Summary(_) => {}

@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::{Foreign, foreign};
 use crate::text::{Place, Span};
 
-/// Number of messages that such a file may say: this one and 20 others.
+/// Number of messages about such a file: this one and 20 others.
 pub(super) const MAX_SAID: usize = 21;
 
 /// Looks at the head of a program.

@@ -1,4 +1,4 @@
-//! Messages of a program so far: a message in a loop is reported once a place, with the number of its
+//! Messages of a program so far: a message in a loop is reported once per place, with the number of its
 //! repetitions, and the messages of a file are limited (R2.85).
 
 use std::collections::HashMap;
@@ -19,7 +19,7 @@ pub(super) enum DedupVerdict {
     Say,
     /// It was reported at this place before.
     Repeated,
-    /// Its file said too much before; it counts all the same.
+    /// Its file has reached its limit; the message is only counted.
     TooMany,
 }
 
@@ -95,7 +95,7 @@ impl MessageDedup {
         DedupVerdict::Say
     }
 
-    /// Takes a message at the end, where none comes twice.
+    /// Takes a message at the end, where none is repeated.
     pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> DedupVerdict {
         if self.has_room(&diagnostic.place) {
             DedupVerdict::Say
@@ -104,7 +104,7 @@ impl MessageDedup {
         }
     }
 
-    /// Counts a message against what its file may say.
+    /// Counts a message against the limit of its file.
     fn has_room(&mut self, place: &Place) -> bool {
         let file = match self.files.get_mut(&place.file) {
             Some(file) => file,
@@ -144,7 +144,7 @@ impl MessageDedup {
         repeated
     }
 
-    /// FC905 for each file that had more to say; `unsaid` messages about the program's own file
+    /// FC905 for each file with more messages; `unsaid` messages about the program's own file
     /// were counted before they came here.
     pub(super) fn rest(&mut self, unsaid: u64, seq: u64) -> Vec<EndNote> {
         let mut full: Vec<(&Arc<str>, &mut PerFile)> = self

@@ -1,6 +1,6 @@
 //! One controller session: programs that run one after the other on one machine.
 //!
-//! The state that one program leaves is the state that the next one starts with.
+//! Each program starts with the state that the one before it leaves.
 
 mod allow;
 mod causes;
@@ -54,45 +54,45 @@ pub struct SessionOptions {
     pub settings: Vec<(String, Setting)>,
     /// Positions of axes before the first program, by their names, in mm or degrees.
     pub start: Vec<(String, f64)>,
-    /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
-    /// no machine is described (R1.37).
+    /// The axes that a look ahead found the programs to switch, proposed where no machine is
+    /// described (R1.37).
     pub switched: Vec<String>,
     /// Wording of advice; `None` for the general words.
     pub wording: Option<Wording>,
 }
 
 impl SessionOptions {
-    /// The same with another value of [`run`](Self::run).
+    /// Sets [`run`](Self::run).
     pub fn with_run(mut self, run: Options) -> Self {
         self.run = run;
         self
     }
 
-    /// The same with another value of [`levels`](Self::levels).
+    /// Sets [`levels`](Self::levels).
     pub fn with_levels(mut self, levels: Levels) -> Self {
         self.levels = levels;
         self
     }
 
-    /// The same with another value of [`settings`](Self::settings).
+    /// Sets [`settings`](Self::settings).
     pub fn with_settings(mut self, settings: Vec<(String, Setting)>) -> Self {
         self.settings = settings;
         self
     }
 
-    /// The same with another value of [`start`](Self::start).
+    /// Sets [`start`](Self::start).
     pub fn with_start(mut self, start: Vec<(String, f64)>) -> Self {
         self.start = start;
         self
     }
 
-    /// The same with another value of [`switched`](Self::switched).
+    /// Sets [`switched`](Self::switched).
     pub fn with_switched(mut self, switched: Vec<String>) -> Self {
         self.switched = switched;
         self
     }
 
-    /// The same with another value of [`wording`](Self::wording).
+    /// Sets [`wording`](Self::wording).
     pub fn with_wording(mut self, wording: Option<Wording>) -> Self {
         self.wording = wording;
         self
@@ -100,7 +100,7 @@ impl SessionOptions {
 }
 
 impl From<Options> for SessionOptions {
-    /// The options of a session whose programs run in this way.
+    /// Options of a session whose programs run with these options.
     fn from(run: Options) -> Self {
         Self::default().with_run(run)
     }
@@ -109,7 +109,7 @@ impl From<Options> for SessionOptions {
 /// The text of a program.
 #[non_exhaustive]
 pub enum Program<'a> {
-    /// Lines that come one after another. After the first block that can be reached again the rest
+    /// Lines, one after another. After the first block that can be reached again the rest
     /// is taken into memory; what keeps that rest from running is found only there, see
     /// [`crate::syntax::FlowScan`].
     Lines(&'a mut dyn LineSource),
@@ -118,7 +118,7 @@ pub enum Program<'a> {
 }
 
 impl Program<'_> {
-    /// The beginning of the text, as far as it is available.
+    /// The beginning of the text that is available so far.
     fn head(&mut self) -> &str {
         match self {
             Self::Lines(lines) => lines.ahead(),
@@ -213,8 +213,8 @@ impl Session {
         }
     }
 
-    /// A session that goes on where another one ended. Returns also what the control says about
-    /// lists that changed since (P-ERR-110641).
+    /// Continues where another session ended. Also returns the control's messages about lists that
+    /// changed since (P-ERR-110641).
     ///
     /// # Errors
     /// A state of another schema or machine.
@@ -273,7 +273,7 @@ impl Session {
         }
     }
 
-    /// The state of the moment.
+    /// The current state.
     pub fn state(&self) -> StateView<'_> {
         StateView {
             machine: &self.machine,
@@ -313,7 +313,7 @@ impl Session {
         }
     }
 
-    /// Says what the session starts with, and what the control says about its lists.
+    /// Records what the session starts with, and the control's messages about its lists.
     pub fn begin(&mut self, lists: &[Diagnostic], sink: &mut dyn Sink) -> ControlFlow<()> {
         sink.record(&Record::Session {
             state: self.state(),
@@ -328,7 +328,7 @@ impl Session {
         ControlFlow::Continue(())
     }
 
-    /// Runs one program. `Break` when the sink takes no more.
+    /// Runs one program. `Break` when the sink stops.
     pub fn program(
         &mut self,
         file: &str,
@@ -401,7 +401,7 @@ impl Session {
         unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))
     }
 
-    /// Says the summary.
+    /// Records the summary.
     pub fn finish(&mut self, sink: &mut dyn Sink) -> ControlFlow<()> {
         let state = self.state();
         let axes = state.axes().map(|(axis, _)| AxisSummary {

@@ -1,5 +1,5 @@
-//! Events of a program become records: lints are added, the user's severities and `allow` comments
-//! applied, everything is counted.
+//! Turns the events of a program into records: adds lints, applies the user's severities and `allow`
+//! comments, and counts everything.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
@@ -39,9 +39,9 @@ pub(super) struct SessionTotals {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
-    /// The codes by which was said that states are assumed.
+    /// The codes of the messages that states are assumed.
     pub(super) assumed: BTreeSet<Code>,
-    /// The open questions on whose readings messages rest (R15.3).
+    /// The open questions whose readings messages depend on (R15.3).
     pub(super) rests_on: QuestionSet,
     pub(super) feed_moves: FeedMoveCounter,
     /// The configured kinds that were unknown at a program's end or where their axis moved.
@@ -53,7 +53,7 @@ impl SessionTotals {
         *self.counts.entry(diagnostic.severity).or_default() += 1;
     }
 
-    /// Takes note of what the run assumes, whether or not the user silenced it.
+    /// Records what the run assumes, whether or not the user silenced it.
     fn note_footing<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) {
         for diagnostic in said {
             match diagnostic.code {
@@ -78,7 +78,7 @@ impl SessionTotals {
 /// only.
 const MAX_ALLOWS: usize = 20_000;
 
-/// A code that a comment allows, and whether that was of use.
+/// A code that a comment allows, and whether that had an effect.
 pub(super) struct Allow {
     seq: u64,
     place: Place,
@@ -107,7 +107,7 @@ pub(super) struct Recorder<'a> {
     pub(super) broken: bool,
     /// Whether a configured kind of an axis is unknown at the moment.
     pub(super) doubtful: bool,
-    /// The version of the state that was judged last.
+    /// The version of the state that was last judged.
     pub(super) version: u64,
 }
 
@@ -207,8 +207,8 @@ impl Recorder<'_> {
         }))
     }
 
-    /// Whether a block is one of the many that only move on: nothing is to be said about it,
-    /// nothing to be remembered of it, and no comment in it can allow anything.
+    /// Whether a block is one of the many that only move: it needs no message, nothing about it has
+    /// to be remembered, and no comment in it can allow anything.
     #[inline]
     fn is_quiet(&self, executed: &Executed<'_>) -> bool {
         executed.seq > 1
@@ -262,7 +262,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Gathers what there is to say about a block, and counts it.
+    /// Gathers the messages about a block, and counts them.
     #[inline(never)]
     fn judge(&mut self, executed: &Executed<'_>) {
         self.said.extend(self.foreign.take());
@@ -272,7 +272,7 @@ impl Recorder<'_> {
         self.linter.block(executed, &mut self.said);
         self.tally.note_footing(self.said.iter().skip(before));
         if let Some(ways) = executed.branch {
-            // FC403 says by itself on which ways.
+            // FC403 names the ways itself.
             let lints = self.said.iter_mut().skip(before);
             let lints = lints.filter(|said| said.code != Code::Fc403);
             lints.for_each(|said| limit_to(said, ways));
@@ -298,7 +298,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Sorts, applies the user's severities and `allow` comments, and keeps messages once a place.
+    /// Sorts, applies the user's severities and `allow` comments, and keeps each message once per place.
     fn filter(&mut self, line: u32) {
         let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
         let (before, tally, wording) = (&mut self.before, &mut *self.tally, self.wording);
@@ -312,12 +312,12 @@ impl Recorder<'_> {
             }
             let may_be = !diagnostic.code.is_controller() && !diagnostic.is_raised();
             let allowed = here.contains(&diagnostic.code) && may_be;
-            // It is said at the motion after the command that it is about.
+            // It is reported at the motion after the command that it is about.
             let line = match diagnostic.code {
                 Code::Fc409 => diagnostic.place.first_line,
                 _ => line,
             };
-            // Where ways meet, it is said of the condition at which they parted.
+            // Where ways meet, it is about the condition at which they parted.
             let first_line = diagnostic.place.first_line;
             let is_silenced = is_allowed(allows, diagnostic, line)
                 || (diagnostic.code == Code::Fc901 && is_allowed(allows, diagnostic, first_line));

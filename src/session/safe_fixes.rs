@@ -1,4 +1,4 @@
-//! The changes that may be made without a look at them, from what runs of programs say (R9.82).
+//! The changes that may be made without a review, from the messages of runs (R9.82).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
@@ -47,7 +47,7 @@ impl Sink for ProposedFixes {
     }
 }
 
-/// The safe changes that hold for all runs of some programs, file by file.
+/// The safe changes that apply to all runs of some programs, file by file.
 #[derive(Debug, Clone, Default)]
 pub struct SafeFixes {
     files: BTreeMap<Arc<str>, FileFixes>,
@@ -57,12 +57,12 @@ pub struct SafeFixes {
 struct FileFixes {
     /// Number of runs that executed the file.
     runs: usize,
-    /// Each change, for which code, and how many runs propose it.
+    /// Each change, its code, and how many runs propose it.
     proposed: HashMap<Fix, (Code, usize)>,
 }
 
 impl SafeFixes {
-    /// Adds what one run proposes.
+    /// Adds the changes that one run proposes.
     pub fn add(&mut self, run: ProposedFixes) {
         for file in run.files {
             self.files.entry(file).or_default().runs += 1;

@@ -35,7 +35,7 @@ pub enum StateError {
     /// It contradicts itself.
     #[error("it is damaged ({reason})")]
     Damaged {
-        /// What is wrong, in words.
+        /// The fault, in words.
         reason: String,
     },
 }
@@ -167,7 +167,7 @@ impl SavedState {
         }
     }
 
-    /// Whether nothing but an assumption about an axis is new: where no machine is described, the user
+    /// Whether only an assumption about an axis is new: where no machine is described, the user
     /// enables the axes that the programs of each run need.
     pub(super) fn is_assumed_anew(&self, axis: &Axis, machine: &Machine) -> bool {
         machine.axis_set == AxisSet::AsTheyOccur
@@ -191,7 +191,7 @@ impl SavedState {
     }
 }
 
-/// A value that can be written and read again. What is no finite number is not known any more.
+/// Returns a value that can be written and read again. A number that is not finite becomes unknown.
 pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
     match value {
         Value::Number(number) if !number.is_finite() => {
@@ -202,8 +202,8 @@ pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
     }
 }
 
-/// One line an axis with what only a start of the control reads. Value lists may be loaded again
-/// while the control runs and are no part of it.
+/// Returns one line per axis with the data that only a start of the control reads. Value lists may
+/// be loaded again while the control runs and are not included.
 pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
     let lines = machine.axes.iter();
     lines

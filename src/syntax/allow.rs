@@ -1,4 +1,4 @@
-//! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
+//! `; frictcomp: allow FC402 reason`: a user's statement that a message is known (R9.24).
 
 use super::fault::Fault;
 use crate::diagnostic::{Code, did_you_mean, nearest};
@@ -7,7 +7,7 @@ use crate::text::Span;
 /// Mark of a comment addressed to this tool.
 pub(crate) const MARK: &str = "frictcomp:";
 
-/// The word that allows.
+/// The word that allows codes.
 const ALLOW: &str = "allow";
 
 /// Contents of a comment addressed to this tool.
@@ -35,7 +35,7 @@ pub(crate) struct AllowFault {
 pub(crate) enum Help {
     /// This word.
     Near(Vec<&'static str>),
-    /// The whole comment, as this says.
+    /// The whole comment, in this form.
     How(&'static str),
 }
 
@@ -139,7 +139,7 @@ pub(crate) fn lost(text: &str) -> Option<Fault> {
         return Some(Fault::new(Code::Fc491, fault.span, fault.message));
     }
     let first = allowance.codes.first()?;
-    let message = format!("`allow {first}` stands directly above no block, so it silences nothing");
+    let message = format!("`allow {first}` is not directly above a block, so it silences nothing");
     let fault = Fault::new(Code::Fc490, Span::new(0, text.len()), message);
     Some(fault.with_help("write it in the block, or on the line directly above it"))
 }

@@ -35,13 +35,13 @@ pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
     uses
 }
 
-/// The axes that a block names. What a macro stands for counts where it is defined.
+/// Returns the axes that a block names. The code of a macro counts where it is defined.
 pub(super) fn uses_of(block: &Block, text: &str) -> Vec<(String, AxisUse)> {
     let mut found = Vec::new();
     with_macros(block, text, MAX_MACROS, &mut |block, text| {
         found.extend(own_uses(block, text));
     });
-    // A single Q is no axis without a configuration.
+    // A single Q is not an axis without a configuration.
     found.retain(|(name, _)| is_axis_name(name) && name != "Q");
     found
 }

@@ -17,7 +17,7 @@ const MAX_OPEN_TEXTS: usize = 64;
 /// is read as [`OTHER`].
 const NEVER_CLOSED: char = '\u{1}';
 
-/// A control character that no rule of the grammar knows.
+/// A control character that no rule of the grammar accepts.
 const OTHER: char = '\u{2}';
 
 /// A block as the parser reads it.
@@ -38,7 +38,7 @@ pub(super) fn brackets(code: &str) -> Result<Brackets<'_>, Fault> {
     let mut unclosed = unclosed(code)?;
     let first = unclosed.first().copied();
     if first.is_some() {
-        // What an expression holds in `'…'` opens and closes nothing; in other brackets it does.
+        // Brackets within `'…'` of an expression open and close nothing; in other brackets they do.
         if code.contains('\'') {
             let in_expressions = unclosed_outside_quotes(code);
             unclosed.retain(|at| in_expressions.binary_search(at).is_ok());

@@ -6,7 +6,7 @@ use crate::comp::{CompCommand, Kind, KindSet, Selection};
 use crate::diagnostic::{Code, nearest};
 use crate::text::Span;
 
-/// The words that may stand in a COMP bracket after `COMP`.
+/// The words that may follow `COMP` in its bracket.
 const KEYWORDS: [&str; 11] = [
     "ON",
     "OFF",
@@ -32,8 +32,8 @@ pub(super) struct CompWords<'a> {
 }
 
 impl CompWords<'_> {
-    /// Reads the command. What is wrong goes into `faults`; a command that the control would
-    /// refuse is `None`.
+    /// Reads the command. Mistakes go into `faults`; a command that the control would refuse is
+    /// `None`.
     pub(super) fn lower(&self, faults: &mut Vec<Fault>) -> Option<CompCommand> {
         self.lint_case(faults);
         let mut selection: Option<(Span, &str)> = None;
@@ -101,7 +101,7 @@ impl CompWords<'_> {
         })
     }
 
-    /// One remark a bracket, at its first word that is not in upper case (R1.8).
+    /// One remark per bracket, at its first word that is not in upper case (R1.8).
     fn lint_case(&self, faults: &mut Vec<Fault>) {
         let known = |word: &str| {
             word.eq_ignore_ascii_case("COMP")

@@ -64,7 +64,7 @@ impl ControlBlock {
     }
 }
 
-/// The control block that an item of a block belongs to, and as what. `$IF c $GOTO N10` opens none.
+/// The control block that an item of a block belongs to, and its part in it. `$IF c $GOTO N10` opens none.
 pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
     use ControlBlock::{Do, For, If, RealTime, Repeat, Switch, While};
     use Part::{Branch, Closer, Opener};

@@ -14,7 +14,7 @@ const MAX_LOOKED_AT: usize = 400;
 /// Number of lines, with comments and without.
 const MAX_LINES: usize = 4000;
 
-/// Number of blocks with foreign words below which a program may be one with slips.
+/// Number of blocks with foreign words below which they may be mistakes.
 const MIN_FOREIGN: usize = 3;
 
 /// Number of words that a message shows.
@@ -164,7 +164,7 @@ pub(crate) fn foreign(text: &str) -> Option<Foreign> {
 enum DialectEvidence {
     Isg,
     Of(Dialect, String),
-    /// It is fine on every control, or nothing is known of it.
+    /// It is valid on every control, or its control is not known.
     Any,
 }
 

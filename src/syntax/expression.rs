@@ -1,5 +1,5 @@
-//! Expressions: a flat list in the grammar, precedence here, operands in front of operators in
-//! the block's nodes.
+//! Expressions: a flat list in the grammar, precedence here, operands before operators in the
+//! block's nodes.
 
 use pest::iterators::Pair;
 
@@ -31,7 +31,7 @@ const PRECEDENCE: &[&[BinaryOperator]] = {
 /// An operator whose operands are not complete yet.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Waiting {
-    /// A sign in front of an operand; it binds less tightly than `**`, more than `*`.
+    /// A sign before an operand; it binds less tightly than `**`, more than `*`.
     Negate,
     Binary(BinaryOperator),
 }
@@ -72,7 +72,8 @@ pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
     range(from, block)
 }
 
-/// Lowers `target += value` and the like to the sum that is assigned; `operator` stands between.
+/// Lowers `target += value` and the like to the value that is assigned: `operator` joins target
+/// and value.
 pub(super) fn compound(
     target: Pair<'_, Rule>,
     operator: BinaryOperator,
@@ -136,7 +137,7 @@ fn range(from: usize, block: &Block) -> Expression {
 /// A plain number stays out of the nodes.
 fn operand(from: usize, block: &mut Block) -> Operand {
     match block.nodes[from..] {
-        // What is no number, or too large for one, is said when it is evaluated.
+        // A text that is not a number, or too large for one, is reported when it is evaluated.
         [Node::Number(value)] if value.is_finite() => {
             block.nodes.truncate(from);
             block.spans.truncate(from);
@@ -259,7 +260,7 @@ impl ExpressionLowering<'_> {
         }
     }
 
-    /// Text that has the form of a value, but none that is known here.
+    /// Text that has the form of a value, but no known meaning.
     fn unread(&mut self, text: &str, span: Span) {
         self.block.faults.push(super::unread::not_known(text, span));
         self.push(Node::Unread, span);
@@ -360,7 +361,7 @@ fn number(text: &str) -> f64 {
     text.parse().unwrap_or(f64::NAN)
 }
 
-/// `'16#FA1B'`, `'0x0ED2'`, `'H1869f'`, `'2#1011'`, `'B1011'`; anything else is no number.
+/// `'16#FA1B'`, `'0x0ED2'`, `'H1869f'`, `'2#1011'`, `'B1011'`; anything else is not a number.
 fn quoted(text: &str) -> f64 {
     let inner = text.trim_matches('\'');
     let (radix, digits) = if let Some((radix, digits)) = inner.split_once('#') {

@@ -6,7 +6,7 @@ use super::ast::{Address, Block, BlockNumber, Operand, Word};
 use super::raw::{Comments, MAX_LINE};
 use crate::text::Span;
 
-/// Powers of ten that an `f64` holds exactly, and the same with a minus.
+/// Powers of ten that an `f64` holds exactly, and their negatives.
 const POWERS: [[f64; 16]; 2] = [
     [
         1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -64,8 +64,8 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Plain> {
     })
 }
 
-/// Takes the block number at a place and returns where it ends. One that has a sign, or stands
-/// after anything, is the grammar's business.
+/// Takes the block number at a place and returns where it ends. One that has a sign, or
+/// follows anything, is left to the grammar.
 #[inline]
 fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
     let first = block.number.is_none() && block.words.is_empty();
@@ -82,8 +82,8 @@ fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> 
     Some(end)
 }
 
-/// Appends the word at a place and those after it, as long as one blank or none stands between
-/// them; returns where the last one ends. What is glued to its number, or continues it as an expression,
+/// Appends the word at a place and those after it, as long as at most one blank separates them;
+/// returns where the last one ends. What is glued to its number, or continues it as an expression,
 /// begins neither a word nor a comment and is declined there.
 ///
 /// The letters show where words begin before their numbers are read, so that the processor need not
@@ -237,11 +237,11 @@ fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
     }
 }
 
-/// The same for a rest of less than eight bytes.
+/// Returns the eight bytes of a rest of less than eight, followed by zeros.
 #[cold]
 fn last_bytes(bytes: &[u8], rest: &[u8]) -> Option<u64> {
     if let Some(last) = bytes.last_chunk::<8>() {
-        // `rest` is shorter than eight bytes; what stands before it is shifted out.
+        // `rest` is shorter than eight bytes; the bytes before it are shifted out.
         let before = 8 - rest.len();
         return u64::from_le_bytes(*last).checked_shr(u32::try_from(before).ok()? * 8);
     }
@@ -267,7 +267,7 @@ fn short_digits(eight: u64) -> Option<Digits> {
         if end == u64::BITS {
             return None;
         }
-        // What stands after the point moves over it.
+        // The digits after the point move over it.
         let before = (1 << whole) - 1;
         ((digits & before) | ((digits >> 8) & !before), end - 8, end)
     } else {
@@ -275,7 +275,7 @@ fn short_digits(eight: u64) -> Option<Digits> {
     };
     let mantissa = match count {
         0 => return None,
-        // Zeros in front instead of what stands after.
+        // Zeros before the digits instead of the bytes after them.
         count => eight_digits(digits << (u64::BITS - count)),
     };
     Some(Digits {

@@ -32,19 +32,19 @@ impl Fault {
         }
     }
 
-    /// The same with one more piece of advice.
+    /// Adds a piece of advice.
     pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
         self.advice.push(advice.into());
         self
     }
 
-    /// The same with one more change that does what is advised.
+    /// Adds a change that does what is advised.
     pub fn with_fix(mut self, fix: Fix<Span>) -> Self {
         self.fixes.push(fix);
         self
     }
 
-    /// The same with the known words that may be meant where another one stands; only a single one is
+    /// Adds the known words that may be meant in place of the one at `found`; only a single one is
     /// offered as a change (R1.60).
     pub(crate) fn with_near(self, found: Span, near: &[&str]) -> Self {
         if near.is_empty() {
@@ -57,8 +57,8 @@ impl Fault {
         }
     }
 
-    /// The diagnostic that it is at a place. What it would change is at the places that `at` makes
-    /// of spans; `None` where that text is not one of the program.
+    /// Returns its diagnostic at a place. `at` turns the spans of its changes into places; `None` where
+    /// that text is not part of the program.
     pub(crate) fn into_diagnostic(
         self,
         place: Place,

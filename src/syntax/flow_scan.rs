@@ -33,8 +33,8 @@ impl FlowScan {
         self.found
     }
 
-    /// The word `SEQUENCE` around its `Q`; what lies in another piece is taken as fitting. In lower
-    /// case it is rare, and said where a block of it was not kept.
+    /// The word `SEQUENCE` around its `Q`; the part in another piece is taken as fitting. Lower case is
+    /// rare, and reported where a block of it was not kept.
     fn calls_part(before: &[u8], after: &[u8]) -> bool {
         let before = before.iter().rev().zip(b"ES");
         let after = after.iter().zip(b"UENCE");

@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use pest::error::{Error, ErrorVariant};
 use pest_derive::Parser;
 
-/// Steps of the parser that the block of a megabyte does not need, and that take it a second or two.
+/// Steps of the parser: more than a block of a megabyte needs, and a second or two of work.
 const MAX_STEPS: NonZeroUsize = NonZeroUsize::new(200_000_000).expect("some steps");
 
 #[derive(Parser)]
@@ -17,13 +17,13 @@ const MAX_STEPS: NonZeroUsize = NonZeroUsize::new(200_000_000).expect("some step
 pub(super) struct NcParser;
 
 /// Bounds the steps in which a block is read (R12.16), for all of the process; past it the block is not
-/// understood, FC913. No block is known that comes near the bound. It holds for every parser that the
+/// understood, FC913. No known block comes near the bound. It applies to every parser that the
 /// process makes with pest, so it is up to the owner of the process; the command line sets it.
 pub fn bound_reading() {
     pest::set_call_limit(Some(MAX_STEPS));
 }
 
-/// Whether the parser gave up, and did not merely find no rule that fits.
+/// Whether the parser gave up, rather than finding no rule that fits.
 pub(super) fn gave_up(error: &Error<Rule>) -> bool {
     matches!(error.variant, ErrorVariant::CustomError { .. })
 }

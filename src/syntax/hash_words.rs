@@ -3,7 +3,7 @@
 use super::keywords::command_words;
 use super::pieces::is_blank;
 
-/// The words of a `#` command in upper case, and how many bytes they take.
+/// Returns the words of a `#` command in upper case, and how many bytes they take.
 pub(crate) fn hash_name(code: &str) -> (String, usize) {
     let mut name = String::from("#");
     let mut end = 1;
@@ -14,8 +14,8 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
     (name, end)
 }
 
-/// The same without words that go on no command that is known: of `#COMMENT END X[COMP ON FRICT]` the first
-/// two.
+/// Returns the same without words that cannot follow a known command: of `#COMMENT END X[COMP ON FRICT]`
+/// the first two.
 pub(super) fn command_name(code: &str) -> (String, usize) {
     let (name, length) = hash_name(code);
     let known = command_words(&name);
@@ -29,7 +29,7 @@ pub(super) fn command_name(code: &str) -> (String, usize) {
     (known_name, end)
 }
 
-/// Whether a word that is not known goes on the name of a command, `#HSC ON SOFTLY [1]`, and not what looks
+/// Whether an unknown word follows the name of a command, `#HSC ON SOFTLY [1]`, rather than text that looks
 /// like an axis.
 pub(super) fn goes_on(code: &str, name: &str) -> bool {
     let known = name.split(' ').count();
@@ -37,7 +37,7 @@ pub(super) fn goes_on(code: &str, name: &str) -> bool {
     next.is_some_and(|(word, _)| !word[1..].bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// The words behind the `#`, and where each ends.
+/// The words after the `#`, and where each ends.
 fn words(code: &str) -> impl Iterator<Item = (&str, usize)> {
     let mut from = 1;
     std::iter::from_fn(move || {
@@ -72,12 +72,12 @@ fn push_word(name: &mut String, word: &str) {
 pub(super) struct OpeningCommand<'a> {
     /// Its words in upper case.
     pub(super) name: String,
-    /// What stands behind them.
+    /// The text after them.
     pub(super) rest: &'a str,
 }
 
 impl OpeningCommand<'_> {
-    /// Whether nothing stands behind the words.
+    /// Whether nothing follows the words.
     pub(super) fn is_alone(&self) -> bool {
         self.rest.trim_matches(is_blank).is_empty()
     }

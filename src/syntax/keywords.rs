@@ -1,5 +1,5 @@
-//! Words that are known by name (R2.70): what a dry run passes over without a word is listed here,
-//! one row a word. Everything else that looks like them is FC210.
+//! Words that are known by name (R2.70): those that a dry run passes over without a message are listed
+//! here, one per row. Everything else that looks like them is FC210.
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
@@ -8,7 +8,7 @@ use super::ast::{Address, Block, Item, Operand, Word};
 /// Effect of a `#` command on the followed state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Touches {
-    /// Neither flow nor values; what it does to coordinates is the modal state's business.
+    /// Neither flow nor values; its effect on coordinates belongs to the modal state.
     Nothing,
     /// It writes the parameters and variables that its brackets name.
     Values,
@@ -28,14 +28,14 @@ use Touches::{Axes, Friction, Motion, Nothing, Plane, Values};
 /// PM, appendix, overview of additional functions.
 const APPENDIX: &str = "PM/5252011631026770315";
 
-/// The commands that the vendor's editor for NC programs knows (isg-stuttgart/vscode-isg-cnc,
+/// The commands that the vendor's editor for NC programs supports (isg-stuttgart/vscode-isg-cnc,
 /// syntaxes and snippets).
 const EDITOR: &str = "vscode-isg-cnc";
 
 /// The texts of the kernel's messages.
 const KERNEL: &str = "kernel messages";
 
-/// The `#` commands: the words that identify it, what it touches, where it is described.
+/// The `#` commands: the words that identify each, its effect, where it is described.
 const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#ACHSE", Nothing, "tccncprogramming/15557317259"),
     ("#ACHSTAUSCH", Axes, EDITOR),
@@ -114,7 +114,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#FLUSH", Nothing, EDITOR),
     ("#FRC", Nothing, EDITOR),
     ("#FREE TOOL CHANGE", Nothing, EDITOR),
-    // Named by the kernel's messages 21721, 50758, 70496 and 70497 alone.
+    // Named only by the kernel's messages 21721, 50758, 70496 and 70497.
     ("#FRICTION", Friction, KERNEL),
     ("#GANTRY", Nothing, EDITOR),
     ("#GEAR LINK", Nothing, "PM/546229387"),
@@ -244,7 +244,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
 ];
 
 /// Returns the effect of a `#` command; `None` where no row names it. The name has its words in upper case
-/// with one blank between them; a row holds for its continuations.
+/// with one blank between them; a row applies to its continuations.
 pub(crate) fn hash_command(name: &str) -> Option<Touches> {
     row_of(name).map(|(_, touches)| touches)
 }
@@ -260,7 +260,7 @@ fn row_of(name: &str) -> Option<(&'static str, Touches)> {
         .map(|(words, touches, _)| (*words, *touches))
 }
 
-/// Words that go on the name of a `#` command or stand behind its bracket, `#MSG SAVE EXCLUSIVE […]`,
+/// Words that follow the name of a `#` command or its bracket, `#MSG SAVE EXCLUSIVE […]`,
 /// `#SET AX […] FAST` (vscode-isg-cnc; PM, chapters of the commands).
 const FURTHER_WORDS: [&str; 54] = [
     "ABS",
@@ -322,7 +322,7 @@ const FURTHER_WORDS: [&str; 54] = [
 /// Commands that take coordinates without a bracket, `#PSET X10 Y20`.
 const WITH_COORDINATES: [&str; 3] = ["#PRESET", "#PSET", "#SHIFT"];
 
-/// Whether a word goes on the name of a `#` command or stands behind its bracket.
+/// Whether a word follows the name of a `#` command or its bracket.
 pub(super) fn is_further_word(word: &str) -> bool {
     FURTHER_WORDS
         .iter()
@@ -334,7 +334,7 @@ pub(super) fn takes_coordinates(name: &str) -> bool {
     WITH_COORDINATES.contains(&name)
 }
 
-/// Returns how many words of a name belong to a `#` command that is known; 0 where none is.
+/// Returns how many words of a name belong to a known `#` command; 0 where none is known.
 pub(super) fn command_words(name: &str) -> usize {
     let Some((row, _)) = row_of(name) else {
         return 0;
@@ -343,7 +343,7 @@ pub(super) fn command_words(name: &str) -> usize {
     row.split(' ').count() + further.take_while(|word| is_further_word(word)).count()
 }
 
-/// Whether a name is that of a `#` command that is known.
+/// Whether a name is that of a known `#` command.
 pub(crate) fn is_command(name: &str) -> bool {
     hash_command(name).is_some()
 }
@@ -392,7 +392,7 @@ const AXIS_COMMANDS: [&str; 11] = [
     "POLY",
 ];
 
-/// Keywords in the bracket of a spindle, beside M, H and G with their numbers (PM/208178187).
+/// Keywords in the bracket of a spindle, in addition to M, H and G with their numbers (PM/208178187).
 const SPINDLE_COMMANDS: [&str; 10] = [
     "REV",
     "POS",
@@ -406,7 +406,7 @@ const SPINDLE_COMMANDS: [&str; 10] = [
     "SYN",
 ];
 
-/// Letters of words that are no axis and touch neither flow, parameters, calls nor COMP by themselves,
+/// Letters of words that are not axes and touch neither flow, parameters, calls nor COMP by themselves,
 /// or are followed here (PM/205952267): tool data, feed, G and M functions, H functions, centre and
 /// radius of circles, block numbers, spindle speed, tools.
 const LETTERS: &[u8] = b"DEFGHIJKMNRST";
@@ -442,8 +442,8 @@ pub(super) fn axis_commands() -> impl Iterator<Item = &'static str> {
     AXIS_COMMANDS.into_iter()
 }
 
-/// Whether a block is a program number, `O1234`, and nothing else (R2.93): beside other words an O is a
-/// slip of the pen for a zero.
+/// Whether a block is a program number, `O1234`, and nothing else (R2.93): with other words an O is a
+/// typing mistake for a zero.
 pub(crate) fn is_program_number(block: &Block) -> bool {
     #[allow(clippy::float_cmp)] // whole numbers are exact
     let is_number = |value: f64| value >= 0.0 && value.fract() == 0.0;
@@ -479,7 +479,7 @@ pub(crate) fn is_statement(text: &str) -> bool {
         .any(|known| known[1..].eq_ignore_ascii_case(word))
 }
 
-/// A command word may touch what follows it: `OVERRIDE=50`, `SYNC[1]`.
+/// The command word, which the text after it may touch: `OVERRIDE=50`, `SYNC[1]`.
 fn head(upper: &str) -> &str {
     let end = upper.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
     &upper[..end.unwrap_or(upper.len())]

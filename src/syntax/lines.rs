@@ -38,7 +38,7 @@ pub enum FastPath {
 pub struct BlockReader<S> {
     source: S,
     fast_path: FastPath,
-    /// The number of the line that `source` stands on.
+    /// The number of the current line of `source`.
     line: u32,
     /// Number and offset of the first line of the block that is read.
     start: (u32, usize),
@@ -67,7 +67,7 @@ impl<S: LineSource> BlockReader<S> {
         &self.source
     }
 
-    /// The remarks so far that stand directly above no block.
+    /// The remarks so far that are not directly above a block.
     pub fn lost_remarks(&self) -> &LostRemarks {
         self.remarks.lost()
     }
@@ -125,7 +125,7 @@ impl<S: LineSource> BlockReader<S> {
         }
     }
 
-    /// Reads the line that the source stands on, and those that belong to it.
+    /// Reads the current line, and those that belong to it.
     fn slow(&mut self, block: &mut Block) -> Option<Stretch> {
         let cut = self.source.line().cut;
         let masked = self.begin_block();
@@ -226,7 +226,7 @@ impl<S: LineSource> BlockReader<S> {
             }
         }
         self.pass_over(|code, continues| !continues && !code.trim_ascii().is_empty());
-        // What is cut off cannot be understood.
+        // A text that was cut off cannot be understood.
         self.code.clear();
         block.faults.push(Fault::new(
             Code::Fc206,
@@ -236,7 +236,7 @@ impl<S: LineSource> BlockReader<S> {
         foreign
     }
 
-    /// Passes over the lines up to the last one of what is too long to be kept. Whether it was found.
+    /// Skips the lines up to the last one of a text that is too long to keep. Whether it was found.
     fn pass_over(&mut self, is_last: impl Fn(&str, bool) -> bool) -> bool {
         let mut code = String::new();
         while self.source.advance() {
@@ -250,8 +250,8 @@ impl<S: LineSource> BlockReader<S> {
         false
     }
 
-    /// Passes over a comment region, whose opener is the block that is read; whether opener and end stand
-    /// alone (R2.6). Where the end does not, it is the block from here on.
+    /// Skips a comment region, whose opener is the block being read. Returns whether opener and end are
+    /// alone in their blocks (R2.6). Where the end is not, it is the block from here on.
     fn skip_comment_region(&mut self, opener_is_alone: bool) -> bool {
         let mut code = String::new();
         while self.source.advance() {
@@ -272,7 +272,7 @@ impl<S: LineSource> BlockReader<S> {
         opener_is_alone
     }
 
-    /// Appends lines up to the one that ends a region of declarations.
+    /// Appends lines up to the end of a region of declarations.
     fn take_region(&mut self, end: &str, block: &mut Block) {
         let opener = Span::new(0, self.text.len());
         let mut continued = false;
@@ -371,7 +371,7 @@ fn cap_faults(faults: &mut Vec<Fault>) {
 fn trimmed(line: &str) -> &str {
     let line = line.trim_ascii_end();
     if line.ends_with(is_blank) {
-        // What editors leave is rare, and looked for only where it is.
+        // What editors leave is rare, so it is looked for only in lines that end in it.
         return line.trim_end_matches(is_blank);
     }
     line

@@ -7,9 +7,9 @@ use crate::text::Span;
 /// Findings of the masking of a line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Masked {
-    /// A `\` stands at the end of the code.
+    /// The code ends in a `\`.
     pub(super) continues: bool,
-    /// The first character outside ASCII, or control character, that stands in code.
+    /// The first character outside ASCII, or control character, in the code.
     pub(super) foreign: Option<Span>,
 }
 
@@ -42,7 +42,7 @@ pub fn code_of(line: &str) -> String {
     code
 }
 
-/// Whether a line says that its block goes on in the next one.
+/// Whether a line marks its block as continued on the next one.
 pub(crate) fn goes_on(line: &str) -> bool {
     line.contains('\\') && mask(line, &mut String::new()).continues
 }

@@ -1,9 +1,9 @@
 //! From text to blocks.
 //!
-//! This is the only place that knows pest. Parsing never fails: a block comes back with what was
-//! understood and with the faults of the rest. Nothing here knows a machine.
+//! Only this module uses pest. Parsing never fails: a block comes back with what was understood and
+//! with the faults of the rest. Nothing here depends on a machine.
 
-// Without the feature, what only other packages of the same version see is as good as private.
+// Without the feature, items that only other packages of the same version see are as good as private.
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
 pub(crate) mod allow;

@@ -36,7 +36,7 @@ pub struct NameInBlock {
     pub span: Span,
 }
 
-/// The names of a block, from left to right. What a variable holds has none.
+/// The names of a block, from left to right. The contents of a variable have none.
 pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
     let mut names = NameSearch {
         text,

@@ -24,7 +24,7 @@ use crate::text::{Span, TextLines};
 /// ```
 ///
 /// # Errors
-/// The first fault that keeps the control from taking a COMP command, also one whose `COMP` is misspelt.
+/// The first fault that keeps the control from accepting a COMP command, also one whose `COMP` is misspelt.
 pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     let mut block = parse_block(text);
     let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
@@ -50,7 +50,7 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     }
 }
 
-/// Whether the first bracket of a text begins with `COMP`, or with what is nearly that.
+/// Whether the first bracket of a text begins with `COMP`, or nearly so.
 fn opens_comp(text: &str) -> bool {
     let Some((_, inside)) = text.split_once('[') else {
         return false;
@@ -67,8 +67,8 @@ pub fn parse_block(text: &str) -> Block {
     block
 }
 
-/// Whether a block is nothing but an M word, `N90 M30 ; end`, `M 2`, `M=P1`, so that another block can
-/// stand before it (R1.59). A jump label is more: a jump to it would pass over the other block.
+/// Whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, so that another block can be
+/// put before it (R1.59). A jump label is more: a jump to it would skip the other block.
 pub fn is_lone_m(text: &str) -> bool {
     let block = parse_block(text);
     let is_m = |word: &Word| word.address == Address::Letter(b'M');
@@ -81,8 +81,8 @@ pub fn is_lone_m(text: &str) -> bool {
         && !block.faults.iter().any(is_refused)
 }
 
-/// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
-/// deeply.
+/// Parses a text that is one expression into an empty block; `None` where it is not, or
+/// nests too deeply.
 pub fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
     lower_text(&brackets(text).ok()?.read, block)
 }

@@ -113,8 +113,8 @@ pub(super) fn is_blank(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
-/// A control character that editors leave at the end of a file; within a block it is none of the
-/// language (R2.1, R9.94).
+/// A control character that editors leave at the end of a file; within a block it is not part
+/// of the language (R2.1, R9.94).
 fn is_control(byte: u8) -> bool {
     matches!(byte, 0 | 3 | 0x1a)
 }

@@ -1,4 +1,4 @@
-//! A block as it stands in the file.
+//! A block as written in the file.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub enum Stretch {
     },
 }
 
-/// One block, or one `%` line, as it stands in the file.
+/// One block, or one `%` line, as written in the file.
 #[derive(Debug, Clone, Copy)]
 pub struct RawBlock<'a> {
     /// Kind of the stretch.
@@ -34,7 +34,7 @@ pub struct RawBlock<'a> {
     pub line: u32,
     /// Offset of that line in bytes from the start of the text.
     pub offset: usize,
-    /// Whether comments stand in it.
+    /// Whether it has comments.
     pub comments: Comments,
     /// Whether it was parsed by hand, so that it is made of words with plain numbers.
     pub plain: bool,
@@ -48,14 +48,14 @@ impl RawBlock<'_> {
         Place::in_block(file, self.text, self.line, span)
     }
 
-    /// The number of the line behind it.
+    /// The number of the line after it.
     pub(crate) fn line_after(&self) -> u32 {
         let lines = self.text.bytes().filter(|byte| *byte == b'\n').count();
         self.line
             .saturating_add(u32::try_from(lines + 1).unwrap_or(u32::MAX))
     }
 
-    /// A fault of a `%` line, which no run reaches, as a message about its file.
+    /// Turns a fault of a `%` line, which no run reaches, into a message about its file.
     pub(crate) fn opening_said(&self, file: &Arc<str>, fault: Fault) -> Diagnostic {
         let place = self.place(file, fault.span);
         fault.into_diagnostic(place, |_| None)
@@ -79,7 +79,7 @@ impl Remark {
     }
 }
 
-/// Remarks that stand directly above no block.
+/// Remarks that are not directly above a block.
 #[derive(Debug, Clone, Default)]
 pub struct LostRemarks {
     /// The first of them.
@@ -92,12 +92,12 @@ pub struct LostRemarks {
     pub more_reordered: u64,
 }
 
-/// Whether comments stand in a text.
+/// Whether a text has comments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Comments {
-    /// There is none.
+    /// It has none.
     Absent,
-    /// There may be some.
+    /// It may have some.
     Possible,
 }

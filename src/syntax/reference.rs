@@ -1,5 +1,5 @@
-//! The shortcuts against the grammar without any: block by block the same tree by the fast path, by the
-//! grammar, and by the grammar without its words in one token, on generated blocks and on blocks that
+//! The shortcuts against the grammar without any: block by block, the fast path, the grammar, and the
+//! grammar without its words in one token yield the same tree, on generated blocks and on blocks that
 //! were damaged afterwards.
 //!
 //! `cargo test --release --lib reference -- --ignored` compares ten million blocks.
@@ -146,7 +146,7 @@ const LINE_ENDS: [&str; 6] = ["\n", "\n", "\n", "\r\n", "\r", ""];
 fn push_word(line: &mut String, rng: &mut Rng) {
     line.push(rng.char('A'..='Z'));
     line.push_str(["", "", "", "-", "+"][rng.usize(..5)]);
-    // More than 308 digits before the point are no number.
+    // More than 308 digits before the point are not a number.
     let digits = match rng.u16(..500) {
         0 => 400,
         _ => rng.usize(..10),
@@ -235,7 +235,7 @@ fn compare_with_reference(code: &str) {
 }
 
 fn assert_same(text: &str, one: &Block, other: &Block) {
-    // A number that is none is NaN, and equals nothing.
+    // An invalid number is NaN, and equals nothing.
     let same = one == other || format!("{one:?}") == format!("{other:?}");
     assert!(same, "{text:?}\n{one:#?}\n{other:#?}");
 }

@@ -1,5 +1,5 @@
 //! A look over programs before they run, piece by piece: blocks that may matter are parsed as in a
-//! run, the rest is passed over. Nothing is executed.
+//! run, the rest is skipped. Nothing is executed.
 
 use std::collections::BTreeSet;
 
@@ -21,12 +21,12 @@ pub trait ScanQuestion {
     fn look(&mut self, block: &Block, text: &str);
 }
 
-/// Finds the blocks that answer a question; knows continued blocks and `#COMMENT` regions.
+/// Finds the blocks that answer a question; handles continued blocks and `#COMMENT` regions.
 #[derive(Debug, Default)]
 pub struct Scan<Q> {
     /// The question, with its findings.
     pub question: Q,
-    /// The lines of a block that goes on.
+    /// The lines of a continued block.
     open: String,
     /// Inside `#COMMENT BEGIN` … `#COMMENT END`.
     is_comment: bool,
@@ -47,7 +47,7 @@ impl<Q: ScanQuestion> Scan<Q> {
         let (mut marked, mut told) = (Some(0), Some(0));
         let mut from = 0;
         while from < lines.len() {
-            // What tells how to read on.
+            // These decide how to read on.
             if marked.is_some_and(|at| at < from || from == 0) {
                 let mark = memchr::memchr2(b'#', b'\\', &lines[from..]);
                 marked = mark.map(|at| from + at);
@@ -107,7 +107,7 @@ impl<Q: ScanQuestion> Scan<Q> {
     }
 }
 
-/// The axes whose friction compensation a program switches. What a macro stands for counts.
+/// The axes whose friction compensation a program switches. The code of macros counts.
 #[derive(Debug, Default)]
 pub struct SwitchedAxes(pub BTreeSet<String>);
 
@@ -349,7 +349,7 @@ mod tests {
         assert_eq!(names("#MSG [\"(\"] \nY1 (X1 (Z1) A1) ; B1"), "Y");
         assert_eq!(names("P1='H(X1' Y1\nV.P.X=1 x1\nX_ACHSE=1"), "");
         assert_eq!(names("G1 \\ ; X1\n(Y1)\n N20 Z1\nU1"), "U Z");
-        // A block that goes on in the next piece.
+        // A block that continues in the next piece.
         assert_eq!(named(&["G1 \\\n", "X1\nY1\n"]).0, "X Y");
     }
 

@@ -26,7 +26,7 @@ impl SkipLevels {
     /// The highest level.
     pub const HIGHEST: u8 = 10;
 
-    /// These and another level; `None` where there is no such level.
+    /// Adds a level; `None` where there is no such level.
     pub fn with(self, level: u8) -> Option<Self> {
         (1..=Self::HIGHEST)
             .contains(&level)

@@ -1,4 +1,4 @@
-//! Text that has the form of the language and no meaning that is known here (R2.70).
+//! Text that has the form of the language, but no known meaning (R2.70).
 
 use super::fault::Fault;
 use crate::diagnostic::Code;

@@ -3,9 +3,9 @@
 use crate::diagnostic::Fix;
 use crate::text::Span;
 
-/// The change that writes words in upper case: the first, and those after it up to where something
-/// may stand that the parser does not see. A comment or a foreign character is two blanks in `code`
-/// at least, a continued line has a line end.
+/// The change that writes words in upper case: the first, and those after it up to a place that may
+/// hold something that the parser does not see. A comment or a foreign character is at least two
+/// blanks in `code`, a continued line has a line end.
 pub(super) fn in_upper_case(code: &str, words: &[Span]) -> Option<Fix<Span>> {
     let (first, others) = words.split_first()?;
     let mut whole = *first;
@@ -43,7 +43,7 @@ mod tests {
             "X[COMP ON\tFRICT]"
         );
         assert_eq!(fixed("g1 x2", &[(0, 1), (3, 4)]), "G1 X2");
-        // A comment may stand there.
+        // There may be a comment.
         assert_eq!(
             fixed("X[COMP on  frict]", &[(7, 9), (11, 16)]),
             "X[COMP ON  frict]"

@@ -17,7 +17,7 @@ pub struct SourceFile {
 
 impl SourceFile {
     /// A source under the name that diagnostics and records show. A byte order mark at the start
-    /// of the text is no part of it.
+    /// of the text is not part of it.
     pub fn new(name: impl Into<Arc<str>>, text: impl Into<String>) -> Self {
         let mut text = text.into();
         if text.starts_with(BYTE_ORDER_MARK) {
@@ -30,7 +30,7 @@ impl SourceFile {
         }
     }
 
-    /// The same text as the rest of a longer one, whose first line here has a number there.
+    /// Makes the text the rest of a longer one, in which its first line has the number `first`.
     pub fn from_line(mut self, first: u32) -> Self {
         self.lines.first = first;
         self
@@ -46,7 +46,7 @@ impl SourceFile {
         &self.text
     }
 
-    /// The whole text, for callers that keep it beside the file.
+    /// The whole text, for callers that keep it separately from the file.
     pub(crate) fn shared_text(&self) -> Arc<String> {
         self.text.clone()
     }
@@ -59,7 +59,7 @@ impl SourceFile {
     /// The span of a place in this file; `None` where the file does not hold the lines of the place.
     pub fn find(&self, place: &Place) -> Option<Span> {
         let (mut start, mut end) = (None, None);
-        // The lines of the place may end otherwise than those of the file.
+        // The line ends of the place may differ from those of the file.
         let mut lines = TextLines::starting_at(&place.text, 0);
         for number in place.first_line.. {
             let more = lines.advance();
@@ -104,7 +104,7 @@ impl SourceFile {
             .lines
             .line_span(&self.text, first_line)
             .to(self.lines.line_span(&self.text, last_line));
-        // A span that goes on after the end of its last line ends with it.
+        // A span that extends past the end of its last line ends with it.
         let inside = |offset: u32| offset.clamp(lines.start, lines.end) - lines.start;
         Place {
             file: self.name.clone(),

@@ -7,7 +7,7 @@ use super::span::Span;
 
 /// Whether a character is a control character, changes how its neighbours are read, or is
 /// invisible: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
-/// characters without width, and what is no character.
+/// characters without width, and code points that are not characters.
 pub fn is_hidden(letter: char) -> bool {
     matches!(
         letter,
@@ -61,7 +61,7 @@ pub fn changed_direction(text: &str) -> Option<(Span, String)> {
     Some((Span::new(first, end), sentence))
 }
 
-/// A JSON document of another writer, in which hidden characters stand only within texts, with
+/// Returns a JSON document of another writer, whose hidden characters are only within texts, with
 /// those escaped.
 pub fn shown_json(document: &str) -> Cow<'_, str> {
     let hidden = |letter: char| letter != '\n' && is_hidden(letter);

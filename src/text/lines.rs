@@ -80,7 +80,7 @@ pub struct TextLines<'a> {
 }
 
 impl<'a> TextLines<'a> {
-    /// The lines of `text`. A byte order mark at its start is passed over.
+    /// The lines of `text`. A byte order mark at its start is skipped.
     pub fn new(text: &'a str) -> Self {
         let start = text.len() - text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).len();
         Self::starting_at(text, start)

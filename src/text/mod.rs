@@ -1,8 +1,8 @@
 //! Text and places in it: spans, lines and columns, physical lines one after another.
 //!
-//! Nothing here knows what an NC block or a list entry is. Offsets are bytes in UTF-8 text; lines
-//! and columns are made only when something is printed. What bytes of files mean, the code pages of old
-//! systems, is handled where files are read.
+//! Nothing here depends on NC blocks or list entries. Offsets are bytes in UTF-8 text; lines
+//! and columns are made only when something is printed. The encoding of files, such as the code pages of
+//! old systems, is handled where files are read.
 
 mod file;
 mod hidden;

@@ -93,7 +93,7 @@ pub(crate) struct StartsInOrder {
 }
 
 impl StartsInOrder {
-    /// The same as [`Place::start`].
+    /// Returns [`Place::start`] of a place.
     pub(crate) fn start(&mut self, place: &Place) -> Position {
         let near = self.last.as_ref().and_then(|(last, position)| {
             let between = (last.span.start as usize)..(place.span.start as usize);

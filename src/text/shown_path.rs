@@ -14,7 +14,7 @@ pub fn shown_path(path: &Path) -> String {
 }
 
 /// A path of Windows with `/` between its parts and without `\\?\`, which lifts limits of the system and
-/// is nothing that a user wrote.
+/// was not written by the user.
 fn slashed(path: &str) -> String {
     let plain = match path.strip_prefix(r"\\?\UNC\") {
         Some(share) => format!("//{share}"),

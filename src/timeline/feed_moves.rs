@@ -13,24 +13,23 @@ pub struct FeedMoves {
     pub off: u64,
     /// Number of moves while it was selected without effect.
     pub ineffective: u64,
-    /// Number of moves of which it is not known whether it was active, whether they are made, or
-    /// whether they are rapid.
+    /// Number of moves for which it is unknown whether compensation was active, whether they are made, or whether they
+    /// are rapid.
     pub unknown: u64,
-    /// The longest way of the axis without compensation, in mm or degrees, of the moves whose length
-    /// is known.
+    /// The longest travel of the axis without compensation, in mm or degrees, among the moves of known length.
     pub longest: Option<f64>,
-    /// Number of moves without compensation whose length is not known: arcs, and moves whose start or
-    /// end is not known or not one of the machine.
+    /// Number of moves without compensation whose length is unknown: arcs, and moves whose start or end is unknown or
+    /// not a machine position.
     pub unmeasured: u64,
 }
 
 impl FeedMoves {
-    /// Number of moves that were made without compensation.
+    /// Returns the number of moves made without compensation.
     pub fn without(&self) -> u64 {
         self.off + self.ineffective
     }
 
-    /// Whether there is no such move.
+    /// Whether there are no such moves.
     pub fn is_empty(&self) -> bool {
         self.without() == 0 && self.unknown == 0
     }
@@ -44,7 +43,7 @@ impl FeedMoves {
         self.see(other.longest);
     }
 
-    /// Adds a move in a state in which nothing is compensated.
+    /// Adds a move in a state without compensation.
     pub(crate) fn add(&mut self, state: State, length: Option<f64>) {
         match state {
             State::Ineffective => self.ineffective += 1,

@@ -35,8 +35,7 @@ pub struct ReadingInForce {
 pub struct ReadingsInForce(BTreeSet<ReadingInForce>);
 
 impl ReadingsInForce {
-    /// Returns the readings of a machine for these questions. A question of which neither reading is
-    /// taken decides nothing.
+    /// Returns the readings of a machine for these questions. A question without a reading in force decides nothing.
     pub fn of(questions: QuestionSet, machine: &Machine) -> Self {
         let (readings, build) = (&machine.readings, machine.build);
         let decided = questions.iter();

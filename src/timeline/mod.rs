@@ -1,11 +1,11 @@
 //! Rows and records: what a dry run reports, in that order.
 //!
-//! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then
-//! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes
-//! them one after another; nothing is kept, so a program of any length streams through.
+//! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then for each program its
+//! beginning, its blocks, its end, and finally the summary. A [`Sink`] takes them one after another; nothing is kept,
+//! so a program of any length streams through.
 //!
-//! Records are [`Serialize`](serde::Serialize): the objects are the lines of the NDJSON timeline. What is
-//! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
+//! Records are [`Serialize`](serde::Serialize): the objects are the lines of the NDJSON timeline. There, a message
+//! about a block or an end is a separate record, see [`Record::diagnostics`].
 
 mod feed_moves;
 mod in_force;

@@ -1,4 +1,4 @@
-//! The serialised form of states of which several are possible (R14.2).
+//! The serialised form of states if several are possible (R14.2).
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::record::StateView;
 use crate::comp::KindSet;
 use crate::interpreter::PossibleStates;
 
-/// Axis → kind → the states that are possible, where a state is unknown because ways differ.
+/// Axis → kind → the possible states, if a state is unknown because ways differ.
 #[derive(Debug, Clone, Copy)]
 pub struct Possible<'a> {
     state: StateView<'a>,
@@ -16,7 +16,7 @@ pub struct Possible<'a> {
 }
 
 impl<'a> Possible<'a> {
-    /// Those of some kinds.
+    /// Selects the states of some kinds.
     pub fn of(state: StateView<'a>, kinds: KindSet) -> Self {
         Self { state, kinds }
     }

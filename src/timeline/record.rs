@@ -30,15 +30,14 @@ pub struct StateView<'a> {
     pub compensation: &'a Compensation,
     /// Kinds that are unknown because ways differ, with their possible states.
     pub possible: &'a [PossibleStates],
-    /// The axes that are listed, by position: all of a configured machine; of an unconfigured one
-    /// those that occurred so far.
+    /// The listed axes, by position: all of a configured machine; of an unconfigured one those that occurred so far.
     pub listed: &'a [bool],
-    /// Rises whenever a state or the list of axes changes, so that a writer may keep what it made.
+    /// Increases whenever a state or the axis list changes, so that a writer may reuse its output.
     pub version: u64,
 }
 
 impl<'a> StateView<'a> {
-    /// The listed axes in the machine's order, with their names.
+    /// Returns the listed axes in the machine's order, with their names.
     pub fn axes(self) -> impl Iterator<Item = (AxisIndex, &'a str)> {
         self.machine
             .axes
@@ -49,18 +48,18 @@ impl<'a> StateView<'a> {
             .map(|(index, (axis, _))| (AxisIndex::new(index), axis.name.as_str()))
     }
 
-    /// The state of one kind on one axis.
+    /// Returns the state of one kind on one axis.
     pub fn state(self, axis: AxisIndex, kind: Kind) -> State {
         self.compensation.state(axis, kind)
     }
 
-    /// The states of one kind on one axis that are possible, where it is unknown because ways differ.
+    /// Returns the possible states of one kind on one axis, if it is unknown because ways differ.
     pub fn possible_of(self, axis: AxisIndex, kind: Kind) -> Option<&'a PossibleStates> {
         let mut possible = self.possible.iter();
         possible.find(|it| (it.axis, it.kind) == (axis, kind))
     }
 
-    /// The name of an axis.
+    /// Returns the name of an axis.
     pub fn name(self, axis: AxisIndex) -> &'a str {
         &self.machine.axis(axis).name
     }
@@ -74,11 +73,11 @@ pub struct Row<'a> {
     pub program: u32,
     /// The executed block of the program, from 1, loops included.
     pub seq: u64,
-    /// The file that holds the block.
+    /// The file that contains the block.
     pub file: &'a str,
     /// The line on which the block starts, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
     /// The call depth, from 1; absent in the main program.
     pub level: Option<u32>,
@@ -92,22 +91,22 @@ pub struct Row<'a> {
     pub modal: &'a Modal,
     /// Motion of the block, where the session takes motions.
     pub motion: Option<&'a Motion>,
-    /// The answers of the machine that lead to the block, where it is executed on some ways only: a
-    /// list of ways, each a list of conditions that hold together.
+    /// The machine's answers that lead to the block, if it is executed on some ways only: a list of ways, each a list
+    /// of conditions that hold together.
     pub branch: Option<&'a [Vec<WayCondition>]>,
     /// Messages on the block, written right after it.
     pub diagnostics: &'a [Diagnostic],
 }
 
 impl Row<'_> {
-    /// The ways on which the block is executed, in words: `V.E.A == 2 (line 12), or if skip level 1 is
-    /// off`; `None` where it is executed on all of them (R14.2).
+    /// Returns the ways on which the block is executed, in words: `V.E.A == 2 (line 12), or if skip level 1 is off`;
+    /// `None` if it is executed on all of them (R14.2).
     pub fn branch_in_words(&self) -> Option<String> {
         self.branch.map(|ways| ways_in_words(ways, self.file))
     }
 }
 
-/// A block before which ways that differ in an answer of the machine join (R14.2).
+/// A block before which ways that differ in an answer of the machine meet again (R14.2).
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Join<'a> {
@@ -115,7 +114,7 @@ pub struct Join<'a> {
     pub program: u32,
     /// Number of blocks of the program executed before it.
     pub seq: u64,
-    /// The file that holds the block at which they meet.
+    /// The file that contains the block at which they meet.
     pub file: &'a str,
     /// The line on which that block starts, from 1.
     pub line: u32,
@@ -123,13 +122,13 @@ pub struct Join<'a> {
     pub state: StateView<'a>,
 }
 
-/// Number of repetitions of a remark that was made once.
+/// Repetitions of a remark that was made once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Repeat {
     /// The remark.
     pub code: Code,
-    /// Path of the file, as it is shown.
+    /// Path of the file as shown.
     pub file: String,
     /// The line of the remark.
     pub line: u32,
@@ -149,11 +148,11 @@ pub struct End<'a> {
     pub program: u32,
     /// Number of executed blocks.
     pub seq: u64,
-    /// Why it ended.
+    /// The reason for its end.
     pub by: EndedBy,
     /// Notes at the end (FC401, FC403, …), written before the end record.
     pub notes: &'a [EndNote],
-    /// Remarks that were made once for a place although they applied more often.
+    /// Remarks made once for a place although they applied more often.
     pub repeated: &'a [Repeat],
     /// Changes by the program end itself (kinds with manual activation).
     pub changes: &'a [Change],
@@ -161,11 +160,11 @@ pub struct End<'a> {
     pub state: StateView<'a>,
 }
 
-/// Line of the text summary on one axis.
+/// Summary of one axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisSummary {
-    /// Kinds other than friction compensation that are not as at the start of the control.
+    /// Kinds other than friction compensation that differ from the start of the control.
     pub others_away: KindSet,
     /// Position of the axis in the machine.
     pub axis: AxisIndex,
@@ -175,8 +174,8 @@ pub struct AxisSummary {
     pub end: State,
     /// Friction compensation at the start of the control (R1.22).
     pub start_up: State,
-    /// Whether it was reported that it is left away from its start-up state (FC401, FC407), or the user
-    /// silenced that.
+    /// Whether a message reported that it is left away from its start-up state (FC401, FC407), or the user silenced
+    /// that message.
     pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.
     pub changed_by: Vec<ChangedBy>,
@@ -216,12 +215,12 @@ pub struct Summary<'a> {
     pub opaque: &'a BTreeMap<String, u64>,
     /// Summary of each listed axis.
     pub axes: Vec<AxisSummary>,
-    /// The codes of messages that limit what the states say (R2.94): they rest on an assumption about what only the
-    /// machine knows (FC210, FC325, FC902), or the control stops on some ways.
+    /// The codes of messages that limit the validity of the states (R2.94): these rest on an assumption about what only
+    /// the machine knows (FC210, FC325, FC902), or the control stops on some ways.
     pub assumed: BTreeSet<Code>,
-    /// The open questions on whose readings results rest (R15.3).
+    /// The open questions whose readings the results depend on (R15.3).
     pub rests_on: QuestionSet,
-    /// The state that is left.
+    /// The final state.
     pub state: StateView<'a>,
 }
 
@@ -231,7 +230,7 @@ impl Summary<'_> {
         self.counts.get(&severity).copied().unwrap_or_default()
     }
 
-    /// The axes with feed moves while their friction compensation was not active (R13.12).
+    /// Returns the axes with feed moves while their friction compensation was not active (R13.12).
     pub fn uncompensated(&self) -> impl Iterator<Item = &AxisSummary> {
         self.axes.iter().filter(|axis| !axis.feed_moves.is_empty())
     }
@@ -245,10 +244,10 @@ pub enum Record<'a> {
     Session {
         /// The state that the first program starts with.
         state: StateView<'a>,
-        /// Remark above everything else: no machine is described (R1.37).
+        /// Remark at the top: no machine is described (R1.37).
         remark: Option<&'a str>,
     },
-    /// A statement about the machine's lists; the programs have not begun.
+    /// A message about the machine's lists; the programs have not begun.
     Machine(&'a Diagnostic),
     /// A program begins.
     Program {
@@ -272,8 +271,8 @@ pub enum Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// The diagnostics that come with the record, in the order in which they are written: those of a
-    /// block after it, those of an end before it.
+    /// Returns the diagnostics of the record, in the order in which they are written: those of a block after it, those
+    /// of an end before it.
     pub fn diagnostics(&self) -> impl Iterator<Item = DiagnosticRecord<'a>> {
         let (program, row, notes): (_, Option<Row<'a>>, &'a [EndNote]) = match *self {
             Self::Block(row) => (row.program, Some(row), &[]),
@@ -295,7 +294,7 @@ impl<'a> Record<'a> {
     }
 }
 
-/// A diagnostic as a record of its own.
+/// A diagnostic as a separate record.
 #[derive(Debug, Clone, Copy)]
 pub struct DiagnosticRecord<'a> {
     /// The number of the program and the executed block; `None` for messages about the machine.
@@ -312,7 +311,7 @@ impl<'a> DiagnosticRecord<'a> {
         }
     }
 
-    /// The diagnostic.
+    /// Returns the diagnostic.
     pub fn diagnostic(&self) -> &'a Diagnostic {
         self.diagnostic
     }
@@ -320,7 +319,7 @@ impl<'a> DiagnosticRecord<'a> {
 
 /// Takes the records of a session.
 ///
-/// A closure is one too.
+/// A closure is a sink, too.
 pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;

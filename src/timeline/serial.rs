@@ -13,8 +13,8 @@ use crate::comp::{AxisIndex, Change, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::WayCondition;
 
-/// The states of axes as a record ends with them: those of friction compensation, and those of each
-/// selected kind where that is not friction compensation alone (R9.12).
+/// The states of axes at the end of a record: those of friction compensation, and those of each selected kind unless
+/// only friction compensation is selected (R9.12).
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct States<'a> {
     friction: FrictionStates<'a>,
@@ -25,7 +25,7 @@ pub struct States<'a> {
 }
 
 impl<'a> States<'a> {
-    /// Those of some kinds.
+    /// Selects the states of some kinds.
     pub fn of(state: StateView<'a>, kinds: KindSet) -> Self {
         let is_plain = kinds == KindSet::of(Kind::Frict);
         Self {
@@ -188,7 +188,7 @@ enum Object<'a> {
         seq: u64,
         by: &'static str,
         // Program end never changes friction compensation (R1.27); kinds with manual activation
-        // fall off.
+        // switch off.
         #[serde(skip_serializing_if = "Changes::is_empty")]
         changes: Changes<'a>,
         #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -274,7 +274,7 @@ impl<'a> Object<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// The state after the record; `None` for a statement about the machine's lists.
+    /// Returns the state after the record; `None` for a message about the machine's lists.
     pub fn state(&self) -> Option<StateView<'a>> {
         match *self {
             Self::Machine(_) => None,
@@ -286,8 +286,8 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// The serialised form with the changes of some kinds. `states` are [`States`], or what a writer
-    /// keeps of those of the last record.
+    /// Returns the serialised form with the changes of some kinds. `states` are [`States`], or a writer's copy of those
+    /// of the last record.
     pub fn with_states<S: Serialize>(&self, kinds: KindSet, states: S) -> impl Serialize {
         #[derive(Serialize)]
         struct Whole<'a, S> {

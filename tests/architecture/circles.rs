@@ -1,6 +1,6 @@
-//! No circle of imports inside a room: a type that two files need lives in a third. Where the methods
-//! of a type stand in several files, a call of one in another file counts as an import, also through
-//! fields: `self.run.step()`.
+//! No circle of imports inside a room: a type that two files need belongs in a third. If the methods of a type are
+//! spread over several files, a call of one from another file counts as an import, also through fields:
+//! `self.run.step()`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,10 +9,10 @@ use super::{File, code, sources};
 /// The files of a room by their module path, `friction::gms`; the room itself is the empty one.
 type Modules<'a> = BTreeMap<Vec<&'a str>, &'a File>;
 
-/// Which modules each module imports.
+/// The modules that each module imports.
 type Imports<'a> = BTreeMap<Vec<&'a str>, BTreeSet<Vec<&'a str>>>;
 
-/// The module path of a file inside its room.
+/// Returns the module path of a file inside its room.
 fn module_path(file: &File) -> Vec<&str> {
     let below = file.path.strip_suffix(".rs").expect("a Rust file");
     let mut path: Vec<&str> = below.split('/').skip(1).collect();
@@ -22,7 +22,7 @@ fn module_path(file: &File) -> Vec<&str> {
     path
 }
 
-/// The code of a file as one text, without what only gives a visibility.
+/// Returns the code of a file as one text, without visibility paths.
 fn text_of(file: &File) -> String {
     let lines: Vec<&str> = code(file).map(|(_, line)| line).collect();
     let mut text = lines.join("\n");
@@ -33,14 +33,14 @@ fn text_of(file: &File) -> String {
     text
 }
 
-/// The name at the beginning of a text, and what follows it.
+/// Returns the name at the beginning of a text, and the rest.
 fn split_name(text: &str) -> (&str, &str) {
     let end = text.find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
     text.split_at(end.unwrap_or(text.len()))
 }
 
-/// The modules of the room that a path leads to, whose beginning has led to `module`. A group in
-/// braces leads to several.
+/// Returns the modules of the room that a path leads to after its beginning has led to `module`. A group in braces
+/// leads to several.
 fn targets<'a>(modules: &Modules<'a>, module: &[&'a str], path: &str) -> BTreeSet<Vec<&'a str>> {
     let path = path.trim_start();
     if let Some(group) = path.strip_prefix('{') {
@@ -64,7 +64,7 @@ fn targets<'a>(modules: &Modules<'a>, module: &[&'a str], path: &str) -> BTreeSe
     }
 }
 
-/// The parts of a group, of which the text follows the opening brace.
+/// Returns the parts of a group, given the text after the opening brace.
 fn parts(group: &str) -> Vec<&str> {
     let (mut depth, mut begin) = (0, 0);
     let mut parts = Vec::new();
@@ -87,7 +87,7 @@ fn parts(group: &str) -> Vec<&str> {
     parts
 }
 
-/// The modules of its room that a file imports, by whatever path.
+/// Returns the modules of its room that a file imports, by any path.
 fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet<Vec<&'a str>> {
     let text = text_of(file);
     let children: Vec<&str> = modules
@@ -97,7 +97,7 @@ fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet
         .collect();
     let mut found = BTreeSet::new();
     for (at, _) in text.match_indices("::") {
-        // The first name of the path, which nothing precedes.
+        // The first name of the path, without anything before it.
         let head = &text[..at];
         let begin = head.rfind(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
         let begin = begin.map_or(0, |begin| begin + 1);
@@ -128,7 +128,7 @@ fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet
     found
 }
 
-/// The bodies of the `impl` blocks that a text has for its types, not for their traits.
+/// Returns the bodies of the inherent `impl` blocks in a text.
 fn methods(text: &str) -> Vec<(&str, &str)> {
     let blocks = text.split("\nimpl").skip(1);
     let own = blocks.filter_map(|block| {
@@ -141,7 +141,7 @@ fn methods(text: &str) -> Vec<(&str, &str)> {
     own.collect()
 }
 
-/// The names that follow each of some words in a text, up to the bracket of a call.
+/// Returns the names that follow some words in a text, up to the bracket of a call.
 fn names_after<'a>(text: &'a str, words: &[&str], call: &str) -> BTreeSet<&'a str> {
     let ends = |word: &str| -> Vec<usize> {
         let found = text.match_indices(word);
@@ -153,7 +153,7 @@ fn names_after<'a>(text: &'a str, words: &[&str], call: &str) -> BTreeSet<&'a st
     called.map(|(name, _)| name).collect()
 }
 
-/// The fields of the structs of a text: the struct, the field, and the names in its type.
+/// Returns the fields of the structs in a text: the struct, the field, and the names in its type.
 fn fields(text: &str) -> Vec<(&str, &str, Vec<&str>)> {
     let structs = text.match_indices("struct ").filter_map(|(at, word)| {
         let (name, rest) = split_name(&text[at + word.len()..]);
@@ -175,7 +175,7 @@ fn fields(text: &str) -> Vec<(&str, &str, Vec<&str>)> {
         .collect()
 }
 
-/// The calls in a text that go from `self` through fields: the fields, then the method.
+/// Returns the calls in a text that go from `self` through fields: the fields, then the method.
 fn calls_through_fields(text: &str) -> Vec<(Vec<&str>, &str)> {
     let found = text.match_indices("self").filter_map(|(at, word)| {
         let is_whole = !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
@@ -192,7 +192,7 @@ fn calls_through_fields(text: &str) -> Vec<(Vec<&str>, &str)> {
     found.collect()
 }
 
-/// The files whose methods of a type those of the same type in another file call.
+/// Returns the files whose methods are called by methods of the same type in another file.
 fn called<'a>(modules: &Modules<'a>) -> Imports<'a> {
     let texts: Vec<(&Vec<&str>, String)> = modules
         .iter()
@@ -238,8 +238,8 @@ fn called<'a>(modules: &Modules<'a>) -> Imports<'a> {
     calls
 }
 
-/// The imports inside a room that are part of a circle: what is left when files that import none
-/// of the rest, or that none of the rest imports, are taken away again and again.
+/// Returns the imports inside a room that are part of a circle: those that remain after repeatedly removing files that
+/// import none of the rest, or that none of the rest imports.
 fn circles<'a>(modules: &Modules<'a>) -> Imports<'a> {
     let mut left: Imports<'a> = modules
         .iter()
@@ -262,7 +262,7 @@ fn circles<'a>(modules: &Modules<'a>) -> Imports<'a> {
     }
 }
 
-/// The circles of each room, as lines.
+/// Returns the circles of each room, as lines.
 fn circles_of_rooms() -> BTreeMap<String, Vec<String>> {
     let files = sources();
     let mut rooms: BTreeMap<&str, Modules> = BTreeMap::new();
@@ -290,7 +290,7 @@ fn no_room_has_a_circle_inside() {
     let wrong: Vec<String> = circles_of_rooms().into_values().flatten().collect();
     assert!(
         wrong.is_empty(),
-        "files import each other in a circle; what both need belongs into a third:\n{}",
+        "files import each other in a circle; code that both need belongs in a third:\n{}",
         wrong.join("\n")
     );
 }

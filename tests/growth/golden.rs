@@ -1,4 +1,4 @@
-//! Results that are agreed on, in many folders (R9.90).
+//! Agreed results in many folders (R9.90).
 
 use std::cell::Cell;
 use std::fs;
@@ -14,7 +14,7 @@ const TIMELINE: GoldenKind = GoldenKind {
     writer: "golden --update",
 };
 
-/// Folders with a program each, and what was agreed on beside it.
+/// Folders with one program each, and the agreed result next to it.
 struct Archive {
     root: TempDir,
     agreed: GoldenResults,
@@ -47,11 +47,11 @@ impl Archive {
         }
     }
 
-    /// Agrees on another result of each program.
+    /// Agrees on another result for each program.
     fn update(&self, result: &str) {
         let now = |_: &Input, _: Option<&str>| Ok::<_, HostError>(result.to_owned());
         let updated = self.agreed.update(&self.files, &self.registry, now);
-        for folder in updated.expect("nothing stands in its way") {
+        for folder in updated.expect("nothing prevents it") {
             assert!(folder.failures.is_empty(), "{:?}", folder.failures);
             assert_eq!(folder.written.len(), 1);
         }
@@ -60,7 +60,7 @@ impl Archive {
     }
 }
 
-/// Twice as many folders take at most as much more as the bound.
+/// Checks that twice as many folders take at most the bound times as long.
 #[track_caller]
 fn is_linear(folders: usize, bound: f64) {
     let archives = [folders, 2 * folders].map(Archive::new);

@@ -1,26 +1,26 @@
-//! What work takes of the processor, and how that grows.
+//! The processor time of work, and its growth.
 
 use std::time::Duration;
 
 use rustix::time::{ClockId, clock_gettime};
 
-/// How much more twice as much may take (R9.90).
+/// The factor that twice as much work may take (R9.90).
 pub(crate) const TWICE: f64 = 2.2;
 
-/// What anything may take.
+/// The time that any work may take.
 const FLOOR: Duration = Duration::from_micros(200);
 
-/// How often is measured at most.
+/// The most measurements.
 const MOST: usize = 16;
 
-/// How many of the measurements have to stay within the bound: other work on the machine slows some down, and
-/// what is slow is so in each.
+/// The number of measurements that have to stay within the bound: other work on the machine slows some of them down,
+/// but slow code is slow in all of them.
 const ENOUGH: usize = 3;
 
-/// How far beyond the bound there is no doubt.
+/// The factor by which exceeding the bound is beyond doubt.
 const CLEARLY: f64 = 1.15;
 
-/// The processor time of this thread.
+/// Returns the processor time of this thread.
 pub(crate) fn of_thread() -> Duration {
     let now = clock_gettime(ClockId::ThreadCPUTime);
     let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
@@ -34,8 +34,8 @@ fn taken(work: impl FnOnce()) -> Duration {
     of_thread().saturating_sub(before)
 }
 
-/// By how much more than the bound work of the greater size takes, in all but a few measurements, at
-/// least; `None` where it is within the bound at once, or in enough of them.
+/// Returns the factor by which work of the greater size exceeds the bound at least, in all but a few measurements;
+/// `None` if it is within the bound at once, or in enough of them.
 pub(crate) fn excess(
     [small, great]: [usize; 2],
     bound: f64,

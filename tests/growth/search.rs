@@ -1,4 +1,4 @@
-//! The search.
+//! The search for growth.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -13,16 +13,16 @@ use frictcomp::timeline::{Record, Sink};
 use crate::measure::{TWICE, excess, of_thread};
 use crate::tokens;
 
-/// How a sequence of tokens is repeated.
+/// Ways to repeat a sequence of tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Repeated {
     /// Within one line.
     InLine,
-    /// Within one block that goes on over lines.
+    /// Within one block that continues over lines.
     InBlock,
     /// Line by line.
     OverLines,
-    /// In a called file each.
+    /// Each in a called file.
     OverFiles,
     /// Line by line in a list.
     OverListLines,
@@ -30,14 +30,14 @@ enum Repeated {
 
 use Repeated::{InBlock, InLine, OverFiles, OverLines, OverListLines};
 
-/// Ways to repeat what stands in programs.
+/// Ways to repeat tokens in programs.
 const IN_PROGRAMS: [Repeated; 4] = [InLine, InBlock, OverLines, OverFiles];
 
 /// Bytes of half the longest line.
 const HALF_A_LINE: usize = 1_950;
 
 impl Repeated {
-    /// How much of it the long search looks at: bytes, or lines, or files.
+    /// Returns the size of the long search: bytes, lines or files.
     fn size(self) -> usize {
         match self {
             InLine => HALF_A_LINE,
@@ -48,7 +48,7 @@ impl Repeated {
         }
     }
 
-    /// What stands between tokens, and after the last one.
+    /// Returns the separators between tokens and after the last one.
     fn between(self) -> &'static [&'static str] {
         match self {
             InLine | InBlock => &["", " "],
@@ -56,7 +56,7 @@ impl Repeated {
         }
     }
 
-    /// Sizes of which one is eight times the other. A line is not longer than 4000 characters.
+    /// Returns two sizes, one eight times the other. A line has at most 4000 characters.
     fn further(self, size: usize) -> [usize; 2] {
         match self {
             InLine => [HALF_A_LINE / 4, 2 * HALF_A_LINE],
@@ -93,12 +93,12 @@ impl Repeated {
     }
 }
 
-/// A sequence repeated to so many bytes.
+/// Returns a sequence repeated up to a number of bytes.
 fn filled(sequence: &str, bytes: usize) -> String {
     sequence.repeat(bytes / sequence.len())
 }
 
-/// A block of so many bytes, on lines that are not too long.
+/// Returns a block of this many bytes, on lines that are not too long.
 fn block(sequence: &str, bytes: usize) -> String {
     let line = format!("{} \\\n", filled(sequence, 60.max(sequence.len())));
     format!("X1 \\\n{}X1\nM30\n", line.repeat(bytes / line.len()))
@@ -129,20 +129,20 @@ fn run(text: &str, called: &str, size: usize) {
     let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nothing);
 }
 
-/// How many finds are enough for a look at their cause.
+/// The number of finds that are enough to look for their cause.
 const ENOUGH: usize = 8;
 
-/// How thoroughly is looked.
+/// The thoroughness of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
-    /// At an eighth of the size only, where budgets that begin to count show, too.
+    /// Only at an eighth of the size, where the onset of budgets shows, too.
     Short,
-    /// At all of it besides.
+    /// At the whole size as well.
     Long,
 }
 
 impl Look {
-    /// Shares of the size, and how much more twice as much may take.
+    /// Returns divisors of the size, and the factor that twice as much may take.
     fn bounds(self) -> &'static [(usize, f64)] {
         const LITTLE: (usize, f64) = (8, 1.5 * TWICE);
         match self {
@@ -152,13 +152,13 @@ impl Look {
     }
 }
 
-/// A search, and what it has found.
+/// A search and its finds.
 struct Search {
     look: Look,
     ways: &'static [Repeated],
-    /// Of so many combinations one is looked at.
+    /// One out of this many combinations is tried.
     step: usize,
-    /// How many combinations were looked at.
+    /// The number of combinations tried.
     looked: usize,
     found: Vec<String>,
 }
@@ -174,7 +174,7 @@ impl Search {
         }
     }
 
-    /// A long search, of which `GROWTH_SHARE` may ask for a part.
+    /// Creates a long search, which `GROWTH_SHARE` may limit to a part.
     fn long(look: Look, ways: &'static [Repeated]) -> Self {
         let share = std::env::var("GROWTH_SHARE").ok();
         let share = share.map_or(1.0, |share| share.parse::<f64>().expect("a number"));
@@ -198,8 +198,7 @@ impl Search {
                 let size = how.size() / share;
                 let run = |size| how.run(&sequence, size);
                 let growth = excess([size, 2 * size], bound, run)?;
-                // Memory that is farther away, and bounds that end something at once, make one step; what
-                // grows goes on.
+                // Slower memory, and bounds that end something at once, cause a single step; real growth continues.
                 let further = how.further(size);
                 excess(further, TWICE.powi(3), run)?;
                 Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
@@ -211,7 +210,7 @@ impl Search {
         }
     }
 
-    /// Looks at every combination of so many of the tokens.
+    /// Tries every combination of this many tokens.
     fn every(mut self, length: usize, tokens: &[String]) -> Self {
         let places = u32::try_from(length).expect("a few tokens");
         for number in (0..tokens.len().pow(places)).step_by(self.step) {
@@ -225,7 +224,7 @@ impl Search {
         self
     }
 
-    /// Looks at so many combinations of so many of the tokens, the same in each run.
+    /// Tries a number of combinations of a number of tokens, the same in each run.
     fn some(mut self, (count, length): (usize, usize), tokens: &[String]) -> Self {
         let mut rng = Rng::with_seed(u64::try_from(length).expect("a small number"));
         for _ in 0..count {
@@ -245,12 +244,12 @@ impl Search {
     }
 }
 
-/// Whether of the rotations of a combination, which repeat the same, it is the one that is looked at.
+/// Whether a combination is the one to try among its rotations, which repeat the same text.
 fn is_first_rotation(combination: &[usize]) -> bool {
     let length = combination.len();
     (1..length).all(|by| {
         let rotated = (0..length).map(|at| combination[(at + by) % length]);
-        // One that equals its rotation repeats a shorter combination.
+        // A combination that equals its rotation repeats a shorter one.
         rotated.gt(combination.iter().copied())
     })
 }
@@ -276,7 +275,7 @@ fn some_combinations_repeated() {
 #[test]
 #[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
 fn brackets_that_stay_open() {
-    // R9.90: as many as may nest, with so much in each that a look to the end of the block shows.
+    // R9.90: as many as may nest, with enough in each that a scan to the end of the block shows.
     const NESTED: [usize; 2] = [31, 62];
     let pairs = tokens::OPENERS
         .iter()

@@ -1,10 +1,10 @@
-//! What programs and lists consist of, drawn from the grammar.
+//! The elements of programs and lists, drawn from the grammar.
 
 use std::collections::BTreeSet;
 
 const GRAMMAR: &str = include_str!("../../grammar.pest");
 
-/// What the grammar leaves open: names, values, texts, comments, and what only several of its words make.
+/// Elements that the grammar leaves open: names, values, texts, comments, and constructs of several words.
 const MADE: &[&str] = &[
     "X1",
     "X-.5",
@@ -67,7 +67,7 @@ const KINDS: &[&str] = &[
     "=", ",", "[", "]", "X[", "ABS[", "\"", "\"M\"", "(", ";", "L", "N", ":", "/", "\\", "?",
 ];
 
-/// What begins with a bracket, in commands and in expressions.
+/// Elements that begin with a bracket, in commands and in expressions.
 pub(crate) const OPENERS: &[&str] = &[
     "[",
     "X[",
@@ -89,10 +89,10 @@ pub(crate) const OPENERS: &[&str] = &[
     "$SWITCH ABS[",
 ];
 
-/// What stands in brackets.
+/// Contents of brackets.
 pub(crate) const FILLERS: &[&str] = &["1+1", "X1 ", "AB", "[]", "[1]+", "\"a\"", "'1'", "1,", "-"];
 
-/// What lists are made of.
+/// Elements of lists.
 const OF_LISTS: &[&str] = &[
     "kopf.achs_nr",
     "kopf",
@@ -127,7 +127,7 @@ const OF_LISTS: &[&str] = &[
     "*/",
 ];
 
-/// Every word and sign of the grammar, each `$` and `#` statement, and what it leaves open.
+/// Returns every word and sign of the grammar, each `$` and `#` statement, and the open elements.
 pub(crate) fn of_programs() -> Vec<String> {
     let mut tokens = BTreeSet::new();
     for line in GRAMMAR.lines() {
@@ -145,17 +145,17 @@ pub(crate) fn of_programs() -> Vec<String> {
     tokens.into_iter().collect()
 }
 
-/// One of each kind of word.
+/// Returns one word of each kind.
 pub(crate) fn kinds() -> Vec<String> {
     KINDS.iter().map(|&kind| kind.to_owned()).collect()
 }
 
-/// Keys, values and signs of lists.
+/// Returns keys, values and signs of lists.
 pub(crate) fn of_lists() -> Vec<String> {
     OF_LISTS.iter().map(|&token| token.to_owned()).collect()
 }
 
-/// The texts in quotes of a line of the grammar.
+/// Returns the quoted texts in a line of the grammar.
 fn literals(code: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut rest = code.chars();

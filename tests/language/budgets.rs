@@ -1,4 +1,4 @@
-//! 2.8 and 2.9: what a program can make the run do is bounded, and loops without an end are known.
+//! 2.8 and 2.9: budgets bound the work of a program, and endless loops are recognised.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use frictcomp::timeline::{Record, Sink};
 
 use crate::support::{Bench, MACHINE};
 
-/// What a run came to.
+/// The result of a run.
 #[derive(Debug)]
 struct Ran {
     by: EndedBy,
@@ -97,7 +97,7 @@ fn a_loop_whose_state_repeats_never_ends() {
         "%L A\nX1\nM17\n%MAIN\n$WHILE 1\nLL A\n$ENDWHILE\nM30",
         // A period of two passes.
         "P1=0\n$WHILE 1\nP1 = 1-P1\n$IF P1\nX[COMP OFF FRICT]\n$ELSE\nX[COMP ON FRICT]\n$ENDIF\n$ENDWHILE\nM30",
-        // Loops in it that end, and one that does not.
+        // An endless loop that contains loops that end.
         "$WHILE 1\n$FOR P1=1,100,1\nX=P1\n$ENDFOR\n$ENDWHILE\nM30",
     ] {
         let ran = run(endless);
@@ -111,7 +111,7 @@ fn a_loop_whose_state_repeats_never_ends() {
     }
 }
 
-/// Loops that nothing known ends; what follows is run, and X is what is said here.
+/// Loops that nothing known ends; the blocks after them are run, and X has the state given here.
 const MAYBE_ENDLESS: [(&str, &str); 18] = [
     (
         "$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$ENDWHILE\nX[COMP OFF FRICT]\nM30",
@@ -169,7 +169,7 @@ const MAYBE_ENDLESS: [(&str, &str); 18] = [
         "%L T\n$IF V.E.STOP\nM30\n$ENDIF\nM17\n%MAIN\nX[COMP OFF FRICT]\n$WHILE 1\nLL T\n$ENDWHILE\nM30",
         "inactive",
     ),
-    // Loops in each other, and one that is repeated in a loop that ends.
+    // Nested loops, and one that is repeated in a loop that ends.
     (
         "$WHILE 1\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\nX[COMP OFF FRICT]\nM30",
         "inactive",
@@ -178,7 +178,7 @@ const MAYBE_ENDLESS: [(&str, &str); 18] = [
         "$FOR P1=1,3,1\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\n$ENDFOR\n$IF P1==4\nX[COMP OFF FRICT]\n$ENDIF\nM30",
         "inactive",
     ),
-    // What only counts is not known afterwards.
+    // The value of a mere counter is unknown afterwards.
     (
         "P1=0\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nP1=P1+1\n$ENDWHILE\n$IF P1==0\nX[COMP OFF FRICT]\n$ENDIF\nM30",
         "unknown",
@@ -244,12 +244,12 @@ fn what_only_counts_does_not_keep_a_loop_from_repeating() {
 
 #[test]
 fn a_loop_that_may_end_is_run_to_its_end() {
-    // R2.84: the counter is read, here and there, late or through something else.
+    // R2.84: the counter is read in various places, late or indirectly.
     for ends in [
         "P1=0\n$WHILE 1\nP1=P1+1\n$IF P1>5000 $GOTO N99\n$ENDWHILE\nN99: M30",
         "P1=0\n$WHILE P1<5000\nP1=P1+1\n$ENDWHILE\nM30",
         "P1=0\nP2=0\n$WHILE 1\nP1=P1+1\nP2=P1*2\n$IF P2>9000\n$BREAK\n$ENDIF\n$ENDWHILE\nM30",
-        // Read only where another parameter says so, which counts for long.
+        // Read only if another parameter, which counts for a long time, permits it.
         "P1=0\nP3=0\n$WHILE 1\nP1=P1+1\n$IF P3>50\n$IF P1>4000 $GOTO N99\n$ENDIF\nP3=P3+0.01\n$ENDWHILE\nN99: M30",
         "$FOR P1=1,5000,1\nX1\n$ENDFOR\nM30",
         "G91\n$WHILE 1\nX1\n$IF V.A.ABS.X > 3000 $GOTO N99\n$ENDWHILE\nN99: M30",
@@ -411,7 +411,7 @@ fn a_number_that_is_none_is_said_where_it_arises() {
 
 #[test]
 fn a_region_in_a_loop_is_looked_through_once() {
-    // R2.51, R2.60: what is written in between is forgotten all the same.
+    // R2.51, R2.60: values written in between are forgotten all the same.
     let body = "P5=1\nV.P.B=2\nX[COMP OFF FRICT]\n".repeat(50);
     let program = |passes: u32| {
         format!(
@@ -447,8 +447,8 @@ fn a_computed_target_in_a_region_may_be_any() {
     );
 }
 
-/// What a session said: messages with the bytes of source that each holds, how often each came
-/// true, and how many were counted by severity.
+/// The output of a session: messages with the bytes of source that each holds, how often each
+/// applied, and the counts by severity.
 #[derive(Debug, Default)]
 struct Heard {
     said: Vec<(String, String, usize)>,
@@ -628,7 +628,7 @@ fn a_region_of_declarations_is_read_to_its_end() {
     assert_eq!(
         codes,
         ["FC206", "FC311"],
-        "what stands after the region is run"
+        "the blocks after the region are run"
     );
     let open = heard(
         &format!("#VAR\nV.P.T[3] = [{}]\nM30", values(3)),

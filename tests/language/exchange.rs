@@ -1,4 +1,4 @@
-//! 2.9: axis exchange: what the names of axes mean.
+//! 2.9: axis exchange: the meaning of axis names.
 
 use frictcomp::comp::State::{self, Active, Inactive, Unknown};
 use frictcomp::comp::{AxisIndex, Kind};
@@ -16,13 +16,13 @@ fn machine() -> String {
     [("X", 1), ("Y", 2), ("C", 4)].map(axis).concat()
 }
 
-/// What programs that exchange axes leave on X, Y and C.
+/// Programs that exchange axes, and the states that they leave on X, Y and C.
 const PROGRAMS: [(&str, [State; 3]); 20] = [
-    // An axis that the channel has already is not requested.
+    // An axis that the channel already has is not requested.
     ("#CALL AX [X,1,0]\nM30", [Active; 3]),
     ("#AX REQUEST FAST [C, 4, 3]\nM30", [Active; 3]),
     ("#SET AX [X,1,0][Y,2,1][C,4,2]\nM30", [Active; 3]),
-    // What is given back keeps its states; a command to it is one that the control refuses.
+    // An axis that is given back keeps its states; the control refuses a command to it.
     ("#PUT AX [C]\nM30", [Active; 3]),
     (
         "#PUT AX [C]\nC[COMP ON FRICT]\nM30",
@@ -62,7 +62,7 @@ const PROGRAMS: [(&str, [State; 3]); 20] = [
         "#PUT AX [X]\n#AX REQUEST [NAME=U NR=1 IDX=0]\nU[COMP OFF FRICT]\nM30",
         [Inactive, Active, Active],
     ),
-    // Some axis.
+    // An unknown axis.
     ("#CALL AX [U,V.E.N,5]\nU[COMP OFF FRICT]\nM30", [Unknown; 3]),
     // An exchange that may or may not have been executed.
     (
@@ -78,7 +78,7 @@ const PROGRAMS: [(&str, [State; 3]); 20] = [
         "#SAVE CONFIG\n#PUT AX [X]\n#LOAD CONFIG\nX[COMP ON FRICT]\nM30",
         [Unknown; 3],
     ),
-    // A coupling is none.
+    // A coupling is not an exchange.
     ("#SET AX LINK [1, C=X]\nM30", [Active; 3]),
 ];
 

@@ -167,7 +167,7 @@ fn parameters() {
         FC311 1:4-6
       end 1 error X:active Y:active Z:unconfigured B:ineffective
     ");
-    // The configuration may keep them.
+    // The configuration can keep them.
     let kept = Bench::on("[machine]\nkeep_parameters = true\n[[axis]]\nname = \"X\"");
     assert_snapshot!(kept.run(&["P1=5 V.P.A=1\nM30", "$IF P1 == 5\nX1\n$ENDIF\nM30"]), @"
     start X:unconfigured

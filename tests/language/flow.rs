@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 
 use crate::support::Bench;
 
-/// The lines that were executed.
+/// Returns the executed lines.
 fn lines(program: &str) -> String {
     let transcript = Bench::new().keep_going().run(&[program]);
     let said: Vec<&str> = transcript
@@ -136,7 +136,7 @@ fn jumps() {
 
 #[test]
 fn labels_that_are_wrong() {
-    // R2.42: said before anything runs.
+    // R2.42: reported before anything runs.
     assert_snapshot!(Bench::new().run(&["X[COMP OFF FRICT]\nN10: X1\n$GOTO N10\nN10: X2\n[A]\n[A]\n$GOTO N20\n$GOTO [B]\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -300,7 +300,7 @@ fn budgets() {
         FC914 5:1-4
       end 5 budget X:active Y:active Z:unconfigured B:ineffective
     ");
-    // A macro that uses itself many times is no way to hang.
+    // A macro that uses itself many times does not cause a hang.
     for program in [
         "\"A\"=\"\\\"A\\\" \\\"A\\\" \\\"A\\\" \\\"A\\\"\"\n\"A\"\nM30",
         "\"A\"=\"\\\"A\\\"+\\\"A\\\"+\\\"A\\\"\"\nP1=\"A\"\nM30",
@@ -326,7 +326,7 @@ fn budgets_name_the_loop_that_used_them_up() {
 
 #[test]
 fn a_loop_without_its_end_is_left_by_nothing() {
-    // R2.40 R2.84: `$BREAK` and `$CONTINUE` in it lead nowhere, and nothing is repeated.
+    // R2.40 R2.84: `$BREAK` and `$CONTINUE` in it have no effect, and nothing is repeated.
     for word in ["$BREAK", "$CONTINUE"] {
         let ran = lines(&format!("$FOR P1=1,3,1\n{word}\nX1\nM30"));
         assert!(ran.ends_with("2 3 4 FC208 1:1-14"), "{ran}");

@@ -1,5 +1,5 @@
-//! Programs after words, programs that only the machine has, and what passing over them leaves:
-//! R2.14, R2.75, R2.83.
+//! Programs called by words, programs that exist only on the machine, and the states after passing
+//! over them: R2.14, R2.75, R2.83.
 
 use insta::assert_snapshot;
 
@@ -13,7 +13,7 @@ fn machine(programs: &str) -> Bench {
         .file("drill.nc", "N4 X[COMP ON FRICT]\nP9=@P2\nM17")
 }
 
-/// The end of each program's transcript.
+/// Returns the end of each program's transcript.
 fn ends(transcript: &str) -> Vec<&str> {
     let lines = transcript.lines().map(str::trim);
     lines.filter(|line| line.starts_with("end ")).collect()
@@ -44,7 +44,7 @@ fn every_word_of_a_block_calls_its_program() {
     ");
     assert_eq!(bench.handed(SourceMode::LineByLine).run(&[program]), lines);
     let bench = machine("[machine.programs]\nT = \"select.nc\"");
-    // A number that is not known is a number all the same.
+    // An unknown number still counts as a number.
     assert_snapshot!(bench.run(&["N10 T V.E.TOOL\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -107,7 +107,7 @@ fn a_program_names_what_its_words_call() {
         transcript.contains("FC902") && transcript.contains("X:unknown"),
         "{transcript}"
     );
-    // In a region of which nobody knows whether it is executed.
+    // In a region that may or may not be executed.
     let program = "$IF V.E.X\n#FILE NAME [M6=\"change.nc\"]\n$ENDIF\nM6\nM30";
     let transcript = bench.run(&[program]);
     assert!(
@@ -213,7 +213,7 @@ fn programs_that_only_the_machine_has() {
         transcript.contains("FC902 3:1-15") && !transcript.contains("FC902 1:"),
         "{transcript}"
     );
-    // As a modal cycle, before a program, in an unknown region, after a word.
+    // As a modal cycle, before a program, in an unknown region, called by a word.
     let modal =
         machine(external).run(&["L CYCLE [NAME=a.ecy MODAL_MOVE]\nX[COMP ON FRICT]\nY1\nM30"]);
     assert!(ends(&modal)[0].contains("X:unknown"), "{modal}");

@@ -1,4 +1,4 @@
-//! Words known by name, and what is said of those that are not: R1.59, R1.60, R2.93, R2.94, R2.97.
+//! Words known by name, and the messages about unknown ones: R1.59, R1.60, R2.93, R2.94, R2.97.
 
 use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::syntax::parse_comp;
@@ -50,7 +50,7 @@ fn documented_commands_change_no_state() {
 
 #[test]
 fn a_program_number_stands_alone() {
-    // R2.93: beside other words it is a slip for a zero
+    // R2.93: next to other words it is a typo for a zero
     for text in ["X1O5", "G1 O5", "O-1", "O1.5", "O1234 X1"] {
         let found = run(&format!("{text}\nM30"));
         assert!(
@@ -78,7 +78,7 @@ fn what_friction_commands_do_is_unknown() {
         found.contains("X:active>unknown Y:active>unknown"),
         "{found}"
     );
-    // One that may be executed.
+    // A command that may be executed.
     let found = run("$IF V.E.A\n#FRICTION ON [X]\n$ENDIF\nM30");
     assert!(found.contains("X:unknown Y:active"), "{found}");
 }
@@ -110,10 +110,10 @@ fn a_word_that_calls_no_known_program_is_said_once() {
     );
     assert!(run("G81\nM30").contains("end 2 M30 X:active Y:active"));
     assert_eq!(Code::Fc325.severity(), Severity::Warning);
-    // Each program says it.
+    // It is reported for each program.
     let found = Bench::new().said_in_session(&["G83\nM30", "G83\nM30"]);
     assert_eq!(found.matches("FC325").count(), 2, "{found}");
-    // One whose program is configured, and one that is declared harmless.
+    // A word whose program is configured, and one that is declared harmless.
     let machine = "[machine]\nharmless = [\"G82\"]\n[machine.programs]\nG81 = \"drill.nc\"\n[[axis]]\nname = \"X\"\nfrict_comp = true\n";
     let bench = Bench::on(machine).file("drill.nc", "M17");
     assert_eq!(
@@ -140,7 +140,7 @@ fn an_unknown_g_function_changes_positions_alone() {
     );
     let harmless = "[machine]\nharmless = [\"g777\"]\n[[axis]]\nname = \"X\"\n";
     assert_eq!(Bench::on(harmless).said("G777\nM30"), "");
-    // What the control knows.
+    // Functions that the control has.
     for number in [
         4, 8, 9, 12, 13, 20, 25, 33, 51, 60, 61, 63, 66, 68, 74, 92, 98, 100, 108, 112, 129, 135,
         150, 160, 193, 200, 236, 260, 301, 351, 900,
@@ -231,7 +231,7 @@ fn no_slip_turns_a_selection_round() {
         );
     }
     assert!(!of("X[COMP ON_ALL]").1.contains("OFF"));
-    // Other words that are equally near are named, too.
+    // Other equally similar words are named, too.
     let found = said("#WCS TO WCS\nM30");
     assert!(
         found.contains("did you mean `#MCS TO WCS` or `#WCS TO MCS`?"),

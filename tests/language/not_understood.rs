@@ -1,4 +1,4 @@
-//! 2.10: what is not understood, and forms of real programs.
+//! 2.10: text that is not understood, and forms of real programs.
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 
@@ -8,7 +8,7 @@ fn run(program: &str) -> String {
     Bench::new().keep_going().run(&[program])
 }
 
-/// The line of a block, its states and the codes below it.
+/// Returns the line of a block, its states and the codes below it.
 fn block(program: &str, line: u32) -> String {
     let text = run(program);
     let head = format!(" line {line} ");
@@ -18,7 +18,7 @@ fn block(program: &str, line: u32) -> String {
     codes.fold(first, |all, code| all + "|" + code.trim())
 }
 
-/// The codes of a program, each as often as it is said.
+/// Returns the codes of a program, each as often as it is reported.
 fn codes(program: &str) -> Vec<String> {
     let text = run(program);
     let words = text.lines().filter_map(|row| row.trim().split(' ').next());
@@ -70,7 +70,7 @@ fn assignments_of_what_is_not_known_change_their_target() {
         values.trim(),
         "P1 -> unknown: FOO[3]\nP2 -> 2\nV.P.A -> unknown: V.x.+y"
     );
-    // The target itself is not known: any parameter may be it.
+    // The target itself is unknown: it may be any parameter.
     for text in ["FOO[3]=5", "FOO[3] += 1", "R1=5", "V.P.-A=3"] {
         let values = Bench::new().values(&format!("P1=1\n{text}"), &["P1"]);
         assert!(values.contains("P1 -> unknown"), "{text}: {values}");
@@ -82,7 +82,7 @@ fn assignments_of_what_is_not_known_change_their_target() {
             .positions("X1\nX=FOO[1] Y2\nM30")
             .contains("X:?")
     );
-    // A letter in lower case names no axis.
+    // A letter in lower case is not an axis.
     let found = Bench::new().positions("X1 Y1\nx5 Y2\nM30");
     assert!(found.contains("X:?"), "{found}");
 }
@@ -120,7 +120,7 @@ fn what_a_table_names_is_silent() {
             "{text}: {found}"
         );
     }
-    // What reads into a parameter makes it unknown.
+    // A command that reads into a parameter makes it unknown.
     let values = Bench::new().values(
         "P1=1 P2=2 V.P.A=3\n#GET CMDPOS [P1, V.P.A]",
         &["P1", "P2", "V.P.A"],
@@ -216,7 +216,7 @@ fn commands_that_stand_among_words_leave_them_as_they_are() {
         let said = run(&format!("{program}\nM30"));
         assert!(said.contains("X:active>inactive"), "{program}: {said}");
     }
-    // On a way that may be taken they count, too.
+    // They also count on a way that may be taken.
     let said = run("$IF V.E.A\n#SPLINE ON X[COMP OFF FRICT] X1\n$ENDIF\nM30");
     assert!(
         said.contains("X:active>inactive") || said.contains("X:unknown"),
@@ -257,7 +257,7 @@ fn an_unreadable_condition_opens_its_block_and_is_said_once() {
             assert!(run(&program).contains("X:active>unknown"), "{opener}");
         }
     }
-    // What follows from it later is said, in words that fit.
+    // Later consequences are reported, in suitable words.
     let said = Bench::new().said("P1=FOO[1]\n$IF P1 == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30");
     assert!(
         said.contains("depends on `FOO[1]`, which frictcomp does not know"),
@@ -317,7 +317,7 @@ fn conditional_interpretation_is_executed() {
         codes("#IF V.E.A\nX[COMP OFF FRICT]\n#ENDIF\nX[COMP ON FRICT]\nM30"),
         ["FC901"]
     );
-    // A branch that is left out is not read; one that nobody knows is.
+    // A branch that is left out is not read; one under an unknown condition is.
     let check = |program: &str| Bench::new().check_all().run(&[program]);
     assert!(!check("#IF FALSE\nX[COMP ON FRIKT]\n#ENDIF\nM30").contains("FC202"));
     assert!(check("#IF V.E.A\nX[COMP ON FRIKT]\n#ENDIF\nM30").contains("FC202"));
@@ -387,7 +387,7 @@ fn what_a_call_gave() {
         text.contains("X:active>inactive") && !text.contains("Y:active>"),
         "{text}"
     );
-    // Alone, nobody knows, unless the user says what the call would give.
+    // If the cycle runs by itself, the value is unknown, unless the user gives the call's value.
     let alone = Bench::new().run(&[cycle]);
     assert_eq!(alone.matches("FC901").count(), 2, "{alone}");
     let told = Bench::new().set("@P1", 4.0).run(&[
@@ -510,12 +510,12 @@ fn values_are_named_as_the_program_writes_them_and_given_by_that_name() {
             "{written} {given}: {known}"
         );
     }
-    // The name itself is told apart by its case (P-EXTV-00001).
+    // The name itself is case-sensitive (P-EXTV-00001).
     let other = Bench::new()
         .set("V.E.PART", 2.0)
         .said("$IF V.E.Part > 1\nX[COMP OFF FRICT]\n$ENDIF\nM30");
     assert!(other.contains("FC901"), "{other}");
-    // Parameters and variables of programs, too.
+    // The same applies to parameters and program variables.
     let bench = Bench::new().set("p5", 3.0).set("v.p.a", 4.0);
     assert_eq!(
         bench.values("", &["P5+V.P.a", "v.p.a"]).trim(),
@@ -548,7 +548,7 @@ fn what_the_user_declares_harmless_is_passed_over() {
     }
     let positions = bench.positions("X1\nM100\nM101\nM30");
     assert!(positions.contains("M100 X:1\nM101 X:1*"), "{positions}");
-    // Nothing else can be declared so.
+    // Nothing else can be declared harmless.
     for wrong in ["COMP", "M", "#", "X[COMP ON FRICT]", "#MYCMD [1]", "G54"] {
         let text = format!("[machine]\nharmless = [\"{wrong}\"]\n");
         let refused = frictcomp::machine::Machine::from_toml(&text);
@@ -579,7 +579,7 @@ fn an_error_of_the_program_stops_it() {
     ] {
         assert_eq!(left(command), (stops, stops), "{command}");
     }
-    // R14.5: on one way it does, and the other goes on.
+    // R14.5: on one way it does, and the other continues.
     let one_way = left("$IF V.E.A==2\n#ERROR [RC=2]\n$ENDIF");
     assert_eq!(one_way, (false, true));
     let program = "X[COMP OFF FRICT]\n#ERROR [RC=2]\nX[COMP ON FRICT]\nM30";
@@ -603,18 +603,18 @@ fn an_assignment_to_what_shows_a_state_is_said_and_makes_it_unknown() {
         assert!(found.contains("FC322"), "{found}");
         assert!(run(&program).contains("X:unknown Y:active"), "{text}");
     }
-    // What is read afterwards is not what was written.
+    // The value read afterwards is not the one written.
     let values = Bench::new().values(
         &format!("{off}V.A.FRICT_COMP_ACTIVE.X = 1"),
         &["V.A.FRICT_COMP_ACTIVE.X"],
     );
     assert!(values.contains("unknown"), "{values}");
-    // Where it may have been executed, it is unknown as well.
+    // If it may have been executed, it is unknown as well.
     let region = format!("{off}$IF V.E.A\nV.A.FRICT_COMP_ACTIVE.X = 1\n$ENDIF\nM30");
     assert!(run(&region).contains("X:unknown"), "{}", run(&region));
     let position = Bench::new().positions("X1\nV.A.ABS.X = 3\nM30");
     assert!(position.contains("X:?"), "{position}");
-    // Others are the program's to write.
+    // Programs may write other variables.
     assert_eq!(codes("V.A.MERF.X = 1\nM30"), [] as [&str; 0]);
 }
 

@@ -4,7 +4,7 @@ use insta::assert_snapshot;
 
 use crate::support::{Bench, SourceMode};
 
-/// The lines that are executed, with the level of each.
+/// Returns the executed lines, with the level of each.
 fn lines(bench: &Bench, program: &str) -> String {
     let transcript = bench.run(&[program]);
     let rows = transcript.lines().map(str::trim).filter(|line| {
@@ -32,7 +32,7 @@ fn a_part_of_a_program_is_called_by_its_blocks() {
         ("L SEQUENCE [N10 N10 REPEAT=3]", "repeated"),
         ("L SEQUENCE [N[5*6] [TO]]", "mixed"),
         ("N77 L SEQUENCE [[TO] ENDTAG]", "up to the call"),
-        ("L SEQUENCE [N10 N30 REPEAT 2 ENDTAG]", "end tag behind"),
+        ("L SEQUENCE [N10 N30 REPEAT 2 ENDTAG]", "end tag last"),
     ] {
         let program = format!("{body}{call}\nX9\nM30");
         let seen = lines(&bench, &program);
@@ -93,7 +93,7 @@ fn a_part_of_another_program() {
             "{transcript}"
         );
     }
-    // A part of skipped blocks only is not gone through without end.
+    // A part that consists only of skipped blocks is not repeated endlessly.
     let skipped = "/N10 X1\nL SEQUENCE [N10 N10 REPEAT=9000000000]\nM30";
     assert!(Bench::new().skip("1").run(&[skipped]).contains("end 2 M30"));
 }
@@ -167,7 +167,7 @@ fn where_a_subprogram_returns_to_must_be_there() {
             assert!(transcript.contains(code), "{end}: {transcript}");
         }
     }
-    // A program that is run by itself ends as with M17 alone.
+    // A program that is run by itself ends as with a plain M17.
     assert_eq!(
         lines(&Bench::new(), "X1\nM17 [MAIN]"),
         lines(&Bench::new(), "X1\nM17")
@@ -186,7 +186,7 @@ fn a_return_to_a_block_that_has_not_come_yet_is_found_after_a_statement() {
 
 #[test]
 fn parts_of_a_program_that_arrives() {
-    // R2.77 R9.40: what was read line by line is not kept
+    // R2.77 R9.40: text that was read line by line is not kept
     let program = "N10 X1\nN20 X2\nL SEQUENCE [N10 N20]\nM30";
     let transcript = Bench::new().handed(SourceMode::LineByLine).run(&[program]);
     assert!(

@@ -1,10 +1,10 @@
-//! What takes positions away from the machine's: R2.81, R2.82.
+//! Commands after which positions are not those of the machine: R2.81, R2.82.
 
 use insta::assert_snapshot;
 
 use crate::support::{Bench, SourceMode};
 
-/// Where X and Y stand after each block.
+/// Returns the positions of X and Y after each block.
 fn positions(program: &str) -> String {
     let bench = Bench::on("[[axis]]\nname = \"X\"\n[[axis]]\nname = \"Y\"\n");
     bench.passing_branches().positions(program)
@@ -26,7 +26,7 @@ fn machine_coordinates_take_offsets_away() {
     #MCS OFF X:?* Y:?*
     M30 X:?* Y:?*
     ");
-    // Only the commands themselves.
+    // Only the commands themselves have an effect.
     assert_snapshot!(positions("X5\n#MCS TO WCS [X1]\n#MSG [\"MCS\"]\nM30"), @r#"
     X5 X:5 Y:?
     #MCS TO WCS [X1] X:5 Y:?
@@ -94,7 +94,7 @@ fn an_implicit_call_that_is_passed_over_may_have_moved() {
 
 #[test]
 fn functions_that_no_one_names() {
-    // R2.82: those of the language are named
+    // R2.82: functions of the language are known
     assert_snapshot!(positions("X1 Y2 M3 S1000\nM8\nG4 X1\nG64\nX2\nM30"), @"
     X1 Y2 M3 S1000 X:1 Y:2
     M8 X:1 Y:2
@@ -146,7 +146,7 @@ fn a_contour_description_moves_nothing() {
     G90 X4 Y5 X:4 Y:5
     M30 X:4 Y:5
     ");
-    // No axis moves that requires its compensation, no motion stands beside a command.
+    // No axis that requires its compensation moves, and no motion shares a block with a command.
     let toml = "[[axis]]\nname = \"X\"\nfrict_comp = true\nrequired = [\"FRICT\"]\nvalue = { mode = 3, table = [[0, 1]] }\n";
     let program =
         "X[COMP OFF FRICT]\n#CONTOUR BEGIN [ID1]\nG1 X1\n#CONTOUR END\nX[COMP ON FRICT]\nM30";
@@ -165,7 +165,7 @@ fn every_description_of_geometry_moves_nothing() {
         let text = positions(&format!("X1\n{begin}\nX125\n{end}\nX2\nM30"));
         assert!(text.contains("X125 X:1"), "{text}");
         assert!(text.contains("X2 X:?") || text.contains("X2 X:2"), "{text}");
-        // One that a program leaves open is said where it opens, and ends with the program.
+        // One that a program leaves open is reported where it opens, and ends with the program.
         let said = Bench::new().said_in_session(&[&format!("G1 X1\n{begin}\nX1\nM30"), "X1\nM30"]);
         let opener = begin.split(" [").next().unwrap();
         assert!(
@@ -174,7 +174,7 @@ fn every_description_of_geometry_moves_nothing() {
         );
         assert_eq!(said.matches("FC208").count(), 1, "{said}");
     }
-    // What ends another description ends nothing.
+    // The end of another description ends nothing.
     let text = positions("X1\n#STROKE DEF BEGIN\n#CONTOUR END\nX125\n#STROKE DEF END\nX2\nM30");
     assert!(text.contains("X125 X:1"), "{text}");
 }
@@ -210,7 +210,7 @@ fn a_circle_by_its_centre_moves_both_axes_of_its_plane() {
         let whole = format!("X[COMP OFF FRICT] Y[COMP OFF FRICT]\n{program}\nM30");
         assert_eq!(moved(&whole), axes, "{program}");
     }
-    // The lints on motion see it.
+    // The motion lints take it into account.
     let said = Bench::new().said("G2 I5 F100\nX[COMP OFF FRICT]\nM30");
     assert!(said.contains("FC407 2:1"), "{said}");
     let said = Bench::new().said_in_session(&["Y[COMP OFF FRICT]\nM30", "G17 G2 I5 F100\nM30"]);

@@ -89,7 +89,7 @@ fn ends_of_programs() {
         FC310 2:1-4
       end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
-    // A subprogram that runs by itself ends as it should.
+    // A subprogram that runs by itself ends correctly.
     for handed in [SourceMode::Whole, SourceMode::LineByLine] {
         let bench = Bench::new().handed(handed);
         for sub in [
@@ -466,7 +466,7 @@ impl frictcomp::timeline::Sink for Nothing {
 
 #[test]
 fn a_start_program_is_looked_for_beside_the_main_program() {
-    // R2.15: and does not run when it is refused
+    // R2.15: and it does not run if it is refused
     let machine = format!("[machine]\nstart_program = \"start.nc\"\n{MACHINE}");
     for handed in [SourceMode::Whole, SourceMode::LineByLine] {
         let bench = Bench::on(&machine).handed(handed);

@@ -1,11 +1,11 @@
 //! 2.10: blocks that a switch of the machine skips, jumps that wait for a probe, written machine
-//! data, and how the unknown values are spoken of.
+//! data, and the wording about unknown values.
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 
 use crate::support::{Bench, SourceMode};
 
-/// What is left of X, Y and the transcript.
+/// Returns the final states of X and Y, and the transcript.
 fn left(bench: &Bench, program: &str) -> (State, State, String) {
     let mut session = bench.session();
     let said = bench.run_in(&mut session, &[program]);
@@ -76,7 +76,7 @@ fn the_user_says_which_levels_are_on() {
         };
         let (found_x, found_y, _) = left(&Bench::on(&toml), program);
         assert_eq!((found_x, found_y), (x, y), "{toml}");
-        // The option goes before the configuration.
+        // The option takes precedence over the configuration.
         let (found_x, found_y, _) = left(&Bench::on(&toml).skip("all"), program);
         assert_eq!(
             (found_x, found_y),
@@ -102,7 +102,7 @@ fn a_skip_level_is_spoken_of_once() {
         said.contains("`--skip 1`") && said.contains("`skip` in `[machine]`"),
         "{said}"
     );
-    // What a value that it leaves decides names the level and where it came from.
+    // A decision by a value that it leaves names the level and its origin.
     let program = "P1=0\nX1\n/P1=1\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said = Bench::new().passing_branches().said(program);
     assert_eq!(count(&said, "FC901"), 1, "{said}");
@@ -206,18 +206,18 @@ fn a_jump_beside_a_probe_may_be_taken() {
         .passing_branches()
         .said("G310 X10 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30");
     assert!(said.contains("the signal of the probe"), "{said}");
-    // Nothing between differs.
+    // The skipped blocks make no difference.
     let said = Bench::new()
         .passing_branches()
         .said("G310 X10 $GOTO N50\nX20\nN50: M30");
     assert_eq!(said, "");
-    // Without a probe the jump is one.
+    // Without a probe, the jump is taken.
     let (x, ..) = left(
         &Bench::new().passing_branches(),
         "G1 X10 F100 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30",
     );
     assert_eq!(x, State::Active);
-    // Where the axis stopped, only the probe knows.
+    // Only the probe knows where the axis stopped.
     let stands = Bench::new()
         .passing_branches()
         .positions("G90 G1 X1 F100\nG310 X10\nM30");
@@ -257,7 +257,7 @@ fn written_machine_data_transfers_the_list_again() {
         assert_eq!((x, y), (State::Unknown, State::Active), "{write}\n{said}");
         assert!(said.contains("FC314 1:1"), "{write}\n{said}");
     }
-    // By the number of the axis, which only lists give.
+    // By axis number, which only lists give.
     let (x, y, said) = left(
         &Bench::new().passing_branches(),
         "#MACHINE DATA [AXNR=1 P-AXIS-00522=0]\nM30",
@@ -268,7 +268,7 @@ fn written_machine_data_transfers_the_list_again() {
     let program = "P1=6\n#MACHINE DATA [AXNR=[P1+1] P-AXIS-00522=0]\nM30";
     let (x, y, said) = left(&Bench::on(&numbered), program);
     assert_eq!((x, y), (State::Unknown, State::Active), "{said}");
-    // Any other parameter takes away what NC commands set, and only that.
+    // Any other parameter discards only the settings made by NC commands.
     let other = "#MACHINE DATA [AX=X kenngr.swe_pos=100]";
     let (x, _, said) = left(&Bench::new().passing_branches(), &format!("{other}\nM30"));
     assert_eq!(x, State::Active, "{said}");
@@ -301,7 +301,7 @@ fn an_unknown_value_is_spoken_of_once_with_its_root() {
         said.contains("1:1: the unknown value comes from here"),
         "{said}"
     );
-    // Another axis is another thing to say.
+    // Another axis is a separate message.
     let program =
         "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.A == 2\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_eq!(
@@ -359,7 +359,7 @@ fn nothing_is_said_where_nothing_can_differ() {
             "",
             "{program}"
         );
-        // An `allow` that is unused because of this stays.
+        // An `allow` that is unused because of this remains.
         let allowed = program.replacen("V.E.A == 1", "V.E.A == 1 ; frictcomp: allow FC901", 1);
         if !program.contains("$GOTO") {
             assert_eq!(
@@ -501,7 +501,7 @@ fn trying_blocks_that_are_passed_over_changes_nothing() {
 
 #[test]
 fn a_level_that_does_not_exist_skips_nothing() {
-    // R2.3: whatever switches are on.
+    // R2.3: regardless of the switches.
     for mark in ["/11", "/0", "/12", "/100", "/ 11", "/01"] {
         let program = format!("{mark} N10 X[COMP OFF FRICT]\nM30");
         for bench in [

@@ -222,7 +222,7 @@ fn nothing_is_a_program() {
 
 #[test]
 fn neighbours_without_blanks() {
-    // R2.5 R1.9: a word in front of a command needs no blank.
+    // R2.5 R1.9: a word before a command needs no blank.
     let program = "N10 G01X10Y[COMP OFF FRICT]F100\nN20 X10Y20X[COMP OFF FRICT]\nN30X[COMP ON FRICT]Y[COMP ON FRICT]M30";
     assert_snapshot!(run(program), @"
     start X:active Y:active Z:unconfigured B:ineffective

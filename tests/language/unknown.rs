@@ -1,4 +1,4 @@
-//! 2.7: what cannot be known offline.
+//! 2.7: values and states that cannot be known offline.
 
 use insta::assert_snapshot;
 
@@ -29,7 +29,7 @@ fn unknown_values_flow() {
     P1*0 -> unknown: V.E.A
     V.P.C[P1] -> unknown: V.E.A
     ");
-    // Written where nobody knows: what was there before is not known any more.
+    // Written to an unknown index: the earlier values are no longer known.
     assert_snapshot!(bench.values(preparation, &["P3"]), @"P3 -> unknown: PV.E.I=7");
     assert_snapshot!(bench.values("#VAR\nV.P.L[3]\n#ENDVAR\nV.P.L[1]=4\nV.P.L[V.E.I]=3", &["V.P.L[1]", "V.P.L[2]"]), @"
     V.P.L[1] -> unknown: V.E.I
@@ -74,7 +74,7 @@ fn an_array_of_unknown_size_has_unknown_elements() {
         FC401 5:1-18
       end 5 M30 X:unknown Y:active Z:unconfigured B:ineffective
     ");
-    // A size that no array has is refused where it stands.
+    // An impossible array size is refused at its place.
     for size in ["-1", "99999999999", "P9"] {
         let refused = format!("#VAR\nV.P.A[{size}]\n#ENDVAR\nM30");
         let said = run(&refused);
@@ -196,7 +196,7 @@ fn unknown_regions_reach_through_calls() {
       end 7 M30 X:unknown Y:unknown Z:unconfigured B:unknown
     ");
     assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.Q": Unknown("V.E.A"), "V.S.R": Unknown("V.E.A")}"#);
-    // A call by a name that nobody knows could do anything.
+    // A call by an unknown name could do anything.
     assert_snapshot!(run("$IF V.E.A\nL V.E.NAME\n$ENDIF\nM30"), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -266,7 +266,7 @@ fn values_that_the_user_gives_are_known() {
     ");
 }
 
-/// The state of X and Y after a program, as far as it is not in its start-up state.
+/// Returns whether X and Y are away from their start-up state after a program.
 fn at_the_end(files: &[&str]) -> [bool; 2] {
     let said = Bench::new().passing_branches().run(files);
     ["X", "Y"].map(|axis| said.contains(&format!("{axis}:active>unknown")))
@@ -296,7 +296,7 @@ fn a_macro_that_may_have_been_defined_anew_may_do_anything() {
     ] {
         assert_eq!(at_the_end(&[&program]), [true; 2], "{program}");
     }
-    // Defined again, it is known again; one that is only used was known all along.
+    // Redefined, it is known again; one that is only used was known all along.
     let known = format!("{define}{}{define}\"A\"\nM30", unknown(again));
     assert_eq!(at_the_end(&[&known]), [false; 2]);
     let used = format!("{define}{}\"A\"\nM30", unknown("\"A\"\n"));
@@ -346,7 +346,7 @@ fn what_other_channels_and_drives_send_is_unknown() {
             "{command}: {said}"
         );
     }
-    // What is sent stays as it was, and so does what a channel only waits for.
+    // A value that is sent is unchanged, and so is one that a channel only waits for.
     for command in [
         "#SIGNAL [ID=1 P[0]=V.P.A CH=2]",
         "#WAIT INDP [X]",
@@ -404,7 +404,7 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
             format!("{enable}$IF V.E.A\n#DISABLE AX LINK [1]\n$ENDIF\n{off}M30"),
             true,
         ),
-        // A way round, and a program that nobody knows.
+        // A bypass, and an unknown program.
         (format!("$IF V.E.A $GOTO N10\n{enable}N10: {off}M30"), true),
         (
             format!("{enable}L V.E.NAME\nX[COMP ON FRICT]\n{off}M30"),
@@ -419,7 +419,7 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
             format!("%L S\n{enable}M17\n%MAIN\n$IF V.E.A\nLL S\n$ENDIF\n{off}M30"),
             true,
         ),
-        // It is known again.
+        // It becomes known again.
         (
             format!("$IF V.E.A\n{enable}$ENDIF\n#AX LINK OFF ALL\n{off}M30"),
             false,
@@ -450,7 +450,7 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
             "{program}"
         );
     }
-    // What is as the command wants it stays known either way.
+    // A state that already matches the command stays known either way.
     let program = format!("$IF V.E.A\n{enable}$ENDIF\nX[COMP ON FRICT]\nM30");
     assert!(
         Bench::new()
@@ -458,7 +458,7 @@ fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
             .run(&[&program])
             .contains("M30 X:active")
     );
-    // The next program finds the groups as little known.
+    // The groups are as unknown to the next program.
     let next = format!("#ENABLE AX LINK [1]\n{off}M30");
     let first = "$IF V.E.A\n#SET AX LINK [1, Y=X]\n$ENDIF\nM30";
     assert!(
@@ -522,7 +522,7 @@ fn an_m_function_that_nobody_knows_may_end_the_program() {
         let end = text.lines().rfind(|line| line.trim().starts_with("end "));
         end.unwrap_or_default().trim().to_owned()
     };
-    // What comes after the word may not be executed at all.
+    // The blocks after the word may not be executed at all.
     let whole = states("MV.E.A\nX[COMP ON FRICT] Y[COMP ON FRICT]\nM30");
     assert!(
         whole.ends_with("X:unknown Y:unknown Z:unconfigured B:unknown"),
@@ -531,7 +531,7 @@ fn an_m_function_that_nobody_knows_may_end_the_program() {
     let subprogram =
         states("%L S\nMV.E.A\nX[COMP ON FRICT]\nM17\n%MAIN\nLL S\nY[COMP ON FRICT]\nM30");
     assert!(subprogram.contains("X:unknown Y:unknown"), "{subprogram}");
-    // The same where it may have been executed.
+    // The same applies if it may have been executed.
     let region = states("$IF V.E.B\nMV.E.A\n$ENDIF\nX[COMP ON FRICT]\nM30");
     assert!(region.contains("X:unknown"), "{region}");
     // A T or D word ends nothing.

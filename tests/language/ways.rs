@@ -1,10 +1,10 @@
-//! 2.7: ways that the control may go and the dry run does not.
+//! 2.7: ways that the control may take and the dry run does not.
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 
 use crate::support::{Bench, SourceMode};
 
-/// Programs that an unknown value may lead elsewhere, with what is left of X.
+/// Programs that may take another way because of an unknown value, with the final state of X.
 const PROGRAMS: [(&str, State); 24] = [
     // The program may end in a branch.
     (
@@ -35,7 +35,7 @@ const PROGRAMS: [(&str, State); 24] = [
         "X[COMP OFF FRICT]\n\"OUT\" = \"M30\"\n$IF V.E.A==1\n\"OUT\"\n$ENDIF\nX[COMP ON FRICT]\nM30",
         State::Unknown,
     ),
-    // It may be left.
+    // The subprogram may be left.
     (
         "%L S\n$IF V.E.A==1\nM17\n$ENDIF\nX[COMP ON FRICT]\nM17\n%MAIN\nX[COMP OFF FRICT]\nLL S\nX1\nM30",
         State::Unknown,
@@ -85,7 +85,7 @@ const PROGRAMS: [(&str, State); 24] = [
         "P1=V.E.A\nN10: X[COMP OFF FRICT]\nX[COMP ON FRICT]\nP1=P1-1\n$IF P1>0 $GOTO N10\nX1\nM30",
         State::Unknown,
     ),
-    // Also what a jump back passes on its way may lead elsewhere.
+    // Jumps in the part that a jump back repeats may lead elsewhere, too.
     (
         "P1=V.E.A\nP2=0\nN10: $IF P2==1 $GOTO N90\nP2=1\n$IF P1==1 $GOTO N10\nM30\nN90: X[COMP OFF FRICT]\nM30",
         State::Unknown,
@@ -127,7 +127,7 @@ fn what_another_way_leaves_otherwise_is_unknown() {
         }
         for value in [0.0, 1.0, 2.0] {
             let (left, said) = left(&bench().set("V.E.A", value), program);
-            // Without an end it is not known what a run would have left.
+            // Without an end, the state that a run would have left is unknown.
             let never_ends = said.contains("FC910");
             assert!(
                 never_ends || expected == State::Unknown || left == expected,
@@ -178,7 +178,7 @@ fn skipped_blocks_change_nothing_in_a_branch_either() {
 
 #[test]
 fn a_control_block_names_what_it_makes_unknown() {
-    // R2.51: also through the programs that it calls.
+    // R2.51: including the programs that it calls.
     let program =
         "%L S\nY[COMP OFF FRICT]\nM17\n%MAIN\n$IF V.E.A==1\nX[COMP OFF FRICT]\nLL S\n$ENDIF\nM30";
     let said = Bench::new().said(program);

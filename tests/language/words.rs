@@ -216,7 +216,7 @@ fn absolute_incremental_inch() {
 
 #[test]
 fn reference_offsets() {
-    // R2.45: G92 shifts the absolute coordinates that follow, it moves nothing.
+    // R2.45: G92 shifts the absolute coordinates that follow; it moves nothing.
     let program = "X10 Y10\nG92 X5\nX0\nG91 X1\nG92 X2\nG90 X0\nP1=V.A.PROG.X P2=V.A.ABS.X\nXP2 YP1\nG92 X0\nX1\nM30";
     assert_snapshot!(Bench::new().positions(program), @"
     X10 Y10 X:10 Y:10 Z:? B:?
@@ -241,7 +241,7 @@ fn reference_offsets() {
 
 #[test]
 fn offsets_forget_positions() {
-    // R2.45: what G54 to G59 hold only the machine knows.
+    // R2.45: only the machine knows the values of G54 to G59.
     assert_snapshot!(Bench::new().positions("X1 Y2\nG54\nX1\nG54 Y2\nG159=3 X3\nG53\nM30"), @"
     X1 Y2 X:1 Y:2 Z:? B:?
     G54 X:? Y:? Z:? B:?
@@ -269,7 +269,7 @@ fn circles_feed_and_dwell() {
     G18 G2 Z5 X1 I1 K2 X:1 Y:0 Z:5 B:?
     M30 X:1 Y:0 Z:5 B:?
     ");
-    // R cannot make a full circle; where the start is not known, nothing is said.
+    // R cannot make a full circle; if the start is unknown, nothing is reported.
     let circles = "G2 X1 Y1 R5 F1000\nG2 X1 Y1 R5\nG2 X2 Y1 R5\nG2 X2 Y1 I5 J0\nM30";
     assert_snapshot!(Bench::new().run(&[circles]), @"
     start X:active Y:active Z:unconfigured B:ineffective
@@ -455,7 +455,7 @@ fn main_axes_of_a_cycle() {
     ");
 }
 
-/// What a program says, in each way to hand it over.
+/// Returns the messages about a program, for each way to pass it.
 fn said_in_every_way(program: &str) -> [String; 2] {
     [SourceMode::Whole, SourceMode::LineByLine].map(|handed| {
         let bench = Bench::new().keep_going().handed(handed);
@@ -533,7 +533,7 @@ fn axis_words_of_weights_and_modes_are_no_coordinates() {
         let after = positions.lines().nth(1).unwrap_or_default();
         assert!(after.contains("X:10") && after.contains("Y:20"), "{after}");
     }
-    // Mirroring by axis: what is programmed from here is not where the axis goes.
+    // Mirroring by axis: from here on, the axis does not move to the programmed positions.
     let mirrored = Bench::new().positions("X10\nG351 X-1\nX20\nM30");
     assert!(mirrored.contains("X20 X:20*"), "{mirrored}");
 }

@@ -1,5 +1,5 @@
-//! Axis lists, start-up and channel lists, and what needs two lists side by side: R3.10 to R3.14,
-//! R3.27 and R3.30.
+//! Axis lists, start-up and channel lists, and checks that need two lists: R3.10 to R3.14, R3.27
+//! and R3.30.
 
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Code;
@@ -12,7 +12,7 @@ use super::host::{Disk, codes, judge, meant, start};
 const VALUES: &str = "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
                       frict_comp.table[0].out 9\nEnde";
 
-/// A machine with one axis list and the value list above.
+/// Returns a machine with one axis list and the value list above.
 fn one_axis(axis_list: &'static str) -> Configuration {
     start(&[
         (

@@ -1,4 +1,4 @@
-//! `frictcomp.toml`, chapter 9.1, and what it does to lists.
+//! `frictcomp.toml`, chapter 9.1, and its effect on lists.
 
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Code, Severity};
@@ -16,7 +16,7 @@ fn read(text: &str) -> Configuration {
     Configuration::from_toml(file, &mut NoLists).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The place and the message of the error, and its advice.
+/// Returns the place and the message of the error, and its advice.
 fn refused(text: &str) -> (String, String) {
     let file = SourceFile::new("frictcomp.toml", text);
     match Configuration::from_toml(file, &mut NoLists) {

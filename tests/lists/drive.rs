@@ -13,7 +13,7 @@ use frictcomp_physics::current::{AdditiveCurrent, Reading};
 
 use super::host::{judge, start};
 
-/// The report of an axis list with these lines, on an axis that is configured.
+/// Returns the report of an axis list with these lines, for a configured axis.
 fn axis(lines: &str) -> AxisReport {
     let text = format!("kopf.log_achs_name X\nlr_param.frict_comp 1\n{lines}\nEnde");
     judge(&text).reports.remove(0)
@@ -23,14 +23,14 @@ fn drive(lines: &str, evidence: &Evidence) -> DriveReport {
     check_drive(&axis(lines).listed_drive(None), evidence)
 }
 
-/// The codes, those of open questions in brackets.
+/// Returns the codes, with those of open questions in brackets.
 fn said(report: &DriveReport) -> String {
     let sure = report.diagnostics.iter().map(|it| it.code.to_string());
     let open = report.open.iter().map(|it| format!("[{}]", it.code));
     sure.chain(open).collect::<Vec<_>>().join(" ")
 }
 
-/// What is known about the additive and about the actual torque, a letter each.
+/// Returns what is known about the additive and the actual torque, one letter each.
 fn known(report: &DriveReport) -> String {
     let letter = |presence: &Presence| match presence {
         Presence::Present { .. } => 'p',
@@ -147,7 +147,7 @@ fn drive_types_decide_whether_there_is_anything_to_ask() {
             "{lines}"
         );
     }
-    // Without P-AXIS-00522 nothing is sent, and nothing is missed.
+    // Without P-AXIS-00522 nothing is sent, and nothing is missing.
     let off = judge("kenngr.antr_typ 3\nlr_param.frict_comp 0\nEnde")
         .reports
         .remove(0);
@@ -265,7 +265,7 @@ fn a_network_says_what_is_exchanged() {
         let open = what.matches('?').count();
         assert_eq!(report.open.len(), open, "case {number}");
     }
-    // The axis list is asked first; what contradicts it is not passed over.
+    // The axis list comes first; sources that contradict it are not ignored.
     let listed = "kenngr.antr_typ 2\nantr.sercos.mdt[0].nc_ref S-0-0081";
     assert_eq!(known(&drive(listed, &within(&[with], None))), "pp");
     let contradicted = drive(listed, &within(&[without], None));
@@ -318,7 +318,7 @@ fn a_device_description_names_what_could_be_selected() {
         help.contains("select PDO 1601h (`O`) of Drive & more"),
         "{help}"
     );
-    // The module is another product than the device of the network.
+    // The module is a different product from the device in the network.
     assert_eq!(report.diagnostics[1].help().len(), 1);
 }
 
@@ -459,7 +459,7 @@ fn the_output_for_the_drive_is_scaled() {
     let axis = &machine.machine.axes[0];
     assert!((axis.torque_scale.factor() - 1.5).abs() < 1e-12);
     assert!(matches!(axis.friction, Parameterisation::Accepted(_)));
-    // The lists of a machine say it wherever they are read.
+    // It is reported wherever the lists of a machine are read.
     assert!(
         machine
             .diagnostics

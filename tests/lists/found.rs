@@ -1,11 +1,12 @@
-//! Which file a list means by a path, and what stands where another list belongs: R3.12 to R3.14.
+//! The file that a path in a list means, and files in place of another kind of list: R3.12 to
+//! R3.14.
 
 use frictcomp::machine::{Configuration, ListFiles, check_list};
 use frictcomp::text::SourceFile;
 
 use super::host::{Memory, codes, judge, meant};
 
-/// The machine of a start-up list that lies somewhere among other lists.
+/// Returns the machine of a start-up list at some place among other lists.
 fn at(path: &str, files: &[(&'static str, &'static str)]) -> Configuration {
     let mut memory = Memory(files.iter().copied().collect());
     let startup = memory.read(path).unwrap();
@@ -142,7 +143,7 @@ fn a_list_of_another_kind_is_said_where_it_is_named() {
         assert_eq!(codes(&found.diagnostics)[0][..5], *"FC125", "{text}");
         assert_eq!(meant(&found.diagnostics[0]), "l.lis");
     }
-    // The head alone, or nothing at all, belongs to both.
+    // The head alone, or an empty list, belongs to both.
     for list in [
         "kopf.achs_nr 1\nkopf.log_achs_name X\nEnde",
         "# nothing\nEnde",
@@ -195,7 +196,7 @@ fn lists_that_say_nothing_about_compensation_are_silent() {
 
 #[test]
 fn the_manual_s_start_up_list_needs_only_what_is_read() {
-    // R3.12, R3.13: two channels, a default list for each kind, lists that are no matter here
+    // R3.12, R3.13: two channels, a default list for each kind, lists that do not matter here
     let startup = "# ****\nkonfiguration ZWEI_KANAL\nkanal_anzahl 2\next_var_max 200\nplc_mode 0\n\
         listen ASCII\n# ****\ndefault_sda_mds ..\\listen\\default_sda.lis\n\
         sda_mds[0] ..\\listen\\sda1.lis\nwerkz_data[0] ..\\listen\\werkz_d1.lis\n\

@@ -6,7 +6,7 @@ use frictcomp::machine::{Axis, Parameterisation};
 
 use super::host::{Disk, codes, judge, judge_for, meant, parameterise, start};
 
-/// Mode 3 and the given further lines.
+/// Returns a list with mode 3 and the given further lines.
 fn list(lines: &str) -> String {
     format!("frict_comp.mode 3\n{lines}\nEnde")
 }
@@ -14,7 +14,7 @@ fn list(lines: &str) -> String {
 const TWO: &str = "frict_comp.table_entries 2\nfrict_comp.table[0].in 0\nfrict_comp.table[0].out 9\n\
                    frict_comp.table[1].in 9000\nfrict_comp.table[1].out 8\n";
 
-/// What is said about the further lines of a list; tests/lists/values.rs has FC139.
+/// Returns the messages about the further lines of a list; tests/lists/values.rs has FC139.
 fn judged(lines: &str) -> Vec<String> {
     let mut found = judge(&list(lines)).diagnostics;
     found.retain(|diagnostic| diagnostic.code != Code::Fc139);
@@ -41,7 +41,7 @@ fn rejected(text: &'static str) -> String {
 #[test]
 fn the_sample_loads() {
     // C1, C2, C4, C13, R3.25, R3.28: the manual's sample, which sends 1 % of its outputs and ends at
-    // a third of a mm/s.
+    // one third of a mm/s.
     let sample = Disk::open("mill3/sample/comp_x.lis");
     let report = judge(sample.text());
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Lists in memory and on disk, and how tests look at diagnostics.
+//! Lists in memory and on disk, and helpers for diagnostics.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -42,18 +42,18 @@ impl ListFiles for Disk {
     }
 }
 
-/// A list judged by itself.
+/// Checks a list by itself.
 pub(crate) fn judge(text: &str) -> ListsReport {
     check_list(SourceFile::new("a.lis", text), None, &mut NoLists)
 }
 
-/// A list judged by itself for a kernel version.
+/// Checks a list by itself for a kernel version.
 pub(crate) fn judge_for(build: &str, text: &str) -> ListsReport {
     let build: CncBuild = build.parse().unwrap();
     check_list(SourceFile::new("a.lis", text), Some(build), &mut NoLists)
 }
 
-/// `CODE line:column` of each diagnostic.
+/// Returns `CODE line:column` of each diagnostic.
 pub(crate) fn codes(diagnostics: &[Diagnostic]) -> Vec<String> {
     diagnostics
         .iter()
@@ -61,19 +61,19 @@ pub(crate) fn codes(diagnostics: &[Diagnostic]) -> Vec<String> {
         .collect()
 }
 
-/// The text that a diagnostic points at.
+/// Returns the text that a diagnostic points at.
 pub(crate) fn meant(diagnostic: &Diagnostic) -> &str {
     diagnostic.place.span.of(&diagnostic.place.text)
 }
 
-/// The machine of lists whose start-up list is `hochlauf.lis`.
+/// Returns the machine of lists whose start-up list is `hochlauf.lis`.
 pub(crate) fn start(files: &[(&'static str, &'static str)]) -> Configuration {
     let mut memory = Memory(files.iter().copied().collect());
     let startup = memory.read("hochlauf.lis").expect("a start-up list");
     Configuration::from_startup(startup, &mut memory)
 }
 
-/// What the only axis of a machine says about its value list when `text` is that list and
+/// Returns the parameterisation of the only axis of a machine whose value list is `text` and whose
 /// P-AXIS-00522 is 1.
 pub(crate) fn parameterise(text: &'static str) -> Parameterisation {
     let files = [

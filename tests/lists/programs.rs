@@ -159,7 +159,8 @@ fn the_channel_list_says_what_holds_for_motion() {
             "P-CHAN-00053 main_spindle_name S",
         ]
     );
-    // 0 and less count as mm/min, and the control warns unless it is -1; others are not documented.
+    // 0 and less count as mm/min, and the control warns unless the value is -1; others are not
+    // documented.
     for (value, unit, said) in [
         ("100", FeedUnit::MillimetresPerMinute, 0),
         ("-1", FeedUnit::MillimetresPerMinute, 0),

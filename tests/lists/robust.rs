@@ -1,4 +1,4 @@
-//! Any text at all: nothing panics, every place lies in its text.
+//! Any text: nothing panics, and every place is in its text.
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{Configuration, NoLists, check_list};
@@ -26,7 +26,7 @@ fn check(text: &str) {
     }
 }
 
-/// Lines that are nearly entries.
+/// Generates lines that are nearly entries.
 fn near_list() -> impl Strategy<Value = String> {
     let key = prop::sample::select(vec![
         "frict_comp.mode",

@@ -1,5 +1,5 @@
-//! What values of lists mean: references, bit codes, keys of a copied list, values that are hardly
-//! meant, gantries, drives (R1.36, R1.41, R1.43, R3.5, R3.12, R3.40, R3.41).
+//! The meaning of list values: references, bit codes, keys of a copied list, implausible values,
+//! gantries, drives (R1.36, R1.41, R1.43, R3.5, R3.12, R3.40, R3.41).
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use frictcomp::text::SourceFile;
 
 use super::host::{Memory, codes, judge, start};
 
-/// A start-up list judged with the lists that it names.
+/// Checks a start-up list with the lists that it names.
 fn judge_all(lists: &[(&'static str, &'static str)]) -> ListsReport {
     let mut files = Memory(lists.iter().copied().collect());
     let (name, text) = lists[0];
@@ -21,7 +21,7 @@ fn messages(diagnostics: &[Diagnostic]) -> Vec<&str> {
     diagnostics.iter().map(|it| it.message.as_str()).collect()
 }
 
-/// The axis of a machine with this axis list alone.
+/// Returns the axis of a machine with only this axis list.
 fn axis(list: &'static str) -> Configuration {
     start(&[("hochlauf.lis", "achs_mds[0] x.lis\nEnde"), ("x.lis", list)])
 }
@@ -122,7 +122,7 @@ fn the_monitor_is_words_or_a_bit_code() {
     }
     let words = set(&[Kind::Frict, Kind::Crosstalk]);
     assert_eq!(required("FRICT | CROSSTALK"), (words, vec![]));
-    // No document says which kinds the further bits stand for: they are said, and never dropped.
+    // No document gives the kinds of the further bits: they are reported, and never dropped.
     let all = set(&[
         Kind::Backlash,
         Kind::Lead,
@@ -161,7 +161,7 @@ fn lost_underscores_are_said_once() {
 
 #[test]
 fn values_that_are_hardly_meant_are_said() {
-    // R3.31, C13: the control takes them all the same.
+    // R3.31, C13: the control accepts them all the same.
     let table = |points: &[(&str, &str)]| {
         let mut text = format!(
             "frict_comp.mode 3\nfrict_comp.table_entries {}\n",
@@ -291,7 +291,7 @@ fn a_simulated_drive_takes_no_additive_torque() {
         assert_eq!(codes(&report.diagnostics), ["FC503 4:17"], "{drive}");
         assert_eq!(report.diagnostics[0].severity, Severity::Error);
     }
-    // Without a type the control takes 4, unless TwinCAT fills in another one.
+    // Without a type the control uses 4, unless TwinCAT fills in another one.
     let alone = list("");
     assert_eq!(codes(&alone.diagnostics), ["FC503 3:21"]);
     assert_eq!(alone.diagnostics[0].severity, Severity::Warning);
@@ -380,7 +380,7 @@ fn a_folder_that_is_not_here_is_said_once() {
         said,
         "the folder `listen`, in which `hochlauf.lis` names 3 lists, is not here"
     );
-    // Where one of them is there, each of the others is missing by itself.
+    // If one of them exists, each of the others is reported as missing by itself.
     let axis = "kopf.achs_nr 1\nkopf.log_achs_name X\nEnde";
     let some = judge_all(&[("hochlauf.lis", missing), ("listen/a.lis", axis)]);
     assert_eq!(codes(&some.diagnostics), ["FC123 2:13", "FC123 3:12"]);

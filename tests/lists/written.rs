@@ -1,4 +1,4 @@
-//! Value lists that are written read back as they were.
+//! Written value lists read back unchanged.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use frictcomp::lists::{
 use frictcomp::text::SourceFile;
 use proptest::prelude::*;
 
-/// What the control would take from a text, on a build that reads real points.
+/// Returns the list that the control would accept from a text, on a build that reads real points.
 fn read(text: &str) -> FrictionList {
     let source = Arc::new(SourceFile::new("x.lis", text));
     let entries = Entries::parse(&source);
@@ -26,7 +26,8 @@ fn read(text: &str) -> FrictionList {
     }
 }
 
-/// Tables of 1 to 40 points with rising velocities, some of them less than one unit apart.
+/// Generates tables of 1 to 40 points with rising velocities, some of them less than one unit
+/// apart.
 fn tables() -> impl Strategy<Value = Vec<TablePoint>> {
     let steps = prop_oneof![0.001..0.9, 1.0..50_000.0];
     let points = prop::collection::vec((steps, -32_000.0..32_000.0), 1..40);
@@ -58,7 +59,7 @@ fn lists() -> impl Strategy<Value = FrictionList> {
 }
 
 proptest! {
-    /// R3.5 R3.20: whatever the list, its text is one that the control takes, and says the same.
+    /// R3.5 R3.20: the control accepts the text of any list, and reads the same values.
     #[test]
     fn a_written_list_reads_back(list in lists(), real in any::<bool>(), remark in ".{0,40}") {
         let points = if real { Points::Real } else { Points::Whole };
@@ -75,7 +76,7 @@ proptest! {
         if points == Points::Real {
             prop_assert_eq!(found.table.len(), list.table.len());
         }
-        // Each point is one of the list, as near as its decimals allow.
+        // Each point is one of the list, as close as its decimals allow.
         let (of_input, of_output) = if real { (0.0, 0.000_51) } else { (0.5, 0.5) };
         for point in &found.table {
             let near = |of: &&TablePoint| {
@@ -148,7 +149,7 @@ fn the_axis_of_a_written_list_stands_in_its_head() {
         ["kopf.achs_nr 2", "kopf.log_achs_name Y"]
     );
     assert_eq!(head(None, Some("Z1")), ["kopf.log_achs_name Z1"]);
-    // What a list could not hold, or would be read as something else, is left out.
+    // A name that a list cannot contain, or that would be read as something else, is left out.
     for name in ["", "a b", "X#", "X(", "\n", "\u{201c}"] {
         assert_eq!(head(None, Some(name)), [""; 0], "{name:?}");
     }

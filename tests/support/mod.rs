@@ -1,4 +1,4 @@
-//! Runs programs given as text and shows what happened in a few words a line.
+//! Runs programs given as text and shows what happened, in a few words per line.
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
@@ -31,7 +31,7 @@ type = "R"
 frict_comp = true
 "#;
 
-/// How programs are handed to a session.
+/// The way in which programs are passed to a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SourceMode {
     Whole,
@@ -67,7 +67,7 @@ impl Bench {
         self
     }
 
-    /// Where a condition is unknown, no branch is executed (R2.51).
+    /// Executes no branch under an unknown condition (R2.51).
     pub(crate) fn passing_branches(mut self) -> Self {
         self.options.run.branches = Branches::Passed;
         self
@@ -115,7 +115,7 @@ impl Bench {
         self
     }
 
-    /// The value of each expression, or what is said about it.
+    /// Returns the value of each expression, or the message about it.
     pub(crate) fn values(&self, preparation: &str, expressions: &[&str]) -> String {
         let mut lines = String::new();
         for expression in expressions {
@@ -138,12 +138,12 @@ impl Bench {
         lines
     }
 
-    /// What is said about a program, with advice and labels.
+    /// Returns the messages about a program, with advice and labels.
     pub(crate) fn said(&self, program: &str) -> String {
         self.said_in_session(&[program])
     }
 
-    /// What is said about programs that run one after another.
+    /// Returns the messages about programs that run one after another.
     pub(crate) fn said_in_session(&self, programs: &[&str]) -> String {
         struct Said(String);
         impl Sink for Said {
@@ -186,7 +186,7 @@ impl Bench {
         said.0
     }
 
-    /// Where the axes stand after each block.
+    /// Returns the axis positions after each block.
     pub(crate) fn positions(&self, program: &str) -> String {
         let compensation = self.machine.compensation();
         let machine = std::sync::Arc::new(self.machine.clone());

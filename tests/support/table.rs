@@ -1,4 +1,4 @@
-//! Tables of documents that tests make.
+//! Tables in documents that tests generate.
 
 use std::{env, fs};
 

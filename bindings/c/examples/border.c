@@ -1,4 +1,4 @@
-/* Everything that a host can hand over wrongly, function by function: each ends with a status and a
+/* Every wrong argument that a host can pass, function by function: each call ends with a status and a
  * reason. Run by bindings/c/test, also under valgrind. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +66,7 @@ static void states(void)
     FrictcompMachine *machine = frictcomp_machine_unconfigured();
     CHECK(frictcomp_machine_enable(machine, "X") == FRICTCOMP_STATUS_OK);
     FrictcompCompensation *states = frictcomp_compensation_new(machine);
-    frictcomp_machine_free(machine); /* The states go on without it. */
+    frictcomp_machine_free(machine); /* The states work without it. */
     const uint32_t frict = FRICTCOMP_KIND_FRICT;
 
     CHECK(frictcomp_apply(NULL, "X[COMP ON FRICT]") == FRICTCOMP_STATUS_BAD_ARGUMENT);
@@ -108,7 +108,7 @@ static void states(void)
     CHECK(frictcomp_state(states, 0, frict) == FRICTCOMP_STATE_ACTIVE);
     CHECK(frictcomp_set_state(states, 0, frict, 77) == FRICTCOMP_STATUS_BAD_ARGUMENT);
     CHECK(frictcomp_set_state(states, 1, frict, FRICTCOMP_STATE_ACTIVE) == FRICTCOMP_STATUS_BAD_ARGUMENT);
-    CHECK(frictcomp_state(states, 0, 77) == FRICTCOMP_STATE_UNKNOWN && said("no kind"));
+    CHECK(frictcomp_state(states, 0, 77) == FRICTCOMP_STATE_UNKNOWN && said("not a kind"));
     CHECK(frictcomp_state(states, SIZE_MAX, frict) == FRICTCOMP_STATE_UNKNOWN && said("no axis"));
     CHECK(frictcomp_state(NULL, 0, frict) == FRICTCOMP_STATE_UNKNOWN);
 
@@ -143,10 +143,10 @@ static void possible_states(const char *left)
     CHECK(strstr(words, "part.nc:1), else active") != NULL);
     CHECK(frictcomp_possible_states(states, 1, frict) == NULL && frictcomp_last_error() == NULL);
     CHECK(frictcomp_possible_states(states, 99, frict) == NULL && said("no axis 99"));
-    CHECK(frictcomp_possible_states(states, 0, 77) == NULL && said("no kind"));
+    CHECK(frictcomp_possible_states(states, 0, 77) == NULL && said("not a kind"));
     CHECK(frictcomp_possible_states(NULL, 0, frict) == NULL && said("`compensation` is NULL"));
 
-    /* A state that was known in between is unknown for another reason. */
+    /* A state that was known in between is then unknown for another reason. */
     CHECK(frictcomp_apply(states, "X[COMP ON FRICT]") == FRICTCOMP_STATUS_OK);
     CHECK(frictcomp_state(states, 0, frict) == FRICTCOMP_STATE_ACTIVE);
     CHECK(frictcomp_possible_states(states, 0, frict) == NULL && frictcomp_last_error() == NULL);

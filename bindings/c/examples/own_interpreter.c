@@ -1,4 +1,4 @@
-/* A host with an interpreter of its own: it knows where the axis brackets of a block are, and hands each
+/* A host with its own interpreter: it knows where the axis brackets of a block are, and passes each
  * of them to frictcomp.
  *
  *     own_interpreter START-UP-LIST

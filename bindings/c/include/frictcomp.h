@@ -1,8 +1,8 @@
-/* Friction compensation of ISG and TwinCAT CNC controls, for hosts with an interpreter of their own.
+/* Friction compensation of ISG and TwinCAT CNC controls, for hosts with their own interpreter.
  *
  * A handle is used by one thread at a time; different handles may be used by different threads. Texts
  * that are handed over are UTF-8 and end with NUL. No function throws, ends the process or keeps a pointer
- * that it was handed. What was made from a machine does not need it any more.
+ * that it was handed. What was made from a machine no longer needs it.
  *
  * Made from the functions of bindings/c: do not edit. */
 
@@ -18,17 +18,17 @@
 #define FRICTCOMP_VERSION_PATCH 0
 #define FRICTCOMP_VERSION "0.1.0"
 
-// Whether a call did what it was asked for.
+// Whether a call succeeded.
 typedef enum {
     // It did.
     FRICTCOMP_STATUS_OK = 0,
-    // The control refuses the command with an error of its own; nothing is changed.
+    // The control refuses the command with its own error; nothing is changed.
     FRICTCOMP_STATUS_REFUSED = 1,
     // The text is a bracket or a word that does not concern COMP; nothing is changed.
     FRICTCOMP_STATUS_NOT_COMP = 2,
     // The text is a COMP command with a mistake; nothing is changed.
     FRICTCOMP_STATUS_FAULTY = 3,
-    // An argument is missing, is not UTF-8, or names something that there is not.
+    // An argument is missing, is not UTF-8, or names something that does not exist.
     FRICTCOMP_STATUS_BAD_ARGUMENT = 4,
     // A file cannot be read or used.
     FRICTCOMP_STATUS_NO_MACHINE = 5,
@@ -103,17 +103,17 @@ extern "C" {
 // The version of frictcomp, as `0.1.0`.
 const char *frictcomp_version(void);
 
-// Why the last call of this thread failed, in one sentence; NULL where it did not fail. The text is
-// there until the next call of this thread.
+// Why the last call of this thread failed, in one sentence; NULL if it did not fail. The text is
+// valid until the next call of this thread.
 const char *frictcomp_last_error(void);
 
-// The number of the last error of this thread, as `P-ERR-70495` for an error of the control or `FC202`
-// for one of frictcomp; NULL where it has none. The text is there until the next call of this thread.
+// The number of the last error of this thread, such as `P-ERR-70495` for an error of the control or `FC202`
+// for one of frictcomp; NULL if it has none. The text is valid until the next call of this thread.
 const char *frictcomp_last_error_code(void);
 
 // Reads the machine from a start-up list of the control, with every list that it names, or from a
-// `frictcomp.toml`. The path is UTF-8. NULL where that cannot be done. Errors in the lists do not keep
-// it from being made: ask `frictcomp_machine_error_count`.
+// `frictcomp.toml`. The path is UTF-8. NULL if that is not possible. A machine is made despite
+// errors in the lists: check `frictcomp_machine_error_count`.
 FrictcompMachine *frictcomp_machine_read(const char *path);
 
 // A machine without lists: the axes X Y Z A B C U V W, none of which has compensation until
@@ -121,14 +121,14 @@ FrictcompMachine *frictcomp_machine_read(const char *path);
 FrictcompMachine *frictcomp_machine_unconfigured(void);
 
 // Assumes friction compensation on an axis: P-AXIS-00522 is 1 and its value list is accepted. What was
-// made from the machine before stays as it is.
+// made from the machine before does not change.
 FrictcompStatus frictcomp_machine_enable(FrictcompMachine *machine,
                                          const char *axis);
 
 // How many axes the machine has; 0 for NULL.
 size_t frictcomp_machine_axis_count(const FrictcompMachine *machine);
 
-// The name of an axis by its position; NULL where there is none. The text is there until the machine
+// The name of an axis by its position; NULL if there is none. The text is valid until the machine
 // is changed or freed.
 const char *frictcomp_machine_axis_name(const FrictcompMachine *machine,
                                         size_t axis);
@@ -142,62 +142,62 @@ FrictcompStatus frictcomp_machine_find(const FrictcompMachine *machine,
 size_t frictcomp_machine_message_count(const FrictcompMachine *machine);
 
 // How many of the messages are errors: where there is one, the control would not start with these
-// lists, or would not take one of them. `SIZE_MAX` for NULL.
+// lists, or would reject one of them. `SIZE_MAX` for NULL.
 size_t frictcomp_machine_error_count(const FrictcompMachine *machine);
 
-// A message about the lists, `file:line:column: severity[code] words`; NULL where there is none. The
-// text is there until the machine is freed.
+// A message about the lists, `file:line:column: severity[code] words`; NULL if there is none. The
+// text is valid until the machine is freed.
 const char *frictcomp_machine_message(const FrictcompMachine *machine,
                                       size_t message);
 
-// Frees a machine; NULL is nothing to free. What was made from it stays.
+// Frees a machine; NULL is ignored. What was made from it remains valid.
 void frictcomp_machine_free(FrictcompMachine *machine);
 
-// The states of every compensation on every axis after a start of the control; NULL where that cannot
-// be done.
+// The states of every compensation on every axis after a start of the control; NULL if that is not
+// possible.
 FrictcompCompensation *frictcomp_compensation_new(const FrictcompMachine *machine);
 
 // The states that dry runs left in a state file of `frictcomp run --state`, on the same machine; NULL
-// where that cannot be done. The path is UTF-8.
+// if that is not possible. The path is UTF-8.
 FrictcompCompensation *frictcomp_compensation_read(const FrictcompMachine *machine,
                                                    const char *path);
 
-// Frees the states; NULL is nothing to free.
+// Frees the states; NULL is ignored.
 void frictcomp_compensation_free(FrictcompCompensation *compensation);
 
-// Applies one COMP command, as `X[COMP OFF FRICT]`. Where the control refuses it, nothing is changed,
+// Applies one COMP command, such as `X[COMP OFF FRICT]`. If the control refuses it, nothing is changed,
 // `FRICTCOMP_STATUS_REFUSED` is returned, and `frictcomp_last_error_code` is the control's error.
 FrictcompStatus frictcomp_apply(FrictcompCompensation *compensation,
                                 const char *command);
 
-// What the end of a program does: friction compensation stays as it is.
+// Applies the end of a program: friction compensation does not change.
 FrictcompStatus frictcomp_program_end(FrictcompCompensation *compensation);
 
-// What a reset of the control does.
+// Applies a reset of the control.
 FrictcompStatus frictcomp_reset(FrictcompCompensation *compensation);
 
-// Takes over a state that the host knows from elsewhere, as from the job before. `kind` is a
+// Sets a state that the host knows from elsewhere, such as the previous job. `kind` is a
 // `FrictcompKind`; `state` is active, inactive or unknown.
 FrictcompStatus frictcomp_set_state(FrictcompCompensation *compensation,
                                     size_t axis,
                                     uint32_t kind,
                                     uint32_t state);
 
-// Says whether an axis takes part in a coupling, a `FrictcompCoupling`.
+// Sets whether an axis takes part in a coupling, a `FrictcompCoupling`.
 FrictcompStatus frictcomp_set_coupling(FrictcompCompensation *compensation,
                                        size_t axis,
                                        uint32_t coupling);
 
-// The state of a kind of compensation, a `FrictcompKind`, on an axis. What there is not is unknown, and
+// The state of a kind of compensation, a `FrictcompKind`, on an axis. What does not exist is unknown, and
 // `frictcomp_last_error` says why.
 FrictcompState frictcomp_state(const FrictcompCompensation *compensation,
                                size_t axis,
                                uint32_t kind);
 
 // The states that are possible for a kind of compensation, a `FrictcompKind`, on an axis, with the
-// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL where the
-// state is known, and where it is unknown for another reason than a condition of a dry run. The text is
-// there until the handle is changed or freed.
+// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL if the
+// state is known, or unknown for a reason other than a condition of a dry run. The text is
+// valid until the handle is changed or freed.
 const char *frictcomp_possible_states(const FrictcompCompensation *compensation,
                                       size_t axis,
                                       uint32_t kind);

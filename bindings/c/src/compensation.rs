@@ -82,7 +82,7 @@ pub struct FrictcompCompensation {
     possible: Vec<PossibleValues>,
 }
 
-/// The states that are possible where one is unknown.
+/// The possible states where one is unknown.
 #[derive(Debug)]
 struct PossibleValues {
     axis: AxisIndex,
@@ -119,13 +119,13 @@ impl FrictcompCompensation {
         })
     }
 
-    /// A call begins that may change a state.
+    /// Begins a call that may change a state.
     pub(crate) fn begin(&mut self) -> &mut Self {
         self.changes.clear();
         self
     }
 
-    /// Applies one command, as `X[COMP OFF FRICT]`.
+    /// Applies one command, such as `X[COMP OFF FRICT]`.
     pub(crate) fn apply(&mut self, command: &str) -> Result<(), Failure> {
         let command = parse_comp(command)?.ok_or(Failure::NotComp)?;
         let changes = self.states.apply(&command)?;
@@ -150,7 +150,7 @@ impl FrictcompCompensation {
         self.changed(&changes);
     }
 
-    /// Takes over a state that the host knows from elsewhere, as from the job before.
+    /// Sets a state that the host knows from elsewhere, such as the previous job.
     pub(crate) fn set(&mut self, axis: usize, kind: u32, state: u32) -> Result<(), Failure> {
         let (axis, kind) = (self.axis(axis)?, kind_of(kind)?);
         let mut selected = self.states.selected(axis);
@@ -165,7 +165,7 @@ impl FrictcompCompensation {
             it if it == FrictcompState::Inactive as u32 => selected.remove(kind),
             it if it == FrictcompState::Unknown as u32 => unknown.insert(kind),
             other => {
-                let words = format!("{other} is no state to set: active, inactive or unknown is");
+                let words = format!("{other} cannot be set: use active, inactive or unknown");
                 return Err(Failure::bad(words));
             }
         }
@@ -194,7 +194,7 @@ impl FrictcompCompensation {
             it if it == FrictcompCoupling::None as u32 => Coupling::None,
             it if it == FrictcompCoupling::Active as u32 => Coupling::Active,
             it if it == FrictcompCoupling::Perhaps as u32 => Coupling::Perhaps,
-            other => return Err(Failure::bad(format!("{other} is no coupling"))),
+            other => return Err(Failure::bad(format!("{other} is not a coupling"))),
         };
         self.states.set_coupled(axis, coupling);
         Ok(())
@@ -205,7 +205,7 @@ impl FrictcompCompensation {
         Ok(self.states.state(axis, kind).into())
     }
 
-    /// The states that are possible in words, where it is known on which conditions they depend.
+    /// The possible states in words, where the conditions that they depend on are known.
     pub(crate) fn possible(&self, axis: usize, kind: u32) -> Result<Option<&CString>, Failure> {
         let (axis, kind) = (self.axis(axis)?, kind_of(kind)?);
         let mut possible = self.possible.iter();
@@ -213,7 +213,7 @@ impl FrictcompCompensation {
         Ok(found.map(|it| &it.words))
     }
 
-    /// What the last call that could change a state changed, in the order of the changes.
+    /// The changes of the last call that could change a state, in their order.
     pub(crate) fn changes(&self) -> &[FrictcompChange] {
         &self.changes
     }
@@ -246,7 +246,7 @@ fn kind_of(number: u32) -> Result<Kind, Failure> {
     let found = Kind::ALL
         .into_iter()
         .find(|kind| FrictcompKind::from(*kind) as u32 == number);
-    found.ok_or_else(|| Failure::bad(format!("{number} is no kind of compensation")))
+    found.ok_or_else(|| Failure::bad(format!("{number} is not a kind of compensation")))
 }
 
 impl From<Kind> for FrictcompKind {

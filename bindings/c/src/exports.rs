@@ -1,9 +1,9 @@
 //! The functions that C sees. Handles are checked for NULL, texts for UTF-8; that a pointer leads to what
-//! it was made for is up to the host, as everywhere in C.
+//! it was made for is the responsibility of the host, as everywhere in C.
 #![allow(unsafe_code)]
 #![allow(
     clippy::missing_safety_doc,
-    reason = "these pages are the comments of a C header; docs/c.md says what holds for every handle"
+    reason = "these pages are the comments of a C header; docs/c.md has the rules for every handle"
 )]
 
 use std::ffi::{CStr, c_char};
@@ -25,23 +25,23 @@ pub extern "C" fn frictcomp_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// Why the last call of this thread failed, in one sentence; NULL where it did not fail. The text is
-/// there until the next call of this thread.
+/// Why the last call of this thread failed, in one sentence; NULL if it did not fail. The text is
+/// valid until the next call of this thread.
 #[unsafe(no_mangle)]
 pub extern "C" fn frictcomp_last_error() -> *const c_char {
     last_message()
 }
 
-/// The number of the last error of this thread, as `P-ERR-70495` for an error of the control or `FC202`
-/// for one of frictcomp; NULL where it has none. The text is there until the next call of this thread.
+/// The number of the last error of this thread, such as `P-ERR-70495` for an error of the control or `FC202`
+/// for one of frictcomp; NULL if it has none. The text is valid until the next call of this thread.
 #[unsafe(no_mangle)]
 pub extern "C" fn frictcomp_last_error_code() -> *const c_char {
     last_code()
 }
 
 /// Reads the machine from a start-up list of the control, with every list that it names, or from a
-/// `frictcomp.toml`. The path is UTF-8. NULL where that cannot be done. Errors in the lists do not keep
-/// it from being made: ask `frictcomp_machine_error_count`.
+/// `frictcomp.toml`. The path is UTF-8. NULL if that is not possible. A machine is made despite
+/// errors in the lists: check `frictcomp_machine_error_count`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_read(path: *const c_char) -> *mut FrictcompMachine {
     call(
@@ -64,7 +64,7 @@ pub extern "C" fn frictcomp_machine_unconfigured() -> *mut FrictcompMachine {
 }
 
 /// Assumes friction compensation on an axis: P-AXIS-00522 is 1 and its value list is accepted. What was
-/// made from the machine before stays as it is.
+/// made from the machine before does not change.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_enable(
     machine: *mut FrictcompMachine,
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn frictcomp_machine_axis_count(machine: *const FrictcompM
     )
 }
 
-/// The name of an axis by its position; NULL where there is none. The text is there until the machine
+/// The name of an axis by its position; NULL if there is none. The text is valid until the machine
 /// is changed or freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_axis_name(
@@ -128,7 +128,7 @@ pub unsafe extern "C" fn frictcomp_machine_message_count(
 }
 
 /// How many of the messages are errors: where there is one, the control would not start with these
-/// lists, or would not take one of them. `SIZE_MAX` for NULL.
+/// lists, or would reject one of them. `SIZE_MAX` for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_error_count(machine: *const FrictcompMachine) -> usize {
     call(
@@ -137,8 +137,8 @@ pub unsafe extern "C" fn frictcomp_machine_error_count(machine: *const Frictcomp
     )
 }
 
-/// A message about the lists, `file:line:column: severity[code] words`; NULL where there is none. The
-/// text is there until the machine is freed.
+/// A message about the lists, `file:line:column: severity[code] words`; NULL if there is none. The
+/// text is valid until the machine is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_message(
     machine: *const FrictcompMachine,
@@ -153,14 +153,14 @@ pub unsafe extern "C" fn frictcomp_machine_message(
     )
 }
 
-/// Frees a machine; NULL is nothing to free. What was made from it stays.
+/// Frees a machine; NULL is ignored. What was made from it remains valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_machine_free(machine: *mut FrictcompMachine) {
     unsafe { free(machine) };
 }
 
-/// The states of every compensation on every axis after a start of the control; NULL where that cannot
-/// be done.
+/// The states of every compensation on every axis after a start of the control; NULL if that is not
+/// possible.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_compensation_new(
     machine: *const FrictcompMachine,
@@ -175,7 +175,7 @@ pub unsafe extern "C" fn frictcomp_compensation_new(
 }
 
 /// The states that dry runs left in a state file of `frictcomp run --state`, on the same machine; NULL
-/// where that cannot be done. The path is UTF-8.
+/// if that is not possible. The path is UTF-8.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_compensation_read(
     machine: *const FrictcompMachine,
@@ -191,13 +191,13 @@ pub unsafe extern "C" fn frictcomp_compensation_read(
     )
 }
 
-/// Frees the states; NULL is nothing to free.
+/// Frees the states; NULL is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_compensation_free(compensation: *mut FrictcompCompensation) {
     unsafe { free(compensation) };
 }
 
-/// Applies one COMP command, as `X[COMP OFF FRICT]`. Where the control refuses it, nothing is changed,
+/// Applies one COMP command, such as `X[COMP OFF FRICT]`. If the control refuses it, nothing is changed,
 /// `FRICTCOMP_STATUS_REFUSED` is returned, and `frictcomp_last_error_code` is the control's error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_apply(
@@ -210,7 +210,7 @@ pub unsafe extern "C" fn frictcomp_apply(
     })
 }
 
-/// What the end of a program does: friction compensation stays as it is.
+/// Applies the end of a program: friction compensation does not change.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_program_end(
     compensation: *mut FrictcompCompensation,
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn frictcomp_program_end(
     })
 }
 
-/// What a reset of the control does.
+/// Applies a reset of the control.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_reset(
     compensation: *mut FrictcompCompensation,
@@ -236,7 +236,7 @@ pub unsafe extern "C" fn frictcomp_reset(
     })
 }
 
-/// Takes over a state that the host knows from elsewhere, as from the job before. `kind` is a
+/// Sets a state that the host knows from elsewhere, such as the previous job. `kind` is a
 /// `FrictcompKind`; `state` is active, inactive or unknown.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_set_state(
@@ -252,7 +252,7 @@ pub unsafe extern "C" fn frictcomp_set_state(
     })
 }
 
-/// Says whether an axis takes part in a coupling, a `FrictcompCoupling`.
+/// Sets whether an axis takes part in a coupling, a `FrictcompCoupling`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_set_coupling(
     compensation: *mut FrictcompCompensation,
@@ -266,7 +266,7 @@ pub unsafe extern "C" fn frictcomp_set_coupling(
     })
 }
 
-/// The state of a kind of compensation, a `FrictcompKind`, on an axis. What there is not is unknown, and
+/// The state of a kind of compensation, a `FrictcompKind`, on an axis. What does not exist is unknown, and
 /// `frictcomp_last_error` says why.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_state(
@@ -281,9 +281,9 @@ pub unsafe extern "C" fn frictcomp_state(
 }
 
 /// The states that are possible for a kind of compensation, a `FrictcompKind`, on an axis, with the
-/// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL where the
-/// state is known, and where it is unknown for another reason than a condition of a dry run. The text is
-/// there until the handle is changed or freed.
+/// conditions that lead to each: `inactive if V.E.MATERIAL == 2 (part.nc:12), else active`. NULL if the
+/// state is known, or unknown for a reason other than a condition of a dry run. The text is
+/// valid until the handle is changed or freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn frictcomp_possible_states(
     compensation: *const FrictcompCompensation,

@@ -12,19 +12,19 @@ use frictcomp::syntax::Fault;
 use frictcomp_host::HostError;
 use thiserror::Error;
 
-/// Whether a call did what it was asked for.
+/// Whether a call succeeded.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictcompStatus {
     /// It did.
     Ok = 0,
-    /// The control refuses the command with an error of its own; nothing is changed.
+    /// The control refuses the command with its own error; nothing is changed.
     Refused = 1,
     /// The text is a bracket or a word that does not concern COMP; nothing is changed.
     NotComp = 2,
     /// The text is a COMP command with a mistake; nothing is changed.
     Faulty = 3,
-    /// An argument is missing, is not UTF-8, or names something that there is not.
+    /// An argument is missing, is not UTF-8, or names something that does not exist.
     BadArgument = 4,
     /// A file cannot be read or used.
     NoMachine = 5,
@@ -105,7 +105,7 @@ impl From<HostError> for Failure {
     }
 }
 
-/// The last error of a thread, as C reads it.
+/// The last error of a thread in the form that C reads.
 #[derive(Default)]
 struct LastError {
     message: Option<CString>,
@@ -116,7 +116,7 @@ thread_local! {
     static LAST: RefCell<LastError> = RefCell::default();
 }
 
-/// Does the work of a call: forgets the error of the call before, and returns `fallback` where the work
+/// Does the work of a call: forgets the error of the previous call, and returns `fallback` if the work
 /// fails or panics.
 pub(crate) fn call<T>(
     fallback: impl FnOnce(FrictcompStatus) -> T,
@@ -149,17 +149,17 @@ fn remember(failure: Option<&Failure>) {
     });
 }
 
-/// The words of the last error, where the last call of this thread failed.
+/// The words of the last error, if the last call of this thread failed.
 pub(crate) fn last_message() -> *const c_char {
     LAST.with_borrow(|last| last.message.as_ref().map_or(null(), |text| text.as_ptr()))
 }
 
-/// The code of the last error, where it has one.
+/// The code of the last error, if it has one.
 pub(crate) fn last_code() -> *const c_char {
     LAST.with_borrow(|last| last.code.as_ref().map_or(null(), |text| text.as_ptr()))
 }
 
-/// A message in one line, with its place in front as compilers have it.
+/// A message in one line, preceded by its place as in compilers.
 pub(crate) fn line(said: &Diagnostic) -> String {
     let (file, start) = (&said.place.file, said.place.start());
     let Diagnostic {

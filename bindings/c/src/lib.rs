@@ -1,4 +1,4 @@
-//! Friction compensation for hosts with an NC interpreter of their own that are written in C or talk to
+//! Friction compensation for hosts with their own NC interpreter that are written in C or talk to
 //! C: `include/frictcomp.h` is made from this crate, `docs/c.md` shows how it is used.
 //!
 //! [`machine`] and [`compensation`] are what the handles of C point to, [`failure`] keeps panics inside

@@ -21,7 +21,7 @@ pub struct FrictcompMachine {
 }
 
 impl FrictcompMachine {
-    /// The machine of a start-up list or, where the file is named so, of a `frictcomp.toml`.
+    /// The machine of a start-up list or, if the file has that name, of a `frictcomp.toml`.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let is_configuration = path
             .extension()
@@ -67,7 +67,7 @@ impl FrictcompMachine {
         let is_known = self.machine.find(name).is_some();
         let command = parse_comp(&format!("{name}[COMP ON FRICT]"));
         if !is_known && !matches!(command, Ok(Some(command)) if command.axis == name) {
-            return Err(Failure::bad(format!("`{name}` is no name of an axis")));
+            return Err(Failure::bad(format!("`{name}` is not an axis name")));
         }
         if !self.machine.enable(name) {
             return Err(Failure::bad(format!("the machine has no axis `{name}`")));
@@ -90,7 +90,7 @@ impl FrictcompMachine {
         found.ok_or_else(|| Failure::bad(format!("the machine has no axis `{name}`")))
     }
 
-    /// What there is to say about the lists, a line each.
+    /// The messages about the lists, a line each.
     pub(crate) fn messages(&self) -> &[CString] {
         &self.messages
     }

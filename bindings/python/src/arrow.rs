@@ -16,7 +16,7 @@ use crate::exceptions::refused;
 /// The name that the `PyCapsule` interface of Arrow gives a stream.
 const STREAM: &CStr = c"arrow_array_stream";
 
-/// A table in batches. Its buffers live as long as anybody has a part of them.
+/// A table in batches. Its buffers live as long as any part of them is in use.
 #[derive(Debug, Clone)]
 pub(crate) struct ArrowTable {
     pub(crate) schema: SchemaRef,
@@ -27,7 +27,7 @@ pub(crate) struct ArrowTable {
 pub(crate) type ArrowColumn = (&'static str, ArrayRef);
 
 impl ArrowTable {
-    /// A table of one batch. Only the named columns may lack values.
+    /// A table of one batch. Only the named columns may have missing values.
     pub(crate) fn of(columns: Vec<ArrowColumn>, nullable: &[&str]) -> Self {
         let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = columns
             .into_iter()

@@ -1,4 +1,4 @@
-//! `frictcomp.audit`: what the order of programs does.
+//! `frictcomp.audit`: the effect of the order of programs.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ use crate::pickled::{self, Reduced};
 use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
 
-/// What the order of programs does: one row for each program, axis and kind.
+/// The effect of the order of programs: one row for each program, axis and kind.
 ///
 /// The table has the columns of ``frictcomp audit --format csv``.
 #[pyclass(frozen, name = "Audit", module = "frictcomp")]
@@ -37,7 +37,7 @@ pub(crate) struct PyAudit {
     has_warnings: bool,
 }
 
-/// The same, away from Python.
+/// The audit, independent of Python.
 struct Audited {
     report: AuditReport,
     said: GivenMessages,
@@ -89,14 +89,14 @@ fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
     })
 }
 
-/// What is audited, away from Python.
+/// What is audited, independent of Python.
 pub(crate) struct AuditJob {
     pub(crate) programs: GivenPrograms,
     pub(crate) machine: MachineOptions,
     pub(crate) options: AuditOptions,
 }
 
-/// Finds the programs among those that were given, and what gave none.
+/// Finds the programs among the given paths, and the paths that have none.
 type Find = fn(GivenPrograms, &mut Machines) -> (Vec<Input>, Vec<HostError>);
 
 impl AuditJob {
@@ -113,7 +113,7 @@ impl AuditJob {
     }
 }
 
-/// What keeps the control from taking its lists, and that no machine is described.
+/// The errors that keep the control from accepting its lists, and the remark that no machine is described.
 pub(crate) fn said(auditor: &ArchiveAuditor) -> GivenMessages {
     let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
         let loaded = &auditor.machines()[*machine];
@@ -135,7 +135,7 @@ struct AxisEffectRow<'a> {
     axis: &'a AxisAudit,
 }
 
-/// The columns of `audit --format csv`: a row a program, axis and kind.
+/// The columns of `audit --format csv`: a row for each program, axis and kind.
 fn table(report: &AuditReport) -> ArrowTable {
     let machines = report.machines.iter();
     let rows = machines.flat_map(|machine| {
@@ -203,7 +203,7 @@ fn table(report: &AuditReport) -> ArrowTable {
     ArrowTable::of(columns, &[&by[..], &inherited].concat())
 }
 
-/// What an audit is restored from: the table, the records, the messages, the counts.
+/// The data that an audit is restored from: the table, the records, the messages, the counts.
 type PickledAudit<'py> = (
     Bound<'py, PyBytes>,
     String,
@@ -253,7 +253,7 @@ impl PyAudit {
         self.table.columns()
     }
 
-    /// What keeps the control from taking its lists.
+    /// The errors that keep the control from accepting its lists.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)
@@ -270,7 +270,7 @@ impl PyAudit {
         self.hazards
     }
 
-    /// Whether something needs mending, or is not known.
+    /// Whether something needs to be corrected, or is not known.
     #[getter]
     fn has_warnings(&self) -> bool {
         self.has_warnings

@@ -22,7 +22,7 @@ use crate::work::{Stop, interruptible};
 
 /// All messages of programs and of the programs below folders.
 ///
-/// Each program runs from the start of the control. ``Error`` where one of them cannot be read.
+/// Each program runs from the start of the control. ``Error`` if one of them cannot be read.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, limits=None))]
 pub(crate) fn check(
@@ -39,7 +39,7 @@ pub(crate) fn check(
     Ok(PyMessages::new(said))
 }
 
-/// Everything that a check needs, away from Python.
+/// Everything that a check needs, independent of Python.
 struct CheckJob {
     programs: GivenPrograms,
     machine: MachineOptions,
@@ -49,7 +49,7 @@ struct CheckJob {
 /// A program with its machine.
 type ProgramOnMachine<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
-/// What one program has to say.
+/// The messages of one program.
 struct ProgramFindings<'a> {
     executed: ExecutedProgram<'a>,
     loaded: Arc<LoadedMachine>,
@@ -94,7 +94,7 @@ impl CheckJob {
 }
 
 impl GivenMessages {
-    /// What the programs say that count by themselves (R17.2): the others were checked in their callers.
+    /// The messages of the programs that count on their own (R17.2): the others were checked in their callers.
     fn gather(&mut self, all: Vec<ProgramFindings<'_>>, disk: &Disk) {
         let executed: Vec<_> = all.iter().map(|it| it.executed.clone()).collect();
         let mut causes = Causes::default();

@@ -41,7 +41,7 @@ pub(crate) struct PyContour {
     messages: Py<PyMessages>,
 }
 
-/// What is driven, away from Python.
+/// What is driven, independent of Python.
 struct ContourJob {
     programs: GivenPrograms,
     machine: MachineOptions,
@@ -68,10 +68,10 @@ struct Driven {
 /// The path is driven three times: with friction compensation as the program switches it, with all of
 /// it on, and with all of it off. ``plane`` is the view of the picture, ``"XY"`` or two names.
 /// ``value_list`` gives axes other lists than those of the machine, ``{"X": "comp_x.lis"}``. ``start``
-/// says where axes stand at first, ``{"X": 0.0}``, in mm or degrees.
+/// gives the axis positions at the start, ``{"X": 0.0}``, in mm or degrees.
 #[pyfunction]
 #[pyo3(signature = (program, *, machine=None, plane=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, start=None, max_cycles=None, limits=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments, clippy::similar_names)]
 pub(crate) fn contour(
     program: &Bound<'_, PyAny>,
@@ -186,7 +186,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
     recorder.drawing(ContourPicture::new(plane))
 }
 
-/// What a contour is restored from.
+/// The data that a contour is restored from.
 type PickledContour = (String, String, Vec<String>, Py<PyMessages>);
 
 #[pymethods]

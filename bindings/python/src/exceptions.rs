@@ -1,4 +1,4 @@
-//! The exceptions that Python gets.
+//! The exceptions that Python receives.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -36,13 +36,13 @@ impl Failure {
         }
     }
 
-    /// The same with what to do about it.
+    /// A failure with advice on what to do.
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         let help = Some(help.into());
         Self { help, ..self }
     }
 
-    /// A state that a session does not take.
+    /// A state that a session does not accept.
     pub(crate) fn of_state(error: StateError) -> Self {
         Self::new(format!("the state cannot be used: {error}"))
             .with_help("begin without a state, or give the machine that it was made on")
@@ -65,12 +65,12 @@ impl Failure {
         Self::new(error.to_string()).with_help(error.help())
     }
 
-    /// A recording in which there is nothing to be found.
+    /// A recording in which nothing can be found.
     pub(crate) fn of_identification(error: IdentifyError) -> Self {
         Self::new(error.to_string()).with_help(error.help())
     }
 
-    /// What to say where several things could not be done.
+    /// The message if several things could not be done.
     pub(crate) fn of_several(errors: Vec<HostError>) -> Option<Self> {
         let count = errors.len();
         let mut failures = errors.into_iter().map(Self::from);

@@ -29,12 +29,12 @@ use crate::several::Several;
 use crate::words::meant_if_given;
 use crate::work::interruptible;
 
-/// The friction of an axis, and the value list that is made of it.
+/// The friction of an axis, and the value list that is made from it.
 #[pyclass(frozen, name = "Identified", module = "frictcomp")]
 #[derive(Serialize, Deserialize)]
 pub(crate) struct PyIdentified {
     record: String,
-    /// The curve; there is no picture of what was found on circles.
+    /// The curve; there is none, and no picture, if friction was found on circles.
     svg: Option<String>,
     list: FrictionList,
     axis: Option<String>,
@@ -51,7 +51,7 @@ struct AxisRecordings {
     said: TorqueStatement,
 }
 
-/// What the caller says about the torque; it takes precedence over the channels.
+/// The caller's statements about the torque; they take precedence over the channels.
 #[derive(Clone, Copy)]
 struct TorqueStatement {
     kind: Option<TorqueKind>,
@@ -75,14 +75,14 @@ fn switched(word: &str) -> PyResult<Switched> {
 /// Finds the friction of an axis in a recording, and the points of a value list.
 ///
 /// ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
-/// was on meanwhile; without them the channels say it, where they do.
+/// was on meanwhile; without them, the channels decide, if they show it.
 ///
-/// ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
+/// ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units if
 /// the file does not. With ``circles`` the recordings are circles at two or more feeds.
 /// ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
 #[pyfunction]
 #[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0, torque_kind=None, compensation=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn identify(
     py: Python<'_>,
@@ -198,7 +198,7 @@ impl AxisRecordings {
         let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;
         let tracks: Vec<_> = recordings.iter().map(|it| it.track.clone()).collect();
         let measured = recordings.iter().map(|it| self.said.about(it.measured));
-        // What is known least of any recording.
+        // Only what is known about every recording.
         let measured = measured.reduce(Measured::common).unwrap_or_default();
         let names = self.traces.iter().map(|path| shown_path(path));
         let report = OnCirclesReport {
@@ -238,7 +238,7 @@ fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult
     if let Some(percent) = max_error {
         if !(percent > 0.0 && percent <= LARGEST) {
             return Err(refused(format!(
-                "an error of {percent} % is not possible; give per cent of the friction, 1 for instance"
+                "an error of {percent} % is not possible; give per cent of the friction, for example 1"
             )));
         }
         options.accuracy = percent / 100.0;
@@ -285,7 +285,7 @@ impl PyIdentified {
 
     /// The picture of the friction curve, as ``frictcomp identify --svg`` draws it.
     ///
-    /// ``Error`` where friction was found on circles, of which there is none.
+    /// ``Error`` if friction was found on circles, for which there is no picture.
     fn svg(&self, py: Python<'_>) -> PyResult<&str> {
         let svg = self.svg.as_deref();
         svg.ok_or_else(|| Failure::new("there is no picture of friction on circles").into_error(py))

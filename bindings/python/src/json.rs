@@ -3,12 +3,12 @@
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// What a text in JSON says, as dictionaries, lists, texts and numbers.
+/// The content of a JSON text, as dictionaries, lists, texts and numbers.
 pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (json,))
 }
 
-/// A text in JSON, which Python gets as its own values.
+/// A JSON text, which Python receives as its own values.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct JsonText(pub(crate) String);
 

@@ -1,5 +1,5 @@
-//! The Python module `frictcomp._engine`: what `frictcomp` does, as Python classes and functions.
-//! What they do is documented where Python's users read it, in `python/frictcomp/_engine.pyi`.
+//! The Python module `frictcomp._engine`: the features of `frictcomp` as Python classes and functions.
+//! They are documented where Python users read it, in `python/frictcomp/_engine.pyi`.
 
 mod arrow;
 mod audit;
@@ -32,7 +32,7 @@ mod work;
 /// The module.
 #[pyo3::pymodule]
 mod _engine {
-    /// The parser of this module is shared with no other one of the process.
+    /// The parser of this module is not shared with any other module of the process.
     #[pymodule_init]
     #[allow(clippy::unnecessary_wraps, reason = "PyO3 asks for a result")]
     fn begin(_module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

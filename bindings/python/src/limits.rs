@@ -11,12 +11,12 @@ use crate::several::Several;
 /// The deepest nesting of macros that can be allowed.
 const MACROS: u32 = 64;
 
-/// What a dry run skips and where it ends; what is left out is as on the command line.
+/// What a dry run skips and where it ends; the defaults are those of the command line.
 ///
 /// ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
-/// beyond them, ``values`` the values that a program holds; ``calls``, ``nesting`` and ``macros``
-/// bound the depth of calls, control blocks and macros. ``skip`` are the skip levels that are on, all
-/// others are off; without it and without ``skip`` in ``frictcomp.toml`` it is unknown whether a
+/// beyond them, ``values`` the values that a program keeps; ``calls``, ``nesting`` and ``macros``
+/// bound the depth of calls, control blocks and macros. ``skip`` gives the skip levels that are on, all
+/// others are off; without it and without ``skip`` in ``frictcomp.toml``, it is unknown whether a
 /// block with a skip mark is executed.
 #[pyclass(frozen, name = "Limits", module = "frictcomp")]
 pub(crate) struct PyLimits(Options);
@@ -25,7 +25,7 @@ pub(crate) struct PyLimits(Options);
 impl PyLimits {
     #[new]
     #[pyo3(signature = (*, blocks=None, work=None, values=None, calls=None, nesting=None, macros=None, skip=None))]
-    // Each is an argument of its own for Python.
+    // Each is a separate argument in Python.
     #[allow(clippy::too_many_arguments)]
     fn new(
         blocks: Option<u64>,
@@ -99,7 +99,7 @@ pub(crate) fn options(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     limits.map_or_else(Options::default, |limits| limits.get().0)
 }
 
-/// The same while a user waits: unless limits are given, loops and calls end soon (R9.91).
+/// How programs run while a user waits: unless limits are given, loops and calls end soon (R9.91).
 pub(crate) fn brief(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     let given = limits.map(|limits| limits.get().0);
     given.unwrap_or_else(|| Options::default().with_limits(Limits::brief()))

@@ -23,8 +23,8 @@ use crate::several::Several;
 /// The machine that programs run on.
 ///
 /// Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
-/// program upwards, as on the command line. ``config`` names another one, ``isolated`` takes none.
-/// ``startup`` takes the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+/// program upwards, as on the command line. ``config`` names another one, ``isolated`` uses none.
+/// ``startup`` reads the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
 /// accepted value list for axes. ``variables`` are values that only the machine knows,
 /// ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
 #[pyclass(frozen, name = "Machine", module = "frictcomp")]
@@ -41,7 +41,7 @@ enum VariableValue {
 impl PyMachine {
     #[new]
     #[pyo3(signature = (config=None, *, startup=None, isolated=false, enable=None, variables=None, allow_outside=false))]
-    // Each is an argument of its own for Python.
+    // Each is a separate argument in Python.
     #[allow(clippy::too_many_arguments)]
     fn new(
         config: Option<PathBuf>,
@@ -128,7 +128,7 @@ impl PyMachine {
     }
 }
 
-/// What `machine=` says: nothing, a `Machine`, a configuration or a start-up list.
+/// The value of `machine=`: nothing, a `Machine`, a configuration or a start-up list.
 pub(crate) fn machine_options(given: Option<&Bound<'_, PyAny>>) -> PyResult<MachineOptions> {
     let Some(given) = given else {
         return Ok(MachineOptions::default());
@@ -186,7 +186,7 @@ fn of_first(machines: Machines, programs: &GivenPrograms) -> Result<Arc<LoadedMa
     Ok(machines.for_folder(first.folder())?)
 }
 
-/// That no machine is described, where programs switch compensation without one (R1.37).
+/// The remark that no machine is described, if programs switch compensation without one (R1.37).
 pub(crate) fn remark_without_machine<'a>(
     programs: impl IntoIterator<Item = &'a Input>,
 ) -> Option<String> {

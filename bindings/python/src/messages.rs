@@ -23,7 +23,7 @@ use crate::pickled::{self, Reduced};
 /// A word of a table of frictcomp, or one that was pickled.
 pub(crate) type PickledWord = Cow<'static, str>;
 
-/// A change of the text that does what a message advises.
+/// A change to the text that does what a message advises.
 ///
 /// The text from ``line``, ``column`` up to ``end_line``, ``end_column`` is replaced.
 #[pyclass(frozen, get_all, eq, name = "Fix", module = "frictcomp")]
@@ -38,7 +38,7 @@ pub(crate) struct PyFix {
     safety: PickledWord,
 }
 
-/// An end of the program that a message at its end is about.
+/// An end of the program that a message about program end refers to.
 #[pyclass(frozen, get_all, eq, name = "End", module = "frictcomp")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyEnd {
@@ -53,7 +53,7 @@ pub(crate) struct PyEnd {
 #[pyclass(frozen, get_all, eq, name = "Message", module = "frictcomp")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyMessage {
-    /// The program of the session, from 1; None where the message is about a list.
+    /// The program of the session, from 1; None if the message is about a list.
     program: Option<u32>,
     /// The executed block of the program, from 1.
     seq: Option<u64>,
@@ -66,16 +66,16 @@ pub(crate) struct PyMessage {
     column: u32,
     end_line: u32,
     end_column: u32,
-    /// The axis that it is about.
+    /// The axis that it refers to.
     axis: Option<String>,
     message: String,
     /// What to do.
     help: Vec<String>,
-    /// The ends of the program that a message at its end is about.
+    /// The ends of the program that a message about program end refers to.
     ends: Vec<PyEnd>,
-    /// Changes of the text, each of which alone does what is advised.
+    /// Changes to the text, each of which alone does what is advised.
     fixes: Vec<PyFix>,
-    /// The main programs that reach the place of the message in a called program, 20 at most.
+    /// The main programs that reach the place of the message in a called program, at most 20.
     reached_from: Vec<String>,
     /// How many main programs reach it.
     reached_from_count: usize,
@@ -86,7 +86,7 @@ pub(crate) struct PyMessage {
 pub(crate) struct GivenMessages {
     /// The messages in their order.
     pub(crate) messages: Vec<PyMessage>,
-    /// What stands above everything else: that no machine is described (R1.37).
+    /// The remark above everything else: that no machine is described (R1.37).
     pub(crate) remark: Option<String>,
     /// How many more messages there are, by severity (R2.85).
     pub(crate) left_out: BTreeMap<PickledWord, u64>,
@@ -204,7 +204,7 @@ fn named(reached: &ReachedFrom) -> Vec<String> {
 }
 
 impl PyMessage {
-    /// A message that belongs to no block.
+    /// A message that does not belong to a block.
     pub(crate) fn of(said: &Diagnostic) -> Self {
         let (start, end) = (said.place.start(), said.place.end());
         Self {
@@ -425,7 +425,7 @@ impl PyMessages {
         self.table().stream(py)
     }
 
-    /// How many errors there are, those that are left out included.
+    /// The number of errors, including those that are left out.
     #[getter]
     fn errors(&self) -> u64 {
         self.count_of("error")
@@ -436,19 +436,19 @@ impl PyMessages {
         self.count_of("warning")
     }
 
-    /// How many messages of a severity are not listed: the list for each file is limited.
+    /// The number of messages of a severity that are not listed: the list for each file is limited.
     #[getter]
     fn left_out(&self) -> BTreeMap<PickledWord, u64> {
         self.0.left_out.clone()
     }
 
-    /// That no machine is described, where that matters.
+    /// A remark that no machine is described, where that matters.
     #[getter]
     fn remark(&self) -> Option<&str> {
         self.0.remark.as_deref()
     }
 
-    /// Raises ``Error`` where there is a message of severity error.
+    /// Raises ``Error`` if there is a message of severity error.
     pub(crate) fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
         let errors = self.0.messages.iter().filter(|message| message.is_error());
         let errors: Vec<PyMessage> = errors.cloned().collect();

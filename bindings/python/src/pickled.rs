@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 
 use crate::exceptions::refused;
 
-/// What `__reduce__` gives: the function that restores the object, and its arguments.
+/// The result of `__reduce__`: the function that restores the object, and its arguments.
 pub(crate) type Reduced<A> = (Py<PyAny>, A);
 
 /// The function `_unpickled` of the class of an object, with its arguments.

@@ -5,7 +5,7 @@ use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 
 use crate::failure::Failure;
 
-/// Cycles of the time that was given, else that of the machine.
+/// Cycles with the given time, otherwise that of the machine.
 pub(crate) fn planner(
     cycle_s: Option<f64>,
     max_cycles: u64,

@@ -13,14 +13,14 @@ use pyo3::types::{PyBytes, PyFrozenSet, PySet, PyString};
 
 use crate::failure::Failure;
 
-/// The name of a text that stands in for no file.
+/// The name of a text that does not represent a file.
 const NAMELESS: &str = "<text>";
 
-/// The text of a program, in place of a file.
+/// The text of a program, instead of a file.
 ///
-/// ``path`` says for which file it stands: called programs and the configuration are looked for
-/// from its folder, and messages name it. Bytes are decoded as a file is: UTF-8, UTF-16 with its
-/// mark, else code page 1252.
+/// ``path`` names the file that it represents: called programs and the configuration are looked for
+/// from its folder, and messages name it. Bytes are decoded like a file: UTF-8, UTF-16 with its
+/// mark, otherwise code page 1252.
 #[pyclass(frozen, name = "Text", module = "frictcomp")]
 pub(crate) struct PyText(OpenText);
 
@@ -82,7 +82,7 @@ impl GivenPrograms {
         Ok(Self { inputs, disk })
     }
 
-    /// Programs that run in the order in which they are given.
+    /// Programs that run in the given order.
     pub(crate) fn in_order(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         if given.is_instance_of::<PySet>() || given.is_instance_of::<PyFrozenSet>() {
             return Err(PyTypeError::new_err(
@@ -103,7 +103,7 @@ impl GivenPrograms {
         Ok(programs)
     }
 
-    /// The programs, with those of the folders among them, each once; and what gave no program.
+    /// The programs, including those of the folders, each once; and the paths that gave no program.
     pub(crate) fn found(self, machines: &mut Machines) -> (Vec<Input>, Vec<HostError>) {
         let (mut found, mut errors) = (Vec::new(), Vec::new());
         for input in self.inputs {
@@ -121,7 +121,7 @@ impl GivenPrograms {
         (found, errors)
     }
 
-    /// Says which program cannot be run, before any of them is.
+    /// Names a program that cannot be run, before any of them is.
     pub(crate) fn probe(&self) -> Result<(), Failure> {
         for input in &self.inputs {
             input.probe().map_err(|error| match input {

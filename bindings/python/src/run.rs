@@ -23,11 +23,11 @@ use crate::work::{Stop, interruptible};
 ///
 /// A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
 /// the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
-/// control stops the session unless ``keep_going``. ``kinds`` adds columns such as ``X.LEAD``,
+/// control stops the session unless ``keep_going`` is set. ``kinds`` adds columns such as ``X.LEAD``,
 /// ``positions`` adds ``X_pos`` in mm or degrees.
 #[pyfunction]
 #[pyo3(signature = (program, *, machine=None, state=None, keep_going=false, kinds=None, positions=false, limits=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn run(
     program: &Bound<'_, PyAny>,
@@ -56,7 +56,7 @@ pub(crate) fn run(
     PyTimeline::new(program.py(), recorded)
 }
 
-/// Everything that a run needs, away from Python.
+/// Everything that a run needs, independent of Python.
 struct RunJob {
     programs: GivenPrograms,
     machine: MachineOptions,

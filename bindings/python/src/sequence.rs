@@ -1,4 +1,4 @@
-//! `frictcomp.audit_sequence`: what programs do in a given order.
+//! `frictcomp.audit_sequence`: the effect of programs in a given order.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use crate::pickled::{self, Reduced};
 use crate::program::GivenPrograms;
 use crate::work::{Stop, interruptible};
 
-/// What programs do in an order: one row for each program, axis and kind.
+/// The effect of programs in an order: one row for each program, axis and kind.
 ///
 /// ``str(sequence)`` has the lines of ``frictcomp audit --sequence``, one for each program.
 #[pyclass(frozen, name = "AuditSequence", module = "frictcomp")]
@@ -34,10 +34,10 @@ pub(crate) struct PyAuditSequence {
     has_warnings: bool,
 }
 
-/// What programs do in the order in which they are given, from a start of the control.
+/// Runs programs in the given order, from a start of the control, and reports their effect.
 ///
-/// It says what each of them changes, and where an axis first moves outside its start-up state, with
-/// the program that left it so.
+/// The result shows what each of them changes, and where an axis first moves outside its start-up state,
+/// with the program that left it so.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, kinds=None, limits=None))]
 pub(crate) fn audit_sequence(
@@ -140,7 +140,7 @@ fn table(steps: &[Step]) -> ArrowTable {
     ArrowTable::of(columns, &nullable)
 }
 
-/// What a sequence is restored from: the table, the records, the lines, the messages, the warnings.
+/// The data that a sequence is restored from: the table, the records, the lines, the messages, the warnings.
 type PickledSequence<'py> = (Bound<'py, PyBytes>, String, String, Py<PyMessages>, bool);
 
 #[pymethods]
@@ -185,13 +185,13 @@ impl PyAuditSequence {
         self.table.columns()
     }
 
-    /// What keeps the control from taking its lists.
+    /// The errors that keep the control from accepting its lists.
     #[getter]
     fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
         self.messages.clone_ref(py)
     }
 
-    /// Whether a program moves an axis in a state in which another one left it.
+    /// Whether a program moves an axis in a state that another one left.
     #[getter]
     fn has_warnings(&self) -> bool {
         self.has_warnings

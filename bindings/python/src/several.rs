@@ -1,10 +1,10 @@
-//! What Python gives one after the other: lists, tuples, sets, arrays, generators.
+//! The iterables of Python: lists, tuples, sets, arrays, generators.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 
-/// The values of an iterable that is no text.
+/// The values of an iterable that is not a text.
 pub(crate) struct Several<T>(pub(crate) Vec<T>);
 
 impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for Several<T> {

@@ -37,7 +37,7 @@ use crate::several::Several;
 use crate::words::{meant, meant_if_given};
 use crate::work::{Stop, interruptible};
 
-/// Circles that are tuned at once, at most.
+/// The maximum number of circles that are tuned at once.
 const MAX_CIRCLES: usize = 32;
 
 /// The first build that reads outputs with fractions (P-COMP-00047).
@@ -75,7 +75,7 @@ impl From<&CircleReport> for PyCircle {
 /// circles are judged instead, with the radius and the feed that were commanded.
 #[pyfunction]
 #[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
 pub(crate) fn circle(
     py: Python<'_>,
@@ -218,11 +218,11 @@ impl PyTuned {
 
 /// Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm.
 ///
-/// With ``robust`` the list is also good where the contact is half or twice as stiff, or friction
+/// With ``robust`` the list is also good if the contact is half or twice as stiff, or friction
 /// differs by 10 % between the directions.
 #[pyfunction]
 #[pyo3(signature = (*, plant="stiff", feeds=None, radii=None, model=None, cycle_time_ms=None, reading=None, free=None, shaping=true, cnc_build=None, robust=false))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools)]
 pub(crate) fn tune(
     py: Python<'_>,

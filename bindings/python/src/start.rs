@@ -1,4 +1,4 @@
-//! Where axes stand at first.
+//! The axis positions at the start.
 
 use frictcomp_host::LoadedMachine;
 use pyo3::exceptions::PyTypeError;
@@ -26,7 +26,7 @@ impl<'py> FromPyObject<'_, 'py> for Places {
     }
 }
 
-/// The places that were given, of axes of the machine, in mm or degrees.
+/// The given positions of axes of the machine, in mm or degrees.
 pub(crate) fn positions(
     given: &[(String, f64)],
     loaded: &LoadedMachine,

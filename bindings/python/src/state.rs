@@ -1,4 +1,4 @@
-//! What one run leaves and the next one starts with.
+//! The result of a run with which the next one starts.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::exceptions::refused;
 use crate::failure::Failure;
 
-/// What a run leaves and the next one starts with: states, variables, value lists.
+/// The result of a run with which the next one starts: states, variables, value lists.
 #[pyclass(frozen, eq, name = "State", module = "frictcomp")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PyState(Arc<SavedState>);
@@ -26,7 +26,7 @@ impl PyState {
 
 #[pymethods]
 impl PyState {
-    /// Reads a state file, also one of the command line.
+    /// Reads a state file, including one of the command line.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let saved = StateFile::read(&path);
@@ -34,7 +34,7 @@ impl PyState {
         Ok(Self::new(saved))
     }
 
-    /// Writes a state file, which the command line takes, too.
+    /// Writes a state file, which the command line also reads.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let state = Arc::clone(&self.0);
         let saved = py.detach(move || save(&StateFile::lock(&path)?, &state));
@@ -45,7 +45,7 @@ impl PyState {
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
         let saved = serde_json::from_str(text);
-        let saved = saved.map_err(|error| refused(format!("this is no state: {error}")))?;
+        let saved = saved.map_err(|error| refused(format!("this is not a state: {error}")))?;
         Ok(Self::new(saved))
     }
 
@@ -60,7 +60,7 @@ impl PyState {
         self.0.axes.iter().map(|axis| axis.axis.as_str()).collect()
     }
 
-    /// The axes that are not as at the start of the control, each with the kind.
+    /// The axes that are not in their start-up state, each with the kind.
     #[getter]
     fn away(&self) -> Vec<(&str, &'static str)> {
         let axes = self.0.axes.iter();
@@ -92,13 +92,13 @@ impl PyState {
     }
 }
 
-/// What a run starts with.
+/// The initial state of a run.
 pub(crate) enum StartState {
     /// The start of the control.
     Fresh,
     /// What another run left.
     Left(Arc<SavedState>),
-    /// What is in a file, which also takes what the run leaves.
+    /// The content of a file, to which the result of the run is also written.
     File(PathBuf),
 }
 
@@ -126,7 +126,7 @@ impl StartState {
         }
     }
 
-    /// The file, which no other run touches meanwhile.
+    /// The file, which no other run touches in the meantime.
     pub(crate) fn lock(&self) -> Result<Option<StateFile>, Failure> {
         Ok(match self {
             Self::File(path) => Some(StateFile::lock(path)?),

@@ -1,4 +1,4 @@
-//! States of compensation as a column: a byte a row, and the words beside.
+//! States of compensation as a column: one byte per row, and a table of the words.
 
 use std::sync::Arc;
 

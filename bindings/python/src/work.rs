@@ -15,7 +15,7 @@ use crate::failure::Failure;
 /// How long an interrupt waits at most before it is seen.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// The stack of the thread: as much as the main thread of a program has elsewhere.
+/// The stack size of the thread: as large as that of a program's main thread elsewhere.
 const STACK: usize = 8 << 20;
 
 /// Whether the work was cancelled.
@@ -23,7 +23,7 @@ const STACK: usize = 8 << 20;
 pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// `Break` where it was cancelled.
+    /// `Break` if it was cancelled.
     pub(crate) fn flow(&self) -> ControlFlow<()> {
         if self.0.load(Ordering::Relaxed) {
             ControlFlow::Break(())
@@ -49,9 +49,9 @@ impl Watcher for Stop {
     }
 }
 
-/// Does work on a thread of its own while other threads of Python run. Signals are handled
-/// meanwhile: where a handler raises, as that of Ctrl+C does, its exception is raised at once, and
-/// the work ends as soon as it looks at `Stop`.
+/// Does work on a separate thread while other Python threads run. Signals are handled
+/// meanwhile: if a handler raises, as that of Ctrl+C does, its exception is raised at once, and
+/// the work ends as soon as it checks `Stop`.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Stop) -> Result<T, Failure> + Send + 'static,
@@ -65,7 +65,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     };
     let of_worker = stop.clone();
     let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
-        // Nobody waits for it after an interrupt.
+        // No one waits for it after an interrupt.
         let _ = sender.send(work(&of_worker));
     });
     let worker = worker.map_err(|error| {

@@ -47,7 +47,7 @@ def test_a_sequence_is_that_of_the_command(tmp_path: Path) -> None:
     assert table.columns == sequence.columns and table.height == len(sequence)
     inherited = table.filter(polars.col("left_by").is_not_null())
     assert inherited.select("position", "axis", "left_by").rows() == [(2, "X", programs[0])]
-    # What comes twice runs twice.
+    # A program that is given twice runs twice.
     assert table["position"].unique().to_list() == [1, 2, 3, 4]
 
 

@@ -1,4 +1,4 @@
-"""What the stubs say is what Python says at run time."""
+"""The docstrings of the stubs equal those at run time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STUBS = Path(frictcomp.__file__).with_name("_engine.pyi")
 
 
 def documented() -> Iterator[tuple[str, str]]:
-    """The names in the stubs that have a text, with it."""
+    """The names in the stubs that have a docstring, with it."""
     for node in ast.parse(STUBS.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.ClassDef):
             yield node.name, ast.get_docstring(node) or ""
@@ -31,7 +31,7 @@ def test_the_stubs_and_the_module_say_the_same() -> None:
         said: object = _engine
         for part in name.split("."):
             said = getattr(said, part)
-        # What the language defines, such as `len`, has the words of the language.
+        # Methods that the language defines, such as `len`, have the docstrings of the language.
         if text and not name.rsplit(".", 1)[-1].startswith("__"):
             assert inspect.getdoc(said) == text, name
             count += 1

@@ -49,7 +49,7 @@ def test_files_that_are_not_there_are_errors(call: Callable[[Any], object], tmp_
         call([])
     with pytest.raises(frictcomp.Error):
         call("X[COMP OFF FRICT]")
-    # One file that is missing is no all-clear for the others.
+    # A missing file is not an all-clear for the others.
     with pytest.raises(frictcomp.Error):
         call(["programs/demo/friction.nc", missing])
 

@@ -44,7 +44,7 @@ print("ready", flush=True)
 try:
     {call}
 except KeyboardInterrupt:
-    # Python goes on after it.
+    # Python continues after it.
     assert len(frictcomp.run(frictcomp.Text("N10 M30\\n"))) == 1
     print("interrupted", flush=True)
 """

@@ -1,4 +1,4 @@
-"""Results go to other processes and come back; what takes several values takes any iterable."""
+"""Results go to other processes and come back; any iterable is accepted for several values."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def test_a_notebook_shows_the_states_of_a_timeline_as_bars() -> None:
     assert "X inactive from N45, programs/demo/friction.nc:5, executed block 4" in told
     several = frictcomp.run(["programs/demo/order/probe.nc", "programs/demo/order/pocket.nc"])
     assert several._repr_html_().count("<svg") == 2
-    # The second program finds what the first one left.
+    # The second program starts with the state that the first one left.
     assert "X inactive at program start" in bars(several.svg(2))
     with pytest.raises(ValueError, match="no program -1"):
         timeline.svg(-1)

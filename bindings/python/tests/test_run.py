@@ -1,4 +1,4 @@
-"""Timelines: the same values as those of the command, in every library that takes them."""
+"""Timelines: the same values as those of the command, in every library that accepts them."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def test_buffers_outlive_the_timeline() -> None:
     gc.collect()
     assert taken.equals(table)
     assert taken["text"].to_pylist()[0].startswith("N15")
-    # The stream of a capsule can be taken once.
+    # The stream of a capsule can be consumed once.
     with pytest.raises((ValueError, pyarrow.ArrowInvalid)):
         pyarrow.table(Kept())
 
@@ -271,5 +271,5 @@ def test_long_programs_come_in_batches() -> None:
     assert blocks["text"].to_list() == text.split("\n")
     assert (blocks["X"] == "inactive").sum() == count + 1 - 200_000
     assert blocks["seq"].to_list() == list(range(1, count + 2))
-    # X was moved before it was switched: what is left of that is said at the end.
+    # X was moved before it was switched: the message about it comes at the end.
     assert blocks["codes"].to_list()[-1] == ["FC407"]

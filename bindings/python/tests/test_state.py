@@ -1,4 +1,4 @@
-"""What one run leaves for the next one, also for the command."""
+"""The state that one run leaves for the next one, including the command."""
 
 from __future__ import annotations
 
@@ -68,5 +68,5 @@ def test_a_state_of_another_machine_is_refused(tmp_path: Path) -> None:
     with pytest.raises(frictcomp.Error, match="damaged"):
         frictcomp.run(MOVES, machine=MACHINE, state=damaged)
     assert damaged.read_text() == '{"schema":'
-    with pytest.raises(ValueError, match="no state"):
+    with pytest.raises(ValueError, match="not a state"):
         frictcomp.State.from_json("[]")

@@ -1,4 +1,4 @@
-// What the engine answers, as `src/run.rs`, `src/audits.rs` and their neighbours write it.
+// The answers of the engine, as `src/run.rs`, `src/audits.rs` and their neighbours write them.
 
 export type State = "active" | "inactive" | "ineffective" | "unconfigured" | "unknown";
 export type Severity = "error" | "warning" | "info";
@@ -29,7 +29,7 @@ export interface Diagnostic {
   axis: string | null;
 }
 
-/** A message, and the block after which it stands; 0 before the first. */
+/** A message, and the block that it follows; 0 before the first. */
 export interface Message extends Diagnostic {
   after: number;
 }
@@ -45,9 +45,9 @@ export interface Axis {
   listed: boolean;
   changes: number;
   changedBy: { file: string; line: number; number: number | null }[];
-  /** What is possible at the end where that is unknown because ways differ. */
+  /** The possible states at the end where it is unknown because ways differ. */
   possible: string | null;
-  /** The feed moves without compensation, to stand after the name. */
+  /** The feed moves without compensation, in words that follow the name. */
   uncompensated: string | null;
   bar: Stretch[];
 }
@@ -84,7 +84,7 @@ export interface Overview {
 /** The states at a line of the timeline. */
 export interface States {
   states: State[];
-  /** What is possible for an axis that is unknown because ways differ; left out where none is. */
+  /** The possible states of an axis that is unknown because ways differ; left out where there is none. */
   possible?: [axis: number, words: string][];
 }
 

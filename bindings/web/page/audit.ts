@@ -1,4 +1,4 @@
-// What the order of all dropped programs does.
+// The effect of the order of all dropped programs.
 
 import type { Audit, AuditCell } from "./answers";
 import { counted, fill, h } from "./dom";
@@ -9,7 +9,7 @@ const CURES: Record<string, string> = {
   inheritors: "one block before the first motion of those that inherit it",
 };
 
-/** Shows an audit; `open` hears the program and line that are asked for. */
+/** Shows an audit; `open` receives the requested program and line. */
 export function audit(root: HTMLElement, found: Audit, open: (file: string, line: number) => void): void {
   const failures = found.failures.map((failure) =>
     h("li", {}, `${failure.message}${failure.help === null ? "" : `: ${failure.help}`}`));

@@ -4,7 +4,7 @@ import type { Axis, Overview, Stretch } from "./answers";
 import { grouped, h, svg } from "./dom";
 import { isAway, listed } from "./states";
 
-/** A stretch told in words, at most the first few. */
+/** A stretch in words, at most the first few. */
 export function told(axis: Axis): string {
   const TOLD = 6;
   const words = axis.bar.map(([from, , state], at) =>
@@ -14,7 +14,7 @@ export function told(axis: Axis): string {
   return `${axis.name}: ${first || axis.start}${more > 0 ? ` and ${more} more` : ""}`;
 }
 
-/** The bars of the listed axes; `jump` hears the block that was clicked. */
+/** The bars of the listed axes; `jump` receives the clicked block. */
 export function bars(overview: Overview, jump: (block: number) => void): HTMLElement {
   const rows = listed(overview.axes).map((at) => {
     const axis = overview.axes[at];

@@ -1,4 +1,4 @@
-// Elements from texts. Nothing here reads markup: what a file holds stays a text.
+// Elements from texts. Nothing here reads markup: the content of a file remains text.
 
 export type Child = Node | string | null | undefined | false;
 
@@ -18,7 +18,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** The same for a picture. */
+/** Builds an element of a picture. */
 export function svg(tag: string, attributes: Attributes = {}, ...children: Child[]): SVGElement {
   const element = document.createElementNS(SVG, tag as keyof SVGElementTagNameMap);
   dress(element, attributes);
@@ -26,7 +26,7 @@ export function svg(tag: string, attributes: Attributes = {}, ...children: Child
   return element;
 }
 
-/** Puts children in the place of those that are there. */
+/** Replaces the children of an element. */
 export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren();
   append(element, children);
@@ -41,12 +41,12 @@ export function part(id: string): HTMLElement {
   return found;
 }
 
-/** `1 block`, `2 blocks`; thousands are set apart. */
+/** `1 block`, `2 blocks`; thousands are separated. */
 export function counted(count: number, noun: string): string {
   return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/** A whole number with its thousands set apart by narrow blanks. */
+/** A whole number with its thousands separated by narrow blanks. */
 export function grouped(count: number): string {
   return String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }

@@ -1,4 +1,4 @@
-// The program as it can be edited: a text with the numbers of its lines.
+// The editable program: a text with its line numbers.
 
 import { h } from "./dom";
 
@@ -56,7 +56,7 @@ export class Editor {
     this.text.scrollTop = Math.max(0, (line - 1) * height - this.text.clientHeight / 2);
   }
 
-  /** The text takes what is typed. */
+  /** Gives the text the focus. */
   focus(): void {
     this.text.focus();
     this.text.setSelectionRange(0, 0);

@@ -1,13 +1,13 @@
-// Programs that were changed here: what of them is not saved, and how they are written to a file again.
+// Programs that were changed here: which changes are not saved, and how the programs are written to a file.
 
 import type { Fix } from "./answers";
 
-/** What the programs were that are changed, and which changes no file has yet. */
+/** The original texts of changed programs, and the changes that are not in a file yet. */
 export class Edits {
   private readonly originals = new Map<string, Uint8Array>();
   private readonly unsaved = new Set<string>();
 
-  /** A file arrived: what was changed before is gone. */
+  /** A file arrived: earlier changes are gone. */
   arrived(path: string): void {
     this.originals.delete(path);
     this.unsaved.delete(path);
@@ -18,7 +18,7 @@ export class Edits {
     this.unsaved.clear();
   }
 
-  /** The bytes of a changed program, written as the file is that was dropped. */
+  /** The bytes of a changed program, written like the dropped file. */
   change(path: string, before: Uint8Array, text: string): Uint8Array<ArrayBuffer> {
     const original = this.originals.get(path) ?? before;
     const bytes = encoded(text, original);
@@ -35,7 +35,7 @@ export class Edits {
     this.unsaved.delete(path);
   }
 
-  /** Whether a program is another one here than in its file. */
+  /** Whether a program differs here from its file. */
   isEdited(path: string | null): boolean {
     return path !== null && this.originals.has(path);
   }
@@ -89,7 +89,7 @@ function isUtf8(file: Uint8Array): boolean {
   }
 }
 
-/** A text in which a fix is applied. Columns count letters from 1. */
+/** A text with a fix applied. Columns count letters from 1. */
 export function fixed(text: string, fix: Fix): string {
   const lines = text.split("\n");
   const offset = (line: number, column: number): number => {
@@ -100,7 +100,7 @@ export function fixed(text: string, fix: Fix): string {
   return text.slice(0, offset(fix.line, fix.column)) + fix.text + text.slice(offset(fix.end_line, fix.end_column));
 }
 
-/** The line from 1 that a user looks for: its number, or the next one after `from` that has the words. */
+/** The line from 1 that a user looks for: by its number, or the next one after `from` that contains the words. */
 export function sought(text: string, words: string, from: number): number | null {
   const wanted = words.trim().toLowerCase();
   const lines = text.split("\n");

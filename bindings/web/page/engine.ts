@@ -1,6 +1,6 @@
-// The engine: WebAssembly that shares nothing with the page but bytes.
+// The engine: WebAssembly that shares only bytes with the page.
 
-/** What the engine exports; `src/border.rs` says what it means. */
+/** The exports of the engine; `src/border.rs` documents them. */
 interface Border {
   readonly memory: WebAssembly.Memory;
   reserve(length: number): number;
@@ -24,7 +24,7 @@ export class Refused extends Error {
   }
 }
 
-/** Between two words about progress, in ms. */
+/** The time between two progress reports, in ms. */
 const PAUSE = 100;
 
 const encoder = new TextEncoder();
@@ -34,8 +34,8 @@ export class Engine {
   private constructor(private readonly border: Border) {}
 
   /**
-   * Starts the engine; `progress` hears of executed blocks, and of the line of the main program, `hear` of
-   * other work, in words.
+   * Starts the engine; `progress` receives the executed blocks and the line of the main program, `hear` the
+   * progress of other work, in words.
    */
   static async start(
     code: BufferSource,

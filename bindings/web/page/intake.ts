@@ -4,7 +4,7 @@
 export interface Incoming {
   path: string;
   file: Blob;
-  /** Whether the user picked it by itself, and not with its folder. */
+  /** Whether the user picked it individually, and not with its folder. */
   named: boolean;
 }
 
@@ -20,12 +20,12 @@ export const MOST_FILES = 5000;
 /** Larger files of folders are left out unless they are programs or lists. */
 const LARGE = 1 << 20;
 
-/** Nothing larger is taken. */
+/** Larger files are not accepted. */
 const LARGEST = 1 << 29;
 
 const TEXT = /\.(nc|cnc|mpf|spf|sub|cyc|iso|ngc|tap|lis|toml)$/i;
 
-/** Folders that hold no programs. */
+/** Folders that contain no programs. */
 const SKIPPED = /^(\.|node_modules$|target$)/;
 
 /** Whether a file of a folder is worth reading. */
@@ -38,7 +38,7 @@ export function isTaken(path: string, size: number): boolean {
   return TEXT.test(name) || size <= LARGE;
 }
 
-/** A path as the engine takes it: no root, no way up, `/` between its parts. */
+/** A path as the engine accepts it: no root, no way up, `/` between its parts. */
 export function tidy(path: string): string {
   const parts = path.replace(/\\/g, "/").split("/");
   return parts.filter((part) => part !== "" && part !== "." && part !== "..").join("/");
@@ -56,13 +56,13 @@ interface HandedItem extends DataTransferItem {
   getAsFileSystemHandle?(): Promise<Handle | null>;
 }
 
-/** What was dropped. Everything has to be asked for before anything else happens. */
+/** The dropped files. All of them have to be requested before anything else happens. */
 export async function dropped(transfer: DataTransfer): Promise<Intake> {
   const items = [...transfer.items].filter((item) => item.kind === "file");
   const handed = items.map((item: HandedItem) => ({
     entry: item.webkitGetAsEntry(),
     file: item.getAsFile(),
-    // Chromium opens no entries for a page that is a file itself, but handles.
+    // For a page that is itself a file, Chromium opens handles, but not entries.
     handle: item.getAsFileSystemHandle?.().catch(() => null) ?? Promise.resolve(null),
   }));
   const intake: Intake = { incoming: [], leftOut: 0 };
@@ -77,7 +77,7 @@ export async function dropped(transfer: DataTransfer): Promise<Intake> {
   return intake;
 }
 
-/** What was picked; files of a picked folder say where they lie in it. */
+/** The picked files; those of a picked folder carry their path in it. */
 export function picked(files: readonly File[]): Intake {
   const intake: Intake = { incoming: [], leftOut: 0 };
   for (const file of files) {
@@ -126,7 +126,7 @@ async function walkEntry(entry: FileSystemEntry, intake: Intake): Promise<void> 
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   for (;;) {
-    // A reader gives a folder piece by piece, and nothing at its end.
+    // A reader returns a folder piece by piece, and nothing at its end.
     const piece = await new Promise<FileSystemEntry[]>((resolve, reject) => {
       reader.readEntries(resolve, () => {
         reject(new Error("This browser does not open a dropped folder: use \u201cChoose a folder\u201d."));

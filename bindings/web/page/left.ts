@@ -4,10 +4,10 @@ import type { Axis, Overview } from "./answers";
 import { counted, grouped, h } from "./dom";
 import { word } from "./states";
 
-/** So many changing blocks are named. */
+/** The maximum number of changing blocks that are named. */
 const NAMED = 3;
 
-/** The table of axes; `jump` hears the line of the program that is asked for. */
+/** The table of axes; `jump` receives the requested line of the program. */
 export function left(overview: Overview, jump: (line: number) => void): HTMLElement {
   const axes = overview.axes.filter((axis) => axis.listed);
   if (axes.length === 0) {

@@ -1,4 +1,4 @@
-// What describes the machine: its parameters, the curves of its value lists, what there is to say about them.
+// What describes the machine: its parameters, the curves of its value lists, the messages about them.
 
 import type { Overview } from "./answers";
 import { counted, fill, h, part } from "./dom";
@@ -11,7 +11,7 @@ interface Parameters {
   svg: string | null;
 }
 
-/** Says from where the machine of a run is, and what there is to say about its lists. */
+/** Shows where the machine of a run comes from, and the messages about its lists. */
 export function described({ machine: { origin, isDescribed, lists, said } }: Overview, explain: Explain): void {
   const from = origin === null ? "No machine is described: neither frictcomp.toml nor one start-up list "
     + "was dropped. Every axis has the documented default, P-AXIS-00522 = 0."
@@ -26,7 +26,7 @@ export function described({ machine: { origin, isDescribed, lists, said } }: Ove
   );
 }
 
-/** Shows the parameters that count for a program, and the curves. */
+/** Shows the effective parameters of a program, and the curves. */
 export async function parameters(session: Session, program: string, enable: string[]): Promise<void> {
   const found = await session.json<Parameters>({ ask: "parameters", program, enable });
   fill(part("parameters"), ...found.tables.map(({ name, rows }) =>

@@ -4,9 +4,9 @@ import type { Diagnostic, Fix, Message, Overview } from "./answers";
 import { grouped, h } from "./dom";
 
 export interface Wanted {
-  /** The block of a message is to be shown. */
+  /** Called to show the block of a message. */
   jump(message: Message): void;
-  /** A fix is to be applied. */
+  /** Called to apply a fix. */
   fix(fix: Fix): void;
   explain: Explain;
 }
@@ -41,7 +41,7 @@ export function told(said: Diagnostic, explain: Explain, jump?: () => void): HTM
   );
 }
 
-/** The page about a code, which is asked for once it is opened. */
+/** The page about a code, which is requested when it is first opened. */
 function about(code: string, explain: Explain): HTMLElement {
   const page = h("pre", { class: "page" });
   const box = h("details", { class: "about", ontoggle: () => {

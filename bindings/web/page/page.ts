@@ -1,4 +1,4 @@
-// The page: what was dropped, which program is shown, and what the user asks about it.
+// The page: the dropped files, the program that is shown, and the user's questions about it.
 
 import type { Audit, FileKind, Fix, Overview, Settings } from "./answers";
 import { audit } from "./audit";
@@ -28,7 +28,7 @@ const PATIENCE = 250;
 /** With more programs the audit is shown first. */
 const FEW = 3;
 
-/** Narrower windows fold what is looked at once, in px. */
+/** Narrower windows fold what is looked at only once, in px. */
 const NARROW = 960;
 
 const decoder = new TextDecoder();
@@ -40,9 +40,9 @@ const settings: Settings = { enable: [], keepGoing: false };
 let program: string | null = null;
 let overview: Overview | null = null;
 let kinds: [path: string, kind: FileKind][] = [];
-/** How many pieces of work are waited for. */
+/** How many pieces of work are pending. */
 let underWay = 0;
-/** Which run the last answer belongs to: later ones make earlier ones worthless. */
+/** The run that the last answer belongs to: later runs make earlier answers worthless. */
 let ticket = 0;
 
 const session = new Session(await code(), () => {
@@ -76,7 +76,7 @@ async function code(): Promise<ArrayBuffer> {
   return new Response(stream).arrayBuffer();
 }
 
-/** Waits for work; shows progress where it takes long, and what is wrong where it fails. */
+/** Waits for work; shows progress if it takes long, and the reason if it fails. */
 async function attempt<T>(work: Promise<T>): Promise<T | null> {
   underWay += 1;
   const timer = window.setTimeout(() => {
@@ -112,7 +112,7 @@ function complain(error: unknown): void {
   box.hidden = false;
 }
 
-/** Takes files and shows the first program, or the audit of many. */
+/** Accepts files and shows the first program, or the audit of many. */
 async function take(work: Promise<Intake> | Intake): Promise<void> {
   part("complaint").hidden = true;
   const intake = await work;
@@ -130,11 +130,11 @@ async function arrived(paths: readonly string[]): Promise<void> {
   part("welcome").hidden = kinds.length > 0;
   part("work").hidden = kinds.length === 0;
   const programs = programsOf(kinds);
-  // What the program that is shown asked for is for that program.
+  // Files that the program on display asked for are for that program.
   const shown = overview;
   const isNew = (path: string): boolean =>
     paths.includes(path) && !(shown !== null && isMissing(shown, path));
-  // A program that is dropped is meant; lists are for the one that is shown.
+  // A dropped program is the one that the user means; lists are for the one that is shown.
   const first = programs.find((path) => isNew(path) && !/\.(spf|sub|cyc)$/i.test(path))
     ?? programs.find(isNew);
   const meant = first ?? program ?? programs[0] ?? null;
@@ -239,7 +239,7 @@ async function run(): Promise<void> {
   await result(found);
 }
 
-/** What a run rests on besides the files. */
+/** What a run rests on in addition to the files. */
 function given(): Given {
   return {
     enable: settings.enable,
@@ -290,7 +290,7 @@ function passedOver(found: Overview): HTMLElement | null {
   return h("p", { class: "quiet" }, `Passed over without effect on the states: ${words}`);
 }
 
-/** What a tab shows that is not there before it is asked for. */
+/** The content of a tab that is computed only on request. */
 async function show(tab: Tab): Promise<void> {
   const root = part(`panel-${tab}`);
   if (program === null) {
@@ -359,7 +359,7 @@ function change(path: string, text: string): void {
   }
 }
 
-/** Says of the program that is shown whether it is another one here than in its file. */
+/** Marks whether the program that is shown differs from its file. */
 function mark(): void {
   const isEdited = edits.isEdited(program);
   part("edited").hidden = !isEdited;
@@ -372,7 +372,7 @@ async function textOf(path: string): Promise<string> {
   return text.replace(/\r\n/g, "\n");
 }
 
-/** Applies a fix to the file that it is for, and runs the program again. */
+/** Applies a fix to its file, and runs the program again. */
 async function apply(fix: Fix): Promise<void> {
   const paths = [...session.files.keys()];
   const path = paths.find((one) => one === fix.file) ?? paths.find((one) => one.endsWith(`/${fix.file}`));
@@ -414,7 +414,7 @@ async function save(question: object, ending: string, type: string): Promise<voi
   }
 }
 
-/** Ends all work. What was shown before is shown again, unless it is its own run that was ended. */
+/** Ends all work. What was shown before is shown again, unless its own run was ended. */
 function cancel(): void {
   session.cancel();
   window.setTimeout(() => {
@@ -547,7 +547,7 @@ function listen(): void {
 }
 
 function listenForDrops(): void {
-  // Anything dropped beside the place for it would be opened instead of the page.
+  // A file dropped outside its place would be opened instead of the page.
   document.addEventListener("dragover", (event) => {
     event.preventDefault();
     document.body.classList.add("dragging");

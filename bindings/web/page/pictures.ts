@@ -2,10 +2,10 @@
 
 import { fill, h } from "./dom";
 
-/** The places of pictures that are shown, to be given back. */
+/** The object URLs of the pictures on display, to be released. */
 const shown = new WeakMap<Element, string>();
 
-/** Shows a picture with its notes in the place of the one that is there. */
+/** Shows a picture with its notes in place of the current one. */
 export function picture(root: HTMLElement, svg: string | null, told: string, ...below: HTMLElement[]): void {
   const before = shown.get(root);
   if (before !== undefined) {
@@ -21,7 +21,7 @@ export function picture(root: HTMLElement, svg: string | null, told: string, ...
   fill(root, h("img", { class: "picture", src: address, alt: told }), ...below);
 }
 
-/** Hands a file to the user. */
+/** Offers a file to the user. */
 export function download(name: string, bytes: Uint8Array<ArrayBuffer>, type: string): void {
   const address = URL.createObjectURL(new Blob([bytes], { type }));
   const link = h("a", { href: address, download: name });
@@ -29,7 +29,7 @@ export function download(name: string, bytes: Uint8Array<ArrayBuffer>, type: str
   window.setTimeout(() => { URL.revokeObjectURL(address); }, 10_000);
 }
 
-/** The name of a file of its own beside a program. */
+/** The name of a separate file that belongs to a program. */
 export function besides(program: string, ending: string): string {
   const name = program.split("/").pop() ?? "program";
   return `${name.replace(/[^\p{L}\p{N}._-]+/gu, "_")}${ending}`;

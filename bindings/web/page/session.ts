@@ -6,7 +6,7 @@ import type { Order, Report } from "./worker";
 /** A file that was dropped. */
 export interface DroppedFile {
   content: Uint8Array;
-  /** Whether the user picked it by itself. */
+  /** Whether the user picked it individually. */
   named: boolean;
 }
 
@@ -22,7 +22,7 @@ interface Waiting {
   reject(error: Error): void;
 }
 
-/** The part of a worker that is needed; tests have one of their own. */
+/** The part of a worker that is needed; tests have their own. */
 export type Thread = Pick<Worker, "postMessage" | "terminate" | "onmessage" | "onerror">;
 
 const decoder = new TextDecoder();
@@ -42,7 +42,7 @@ export class Session {
     this.thread = this.begin();
   }
 
-  /** Takes a file in place of one of the same path. */
+  /** Accepts a file, replacing one with the same path. */
   put(path: string, file: DroppedFile): void {
     this.files.set(path, file);
     this.send({ kind: "put", path, ...file });
@@ -73,7 +73,7 @@ export class Session {
     return this.waiting.size > 0;
   }
 
-  /** Ends all work. The files stay. */
+  /** Ends all work. The files are kept. */
   cancel(error: Error = new Cancelled()): void {
     this.thread.terminate();
     const waiting = [...this.waiting.values()];

@@ -6,7 +6,7 @@ import type { Settings } from "./answers";
 import type { Session } from "./session";
 import { sentence } from "./verdict";
 
-/** Feeds beyond these are not tuned for at once. */
+/** The maximum number of feeds that are tuned for at once. */
 const MOST_FEEDS = 8;
 
 interface Drawn {
@@ -28,7 +28,7 @@ export function noted(notes: readonly string[]): HTMLElement | null {
     : h("ul", { class: "notes" }, ...notes.map((note) => h("li", {}, sentence(note))));
 }
 
-/** Where axes stand at the start: `X0, Y-12.5, Z1=30`. */
+/** The axis positions at the start: `X0, Y-12.5, Z1=30`. */
 export function positions(written: string): [axis: string, position: number][] {
   const words = written.split(/[\s,;]+/);
   return words.flatMap((word): [string, number][] => {
@@ -38,7 +38,7 @@ export function positions(written: string): [axis: string, position: number][] {
   });
 }
 
-/** The feeds of a text, `500, 1000`; none where one of its words is no feed. */
+/** The feeds of a text, `500, 1000`; none where one of its words is not a feed. */
 export function feeds(written: string): number[] {
   const all = written.split(/[\s,;]+/).filter((word) => word !== "").map(Number);
   return all.length <= MOST_FEEDS && all.every((feed) => Number.isFinite(feed) && feed > 0) ? all : [];
@@ -90,7 +90,7 @@ export async function tune(session: Session): Promise<void> {
     h("p", {}, h("button", { onclick: save }, "Download value list")), figures(answer.text));
 }
 
-/** Empties what belongs to a program that is no longer shown. */
+/** Clears what belongs to a program that is no longer shown. */
 export function forgetContour(): void {
   fill(part("contour"));
 }

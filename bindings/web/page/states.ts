@@ -13,7 +13,7 @@ export const MEANINGS: readonly [state: State | "away", meaning: string][] = [
   ["unknown", "only the machine knows: frictcomp does not guess"],
 ];
 
-/** Whether a state of an axis is another one than after a start of the control. */
+/** Whether a state of an axis differs from the one after a start of the control. */
 export function isAway(state: State | "changing", axis: Axis): boolean {
   return state !== axis.startUp && state !== "changing" && state !== "unknown";
 }

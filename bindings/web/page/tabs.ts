@@ -1,4 +1,4 @@
-// Tabs, moved through by arrow keys as the pattern of WAI-ARIA has it.
+// Tabs with arrow key navigation, as in the WAI-ARIA pattern.
 
 import { part } from "./dom";
 

@@ -1,4 +1,4 @@
-// Files that the bundler makes texts of.
+// Files that the bundler turns into texts.
 
 declare module "*.nc" {
   const text: string;

@@ -1,5 +1,5 @@
 // The timeline: blocks with the states after them and the messages at their lines. Only what is on the
-// screen is asked for.
+// screen is requested.
 
 import type { Axis, BlockItem, Item, Overview, States, View } from "./answers";
 import { fill, grouped, h } from "./dom";
@@ -10,14 +10,14 @@ import { type Window, firstLine, height, isSquashed, scrollOf } from "./window";
 /** The height of a line in em; the style sheet has the same. */
 const LINE_EM = 1.7;
 
-/** Lists that are shorter are shown as a whole, so that they can be printed and searched. */
+/** Shorter lists are shown as a whole, so that they can be printed and searched. */
 const WHOLE = 400;
 
-/** Lines above and below the screen that are there already. */
+/** Lines above and below the screen that are loaded in advance. */
 const SPARE = 20;
 
 export interface Asked {
-  /** A line of a file is to be shown in the editor. */
+  /** Called to show a line of a file in the editor. */
   edit(line: number): void;
 }
 
@@ -128,13 +128,13 @@ export class Timeline {
     if (this.overview && !this.isWhole()) {
       cancelAnimationFrame(this.frame);
       this.frame = requestAnimationFrame(() => {
-        // What is cancelled is drawn when its program is shown again.
+        // A cancelled request is drawn when its program is shown again.
         this.draw().catch(() => undefined);
       });
     }
   }
 
-  /** A squashed list moves line by line all the same. */
+  /** A squashed list still moves line by line. */
   private wheel(event: WheelEvent): void {
     const window = this.window();
     if (isSquashed(window)) {

@@ -1,4 +1,4 @@
-// What a run comes to, in sentences. Nothing is called well that was not looked at.
+// The verdict of a run, in sentences. Nothing is called fine that was not checked.
 
 import type { Axis, Message, Overview } from "./answers";
 import { counted, grouped } from "./dom";
@@ -11,7 +11,7 @@ export interface Sentence {
   text: string;
 }
 
-/** What a run rests on besides the files. */
+/** What a run rests on in addition to the files. */
 export interface Given {
   /** The axes on which friction compensation is assumed. */
   enable: readonly string[];
@@ -26,7 +26,7 @@ export function missing(overview: Overview): string[] {
   return [...new Set([...lists, ...called].map((said) => quoted(said.message)))];
 }
 
-/** What a message quotes first. */
+/** The first quoted part of a message. */
 function quoted(message: string): string {
   return /`([^`]+)`/.exec(message)?.[1] ?? message;
 }
@@ -43,14 +43,14 @@ export function isMissing(overview: Overview, path: string): boolean {
   return missing(overview).some((name) => last(name) === last(path));
 }
 
-/** What a run comes to: the sentence that counts, and what it rests on. */
+/** The verdict of a run: the main sentence, and what it rests on. */
 export function verdict(overview: Overview, given: Given): Sentence[] {
   const axes = overview.axes.filter((axis) => axis.listed);
   const sentences: Sentence[] = [];
   const say = (weight: Weight, text: string): void => {
     sentences.push({ weight, text });
   };
-  // What stands before the first block is about the lists.
+  // Messages before the first block are about the lists.
   const failed = overview.messages.filter((message: Message) =>
     message.severity === "error" && message.after > 0);
   const stop = failed[0];
@@ -90,7 +90,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
     say("warning", sentence(overview.remark));
   }
   if (given.enable.length > 0) {
-    say("warning", `Friction compensation is assumed on ${given.enable.join(", ")}; no list says so.`);
+    say("warning", `Friction compensation is assumed on ${given.enable.join(", ")}; no list confirms it.`);
   }
   if (given.startups > 1 && overview.machine.origin === null) {
     say("warning", `${given.startups} start-up lists were dropped, and none is used: frictcomp.toml says which `
@@ -132,7 +132,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   if (isHome && isQuiet && sentences.length === 0) {
     say("good", `${START_UP}. The audit says what it does after other programs.`);
   } else if (isHome && idle.length < configured.length) {
-    say("info", `${START_UP}, as far as was understood: see what is said about it.`);
+    say("info", `${START_UP}, as far as the program was understood: see its messages.`);
   }
   return sentences;
 }

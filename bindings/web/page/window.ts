@@ -1,7 +1,7 @@
 // Which lines of a long list are on the screen. Browsers bound the height of an element, so the height
 // of a list beyond that stands for more than its own pixels.
 
-/** Browsers agree on elements of this height in px. */
+/** All browsers support elements of this height in px. */
 export const TALLEST = 8_000_000;
 
 export interface Window {
@@ -9,7 +9,7 @@ export interface Window {
   line: number;
   /** How many lines there are. */
   total: number;
-  /** The height of what is seen of the list in px. */
+  /** The height of the visible part of the list in px. */
   seen: number;
 }
 
@@ -23,7 +23,7 @@ export function isSquashed(window: Window): boolean {
   return window.line * window.total > TALLEST;
 }
 
-/** The first line that is seen when the list is scrolled by so many px. */
+/** The first visible line when the list is scrolled by so many px. */
 export function firstLine(window: Window, scrolled: number): number {
   const fits = window.seen / window.line;
   if (!isSquashed(window)) {
@@ -33,7 +33,7 @@ export function firstLine(window: Window, scrolled: number): number {
   return Math.max(0, Math.round(Math.min(1, share) * (window.total - fits)));
 }
 
-/** By how many px the list is scrolled when a line is the first that is seen. */
+/** By how many px the list is scrolled when a line is the first visible one. */
 export function scrollOf(window: Window, line: number): number {
   const fits = window.seen / window.line;
   if (!isSquashed(window)) {

@@ -1,14 +1,14 @@
-// The engine in a thread of its own.
+// The engine in its own thread.
 
 import { Engine, Refused, type Refusal } from "./engine";
 
-/** What the page sends. */
+/** Messages from the page. */
 export type Order =
   | { kind: "start"; code: ArrayBuffer }
   | { kind: "put"; path: string; content: Uint8Array; named: boolean }
   | { kind: "ask"; id: number; question: object };
 
-/** What the page hears. */
+/** Messages to the page. */
 export type Report =
   | { kind: "progress"; blocks: number; line: number }
   | { kind: "told"; text: string }
@@ -53,7 +53,7 @@ async function obey(order: Order): Promise<void> {
   }
 }
 
-// One order after another, in the order in which they come.
+// One order after another, as they arrive.
 let last = Promise.resolve();
 self.addEventListener("message", (event: MessageEvent<Order>) => {
   last = last.then(() => obey(event.data)).catch((error: unknown) => {

@@ -14,7 +14,7 @@ use crate::dropped::{Dropped, Kind};
 use crate::refusal::Refusal;
 use crate::run::{Texts, json};
 
-/// What was found, and which programs could not be looked at.
+/// The findings, and the programs that could not be checked.
 struct Audited {
     report: AuditReport,
     failures: Vec<Refusal>,

@@ -7,7 +7,7 @@ use crate::rows::ExecutedRows;
 /// Stretches shorter than the bar divided by this are not distinguished.
 const COLUMNS: usize = 512;
 
-/// What a stretch shows where several states are too close together.
+/// The state of a stretch in which several states are too close together.
 const CHANGING: &str = "changing";
 
 /// A stretch of blocks, from 1, both included, and its state.

@@ -1,7 +1,7 @@
-//! What the page calls.
+//! The functions that the page calls.
 //!
 //! The page asks for room, writes the bytes of a question or a file into it and calls [`ask`] or [`put`].
-//! The answer stays until the next question; its place and length are asked for.
+//! The answer remains until the next question; the page asks for its place and length.
 
 #![allow(unsafe_code, reason = "exported names are unsafe attributes")]
 
@@ -21,7 +21,7 @@ struct Border {
     answer: Vec<u8>,
 }
 
-/// Makes room for so many bytes and says where it is.
+/// Makes room for so many bytes and returns its address.
 #[unsafe(no_mangle)]
 extern "C" fn reserve(length: usize) -> *mut u8 {
     BORDER.with_borrow_mut(|border| {
@@ -30,8 +30,8 @@ extern "C" fn reserve(length: usize) -> *mut u8 {
     })
 }
 
-/// Takes a file: its path, of a number of bytes, and after it what it holds. `named` is 1 for a file that the
-/// user picked by itself.
+/// Accepts a file: its path, of the given number of bytes, followed by its content. `named` is 1 for a file that
+/// the user picked individually.
 #[unsafe(no_mangle)]
 extern "C" fn put(path_length: usize, named: u32) {
     BORDER.with_borrow_mut(|border| {
@@ -43,7 +43,7 @@ extern "C" fn put(path_length: usize, named: u32) {
     });
 }
 
-/// Answers a question; 0 where it is refused, and the answer says why.
+/// Answers a question; returns 0 if it is refused, in which case the answer says why.
 #[unsafe(no_mangle)]
 extern "C" fn ask() -> u32 {
     BORDER.with_borrow_mut(|border| {
@@ -62,13 +62,13 @@ extern "C" fn ask() -> u32 {
     })
 }
 
-/// Where the answer is.
+/// The address of the answer.
 #[unsafe(no_mangle)]
 extern "C" fn answer() -> *const u8 {
     BORDER.with_borrow(|border| border.answer.as_ptr())
 }
 
-/// How many bytes the answer has.
+/// The length of the answer in bytes.
 #[unsafe(no_mangle)]
 extern "C" fn answer_length() -> usize {
     BORDER.with_borrow(|border| border.answer.len())

@@ -85,7 +85,7 @@ fn simulate(
     Ok((CircleReport::simulated(test, comparison, origin), told))
 }
 
-/// The value lists of X and Y, where any of them was accepted.
+/// The value lists of X and Y, if any of them was accepted.
 fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
     let list = |name: &str| {
         let axis = machine.axes.iter().find(|axis| axis.name == name)?;

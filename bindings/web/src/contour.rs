@@ -29,7 +29,7 @@ const MOST_CYCLES: u64 = 20_000_000;
 #[derive(Debug, Deserialize)]
 pub(crate) struct ContourSettings {
     program: String,
-    /// Where axes stand at the start, in mm or degrees.
+    /// The axis positions at the start, in mm or degrees.
     #[serde(default)]
     start: Vec<(String, f64)>,
     /// The drives: `stiff`, `mid`, `soft`.

@@ -22,7 +22,7 @@ use crate::run::{RunSettings, json};
 use crate::watched::show_progress;
 use crate::wording::page;
 
-/// Cycles between two signs of progress.
+/// Cycles between two progress reports.
 const STEP: u64 = 1 << 16;
 
 /// More cycles than that take minutes.

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::refusal::Refusal;
 
-/// What a file is to the page.
+/// The role of a file for the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Kind {
@@ -39,18 +39,18 @@ struct DroppedFile {
 #[derive(Debug, Default)]
 pub(crate) struct Dropped {
     files: BTreeMap<PathBuf, DroppedFile>,
-    /// The disk with them, once it was asked for.
+    /// The disk with them, once it was requested.
     disk: Option<Disk>,
 }
 
 impl Dropped {
-    /// Takes a file in place of one of the same path. `named` says that the user picked it by itself: what
-    /// is no list is a program then, whatever its extension.
+    /// Accepts a file, replacing one with the same path. `named` means that the user picked it individually: a
+    /// file that is not a list is then a program, whatever its extension.
     pub(crate) fn put(&mut self, path: &str, content: Vec<u8>, named: bool) {
         let path = PathBuf::from(path.trim_start_matches('/'));
         let text = Arc::new(decode(content));
         let kind = match self.files.get(&path) {
-            // A text that is edited stays what it was.
+            // An edited text keeps its role.
             Some(before) if before.kind == Kind::Program => Kind::Program,
             _ => kind_of(&path, &text, named),
         };
@@ -58,12 +58,12 @@ impl Dropped {
         self.disk = None;
     }
 
-    /// Forgets everything.
+    /// Forgets all files.
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// The files with what they are; the extensions of a configuration count.
+    /// The files with their roles; the extensions of a configuration count.
     pub(crate) fn files(&mut self) -> Vec<(String, Kind)> {
         let disk = self.disk();
         let mut machines =
@@ -122,7 +122,7 @@ impl Dropped {
         options
     }
 
-    /// The start-up list, where there is one and no other.
+    /// The start-up list, if there is exactly one.
     fn only_startup(&self) -> Option<PathBuf> {
         let mut startups = self
             .files

@@ -18,7 +18,7 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    /// Takes a file.
+    /// Accepts a file.
     pub(crate) fn put(&mut self, path: &str, content: Vec<u8>, named: bool) {
         self.dropped.put(path, content, named);
     }
@@ -43,7 +43,7 @@ impl Engine {
                 text.as_bytes().to_vec()
             }
             PageQuestion::Run { program, settings } => {
-                // The memory of the last run is there for the next one.
+                // Releases the memory of the last run for the next one.
                 self.shown = None;
                 let (shown, overview) = run::run(dropped, &program, &settings)?;
                 self.shown = Some(shown);

@@ -1,7 +1,7 @@
 //! The engine inside `frictcomp.html`: the dropped files as a disk in memory, and answers to the
 //! questions of the page about them.
 //!
-//! The page and the engine share nothing but bytes (`border`). A question is JSON; an answer is JSON, a
+//! The page and the engine share only bytes (`border`). A question is JSON; an answer is JSON, a
 //! page, a picture or records, as the question asks.
 
 mod audits;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frictcomp::text::{LineSource, TextLines};
 
-/// More characters of a line are not shown.
+/// The maximum number of characters that are shown of a line.
 const MOST_SHOWN: usize = 400;
 
 /// A text and where its lines begin.

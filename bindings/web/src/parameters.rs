@@ -14,7 +14,7 @@ use crate::run::json;
 #[derive(Serialize)]
 struct ParametersAnswer {
     tables: Vec<ParameterTable>,
-    /// The curves of the value lists that the control takes; none where there is none.
+    /// The curves of the value lists that the control accepts; none where there is none.
     svg: Option<String>,
 }
 
@@ -35,7 +35,7 @@ impl ParameterTable {
     }
 }
 
-/// The parameters that count for a program, with their origins, and the curves.
+/// The effective parameters of a program, with their origins, and the curves.
 pub(crate) fn answer(
     dropped: &mut Dropped,
     program: &str,

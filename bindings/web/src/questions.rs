@@ -1,4 +1,4 @@
-//! What the page asks.
+//! The questions of the page.
 
 use serde::Deserialize;
 
@@ -13,7 +13,7 @@ use crate::tuning::TuneSettings;
 pub(crate) enum PageQuestion {
     /// Forget every file.
     Clear,
-    /// The files and what they are, in JSON.
+    /// The files and their roles, in JSON.
     Files,
     /// The text of a file.
     Text { path: String },
@@ -29,7 +29,7 @@ pub(crate) enum PageQuestion {
         from: usize,
         count: usize,
     },
-    /// Where a block stands in a view.
+    /// The position of a block in a view.
     Place { view: ShownBlocks, block: u64 },
     /// The next block with a change or a message, or the one before.
     Notable { block: u64, forward: bool },
@@ -47,7 +47,7 @@ pub(crate) enum PageQuestion {
         #[serde(default)]
         settings: RunSettings,
     },
-    /// What the order of all programs does, in JSON.
+    /// The effect of the order of all programs, in JSON.
     Audit {
         #[serde(default)]
         enable: Vec<String>,
@@ -60,7 +60,7 @@ pub(crate) enum PageQuestion {
     /// The additive current of a program: picture and notes, in JSON.
     Current {
         program: String,
-        /// Where axes stand at the start, in mm or degrees.
+        /// The axis positions at the start, in mm or degrees.
         #[serde(default)]
         start: Vec<(String, f64)>,
         #[serde(default)]

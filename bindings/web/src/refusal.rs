@@ -4,7 +4,7 @@ use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp_host::HostError;
 use serde::Serialize;
 
-/// Why a question has no answer: a sentence, what to do, and what a configuration has to say.
+/// Why a question has no answer: a sentence, what to do, and the messages about a configuration.
 #[derive(Debug, Serialize)]
 pub(crate) struct Refusal {
     pub(crate) message: String,
@@ -28,7 +28,7 @@ impl Refusal {
         }
     }
 
-    /// A name that nothing has.
+    /// A name that does not exist.
     pub(crate) fn unknown(message: impl Into<String>, unknown: &UnknownName) -> Self {
         Self {
             help: unknown.help("its axes are"),

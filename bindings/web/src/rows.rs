@@ -7,7 +7,7 @@ use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::interpreter::PossibleStates;
 use frictcomp::timeline::{Row, StateView};
 
-/// The most blocks that are kept for the timeline.
+/// The maximum number of blocks that are kept for the timeline.
 pub(crate) const MOST_ROWS: usize = 4_000_000;
 
 /// One executed block.
@@ -26,7 +26,7 @@ pub(crate) struct KeptRow {
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct FrictionStates {
     pub(crate) states: Vec<State>,
-    /// What is possible where a state is unknown because ways differ (R14.2).
+    /// The possible states where a state is unknown because ways differ (R14.2).
     possible: Vec<PossibleStates>,
 }
 
@@ -41,7 +41,7 @@ impl FrictionStates {
         }
     }
 
-    /// What is possible for axes, by their positions, in words as seen from a file.
+    /// The possible states of axes, by their positions, in words as seen from a file.
     pub(crate) fn possible(&self, file: &str) -> Vec<(usize, String)> {
         let possible = self.possible.iter();
         possible
@@ -54,7 +54,7 @@ impl FrictionStates {
 #[derive(Debug, Default)]
 pub(crate) struct ExecutedRows {
     pub(crate) kept: Vec<KeptRow>,
-    /// The rows after which the states are others than after the row above.
+    /// The rows after which the states differ from those after the row above.
     pub(crate) changed: Vec<u32>,
     /// The axes that rows switch, by their positions.
     switched: Vec<(u32, usize)>,
@@ -63,15 +63,15 @@ pub(crate) struct ExecutedRows {
     /// Every combination of states that occurs, the one at the start first.
     moments: Vec<Arc<FrictionStates>>,
     known: HashMap<Arc<FrictionStates>, u32>,
-    /// The states of the last row, and what they were made of.
+    /// The states of the last row, and what they were made from.
     current: u32,
     version: Option<u64>,
-    /// Executed blocks, also those beyond the kept ones.
+    /// Executed blocks, including those that are not kept.
     pub(crate) blocks: u64,
 }
 
 impl ExecutedRows {
-    /// Takes a block.
+    /// Adds a block.
     pub(crate) fn push(&mut self, row: &Row<'_>) {
         self.blocks += 1;
         let above = self.kept.last().map_or(0, |above| above.states);
@@ -97,12 +97,12 @@ impl ExecutedRows {
         });
     }
 
-    /// The states after a row; of those before the first row without a number.
+    /// The states after a row; without a number, those before the first row.
     pub(crate) fn states(&self, row: Option<usize>) -> &[State] {
         self.moment(row).map_or(&[], |moment| &moment.states)
     }
 
-    /// The moment after a row; that before the first row without a number.
+    /// The moment after a row; without a number, the one before the first row.
     pub(crate) fn moment(&self, row: Option<usize>) -> Option<&FrictionStates> {
         self.numbered(row.map_or(0, |row| self.kept[row].states))
     }

@@ -1,4 +1,4 @@
-//! A run of a program, and what the page asks about it.
+//! A run of a program, and the questions of the page about it.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub(crate) struct RunSettings {
     pub(crate) enable: Vec<String>,
     /// Whether a failing command is passed over.
     pub(crate) keep_going: bool,
-    /// The largest number of executed blocks, where it is not the usual one.
+    /// The maximum number of executed blocks, if it is not the usual one.
     pub(crate) max_blocks: Option<u64>,
 }
 
@@ -51,11 +51,11 @@ pub(crate) struct ShownRun {
     notable: Vec<u32>,
     program: String,
     disk: Disk,
-    /// The lines of the files that were looked at.
+    /// The lines of the files that were shown.
     lines: HashMap<u16, Option<IndexedText>>,
 }
 
-/// What the page shows above the timeline.
+/// The part of the page above the timeline.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Overview<'a> {
@@ -64,7 +64,7 @@ pub(crate) struct Overview<'a> {
     axes: Vec<AxisOverview<'a>>,
     axes_as_they_occur: bool,
     blocks: u64,
-    /// How many blocks the timeline has, where that is less.
+    /// The number of blocks in the timeline, if it is smaller.
     kept: usize,
     ended_by: Option<&'static str>,
     remark: Option<&'a str>,
@@ -92,9 +92,9 @@ struct AxisOverview<'a> {
     listed: bool,
     changes: u64,
     changed_by: Vec<ChangedAt<'a>>,
-    /// What is possible at the end where that is unknown because ways differ.
+    /// The possible states at the end where it is unknown because ways differ.
     possible: Option<String>,
-    /// The feed moves without compensation, to stand after the name.
+    /// The feed moves without compensation, in words that follow the name.
     uncompensated: Option<String>,
     bar: Vec<BarSpan>,
 }
@@ -130,7 +130,7 @@ struct MachineOverview<'a> {
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct LineStates {
     states: Vec<StateWord>,
-    /// What is possible for axes, by their positions, where their states are unknown because ways differ.
+    /// The possible states of axes, by their positions, where they are unknown because ways differ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     possible: Vec<(usize, String)>,
 }
@@ -145,7 +145,7 @@ pub(crate) enum TimelineItem<'a> {
     },
     Block {
         block: usize,
-        /// The file, where it is not the program itself.
+        /// The file, if it is not the program itself.
         file: Option<&'a str>,
         line: u32,
         level: u8,
@@ -245,7 +245,7 @@ pub(crate) fn records(
     Ok(written.take())
 }
 
-/// The report of a run as a page, the same as that of `frictcomp run --html` but for the words of advice.
+/// The report of a run as a page, the same as that of `frictcomp run --html` except for the wording of advice.
 pub(crate) fn report(
     dropped: &mut Dropped,
     program: &str,
@@ -284,7 +284,7 @@ impl Sources for Texts {
 }
 
 impl LineStates {
-    /// Those of a moment, as seen from a file.
+    /// The possible states of a moment, as seen from a file.
     fn seen(moment: Option<&FrictionStates>, file: &str) -> Self {
         moment.map_or_else(Self::default, |moment| Self {
             states: moment.states.iter().map(|state| state.as_str()).collect(),
@@ -382,7 +382,7 @@ impl ShownRun {
         }
     }
 
-    /// How many of the first so many blocks are shown.
+    /// The number of shown blocks among the first so many.
     fn rank(&self, view: ShownBlocks, blocks: u64) -> usize {
         let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
         match view {
@@ -393,12 +393,12 @@ impl ShownRun {
         }
     }
 
-    /// Where the message stands.
+    /// The position of the message.
     fn place_of_message(&self, view: ShownBlocks, at: usize) -> usize {
         1 + self.rank(view, self.timeline.said[at].after) + at
     }
 
-    /// Where a block stands, the start for 0; where it is not shown, the one before it.
+    /// The position of a block, the start for 0; if it is not shown, that of the one before it.
     pub(crate) fn place(&self, view: ShownBlocks, block: u64) -> usize {
         let before = &self.timeline.said;
         let messages = before.partition_point(|said| said.after < block);

@@ -1,4 +1,4 @@
-//! What the page shows of a run: blocks, messages, the end.
+//! The parts of a run that the page shows: blocks, messages, the end.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -12,13 +12,13 @@ use frictcomp::timeline::{AxisSummary, EndedBy, Record, Sink};
 use crate::rows::ExecutedRows;
 use crate::watched::show_progress;
 
-/// More messages are counted, not kept.
+/// The maximum number of messages that are kept; more are only counted.
 const MOST_MESSAGES: usize = 10_000;
 
-/// Blocks between two signs of progress.
+/// Blocks between two progress reports.
 const STEP: u64 = 1 << 15;
 
-/// A message, and the number of the block after which it stands; 0 before the first.
+/// A message, and the number of the block that it follows; 0 before the first.
 #[derive(Debug)]
 pub(crate) struct PlacedMessage {
     pub(crate) after: u64,
@@ -34,7 +34,7 @@ pub(crate) struct TimelineAxis {
     pub(crate) listed: bool,
 }
 
-/// A run, as far as the page shows it.
+/// The part of a run that the page shows.
 #[derive(Debug, Default)]
 pub(crate) struct Timeline {
     pub(crate) axes: Vec<TimelineAxis>,
@@ -42,7 +42,7 @@ pub(crate) struct Timeline {
     pub(crate) remark: Option<String>,
     pub(crate) name: Option<String>,
     pub(crate) rows: ExecutedRows,
-    /// By the blocks after which they stand.
+    /// By the blocks that they follow.
     pub(crate) said: Vec<PlacedMessage>,
     pub(crate) left_out: u64,
     pub(crate) ended_by: Option<EndedBy>,

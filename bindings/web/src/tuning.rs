@@ -20,7 +20,7 @@ use crate::refusal::Refusal;
 use crate::run::json;
 use crate::watched::Page;
 
-/// Circles that are tuned at once, at most.
+/// The maximum number of circles that are tuned at once.
 const MOST_CIRCLES: usize = 8;
 
 /// What is tuned for.

@@ -1,4 +1,4 @@
-//! What the page is sent during long work.
+//! The progress reports to the page during long work.
 
 #![allow(unsafe_code, reason = "the functions of the page are foreign")]
 
@@ -6,13 +6,13 @@ use frictcomp_host::{Progress, Watcher};
 
 #[cfg(target_family = "wasm")]
 unsafe extern "C" {
-    /// Tells the page how far a run is: executed blocks, and the line of the main program.
+    /// Reports the progress of a run to the page: executed blocks, and the line of the main program.
     safe fn progress(blocks: f64, line: u32);
 
-    /// Whether it is time to say how far other work is: 1, at most a few times a second.
+    /// Whether it is time to report the progress of other work: 1, at most a few times a second.
     safe fn due() -> u32;
 
-    /// Tells the page how far it is, in so many bytes of text at a place.
+    /// Reports progress to the page, in so many bytes of text at an address.
     safe fn told(at: *const u8, length: usize);
 }
 
@@ -45,7 +45,7 @@ impl Watcher for Page {
     }
 }
 
-/// Tells the page how far a run is.
+/// Reports the progress of a run to the page.
 pub(crate) fn show_progress(blocks: u32, line: u32) {
     progress(f64::from(blocks), line);
 }

@@ -1,4 +1,4 @@
-//! How the page words advice: what it offers, instead of an option of the command line.
+//! The wording of advice on the page: what the page offers, instead of a command line option.
 
 use frictcomp::diagnostic::Advice;
 

@@ -15,7 +15,7 @@ const address = pathToFileURL(resolve(html)).href;
 const folder = mkdtempSync(join(tmpdir(), "frictcomp-page-"));
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
 
-/** Opens the page; whatever it asks of the network or says in the console is a mistake. */
+/** Opens the page; any network request or console output is a mistake. */
 async function open(options = {}) {
   const context = await browser.newContext({ acceptDownloads: true, ...options });
   const page = await context.newPage();
@@ -83,7 +83,7 @@ const look = async (page, name) => {
 /** Every part of the page that is shown at once. */
 const TABS = ["timeline", "messages", "audit", "current", "contour", "circle", "machine"];
 
-/** Shows a part and waits for what it asks the engine. */
+/** Shows a part and waits for its questions to the engine. */
 async function showTab(page, tab) {
   await page.locator(`#tab-${tab}`).click();
   await page.waitForFunction(() => document.getElementById("working").hidden);
@@ -95,7 +95,7 @@ async function showTab(page, tab) {
   }
 }
 
-/** The rules of accessibility that what is shown breaks, by axe-core. */
+/** The accessibility rules that the current view breaks, by axe-core. */
 async function broken(page) {
   const { violations } = await page.evaluate(() => window.axe.run(document));
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`);
@@ -218,7 +218,7 @@ const tests = {
     assert.doesNotMatch(await result.textContent(), /every axis ends/);
     const missing = page.locator("#missing");
     assert.match(await missing.textContent(), /SUB\.nc/);
-    // The file comes, and then the start-up list without its axis lists.
+    // The file arrives, and then the start-up list without its axis lists.
     await dropTexts(page, { "SUB.nc": "X1\nM17\n" });
     await page.waitForFunction(() => !document.getElementById("missing").textContent.includes("SUB.nc"));
     assert.equal(await page.locator("#title").textContent(), "main.nc");
@@ -226,7 +226,7 @@ const tests = {
     await result.getByText(/not found: parameters that they would give/).waitFor();
     assert.match(await missing.textContent(), /axis_x\.lis/);
     await look(page, "missing");
-    // Loose lists are found beside the start-up list.
+    // Loose lists are found next to the start-up list.
     await drop(page, ...["axis_x", "axis_y", "axis_z", "channel_1", "comp_x", "comp_y"].map((name) =>
       join(root, `programs/demo/lists/${name}.lis`)));
     await page.waitForFunction(() => document.getElementById("missing").textContent === "");
@@ -327,7 +327,7 @@ const tests = {
     const before = Date.now();
     await page.getByRole("button", { name: "Tune", exact: true }).click();
     await page.locator("#progress").getByText(/tune: \d+ of \d+ runs/).waitFor({ timeout: 60_000 });
-    // The page answers meanwhile.
+    // The page responds in the meantime.
     await page.getByRole("searchbox", { name: "find" }).count();
     await page.locator("#tuned img").waitFor({ timeout: 300_000 });
     console.log(`      one feed tuned: ${((Date.now() - before) / 1000).toFixed(1)} s`);

@@ -12,7 +12,7 @@ const [html, command, root, executablePath] = process.argv.slice(2);
 const address = pathToFileURL(resolve(html)).href;
 const browser = await puppeteer.launch({ browser: "firefox", executablePath, headless: true });
 
-/** Opens the page; what it asks of the network or says in the console is a mistake. */
+/** Opens the page; any network request or console output is a mistake. */
 async function open() {
   const page = await browser.newPage();
   page.setDefaultTimeout(60_000);

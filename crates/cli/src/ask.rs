@@ -166,7 +166,7 @@ impl AskArgs {
         Ok(exit::CLEAN)
     }
 
-    /// The answers in a file: lines of a text, or what a recording shows.
+    /// Returns the answers in a file: lines of a text, or what a recording shows.
     fn answers_in(&self, path: &Path, machine: &Machine) -> Result<Vec<Answer>, Failure> {
         const LINES: &str = "answers are lines that begin with `frictcomp-ask`, as in `message.txt`, or a recording";
         let (answers, unread) = read_answers(&read_text(path)?, |name| self.asked(name, machine));
@@ -242,7 +242,7 @@ impl AskArgs {
     }
 }
 
-/// Drops what one file does not decide and another one does.
+/// Drops what one file does not decide but another one does.
 fn drop_what_is_answered(answers: &mut Vec<Answer>) {
     let decided: Vec<Question> = answers
         .iter()
@@ -255,7 +255,7 @@ fn drop_what_is_answered(answers: &mut Vec<Answer>) {
     answers.sort_by_key(|answer| answer.question);
 }
 
-/// The configuration that the answers go into.
+/// Returns the configuration that the answers go into.
 fn configuration(loaded: &LoadedMachine) -> PathBuf {
     let origin = loaded.origin.as_deref();
     let own = origin.filter(|path| path.extension().is_some_and(|it| it == "toml"));
@@ -286,7 +286,7 @@ fn remember(path: &Path, findings: &[AnsweredReading]) -> Result<(), Failure> {
     }])?)
 }
 
-/// The questions that were answered in both ways.
+/// Returns the questions with contradictory answers.
 fn contradictions(answers: &[Answer]) -> Vec<Question> {
     let decided = |answer: &&Answer| answer.verdict != AnswerVerdict::Undecidable;
     let mut found = Vec::new();
@@ -299,7 +299,7 @@ fn contradictions(answers: &[Answer]) -> Vec<Question> {
     found
 }
 
-/// The answers in words; what is not decidable for one reason is reported once.
+/// Returns the answers in words; a reason for several undecidable ones is reported once.
 fn told(answers: &[Answer]) -> String {
     let mut text = String::new();
     let is_alike = |one: &Answer, other: &Answer| {

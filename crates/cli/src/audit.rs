@@ -190,7 +190,7 @@ impl AuditArgs {
         Ok(status.max(unknown))
     }
 
-    /// The programs that can run on their machines.
+    /// Returns the auditor of the programs that can run on their machines.
     fn auditor(
         &self,
         inputs: Vec<Input>,
@@ -209,7 +209,7 @@ impl AuditArgs {
         failures.keep(ArchiveAuditor::new(inputs, machines, options))
     }
 
-    /// The exit status of states that are not known, which are reported where they count (R2.98).
+    /// Returns the exit status for unknown states, which are reported where they count (R2.98).
     fn unknown_status<'a>(
         &self,
         unknown: impl Iterator<Item = (&'a str, Kind)>,
@@ -291,7 +291,7 @@ fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
     }
 }
 
-/// Says above everything else that no machine is described (R1.37).
+/// Reports before everything else that no machine is described (R1.37).
 fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
     let programs = auditor.programs().iter();
     let undescribed = programs.filter_map(|(input, machine)| {
@@ -303,7 +303,7 @@ fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
     }
 }
 
-/// Says what keeps the control from taking its lists, and whether anything does.
+/// Reports why the control does not accept its lists, and returns whether it has such faults.
 fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
     let machines = auditor.machines().iter();
     let errors: Vec<_> = machines.flat_map(|it| it.errors().cloned()).collect();
@@ -311,7 +311,7 @@ fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
     !errors.is_empty()
 }
 
-/// Says which programs are left to the user, and why (R10.8).
+/// Reports which programs are left to the user, and why (R10.8).
 fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
     for change in changes {
         let programs = archives[change.machine].programs();
@@ -337,7 +337,7 @@ fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
     }
 }
 
-/// Says which blocks mend the programs that call their file, too (R10.8).
+/// Reports which blocks mend the programs that call their file, too (R10.8).
 fn say_roots(changes: &[MendedProgram]) {
     for change in changes {
         let Some(file) = change.file.as_ref().filter(|_| !change.also.is_empty()) else {
@@ -397,7 +397,7 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// One program a line, relative to the folder of the list; empty lines and lines that begin with `#`
+/// Reads one program per line, relative to the folder of the list; empty lines and lines that begin with `#`
 /// or `;` are ignored.
 fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
     let text = read_text(order)?;

@@ -35,7 +35,7 @@ impl FromStr for AxisList {
     }
 }
 
-/// Returns the files of X and Y that an option gives, one for both or one for each.
+/// Returns the files of X and Y that an option names, one for both or one for each.
 pub(super) fn files_of<'a>(option: &str, given: &'a [AxisList]) -> Result<[&'a Path; 2], Failure> {
     if let [both @ AxisList { axis: None, .. }] = given {
         return Ok([&both.path; 2]);

@@ -1,4 +1,4 @@
-//! The findings of an earlier day, so that only new ones are shown (R17.3).
+//! The findings of an earlier run, so that only new ones are shown (R17.3).
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use frictcomp_host::{FileRegistry, OutputFile, read_text};
 /// The version of the file.
 const SCHEMA: u64 = 1;
 
-/// Which findings are known already.
+/// Options for known findings.
 #[derive(Debug, Clone, Args)]
 pub(super) struct BaselineArgs {
     /// Instead of listing the messages, write them to this file, for `--baseline`
@@ -28,20 +28,20 @@ pub(super) struct BaselineArgs {
     baseline: Option<PathBuf>,
 }
 
-/// Key by which two findings are the same, wherever their block is in its file.
+/// Key that identifies a finding, wherever its block is in its file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct BaselineKey {
     file: String,
     code: String,
     severity: String,
     axis: Option<String>,
-    /// With the kind, the state and the ways, without lines and without how often it applied.
+    /// With the kind, the state and the ways, without lines and the number of occurrences.
     message: String,
     /// The text of its block.
     block: String,
 }
 
-/// A finding of the file, and how often it stands there.
+/// A finding of the file, and how often it occurs there.
 #[derive(Debug, Serialize, Deserialize)]
 struct Counted {
     #[serde(flatten)]
@@ -61,7 +61,7 @@ struct BaselineFile {
 /// Treatment of findings.
 #[derive(Default)]
 pub(super) struct Baseline {
-    /// The findings that are known and were not met yet, or those that are written.
+    /// Known findings that were not met yet, or those to be written.
     findings: BTreeMap<BaselineKey, u64>,
     unlisted: BTreeMap<String, u64>,
     purpose: Purpose,
@@ -73,7 +73,7 @@ pub(super) struct Baseline {
 /// Purpose of a baseline.
 #[derive(Default)]
 enum Purpose {
-    /// There is none: everything is listed.
+    /// No baseline: everything is listed.
     #[default]
     None,
     /// Known findings are left out.
@@ -104,7 +104,7 @@ impl BaselineArgs {
         }
     }
 
-    /// Whether findings are written and not listed.
+    /// Whether findings are written instead of listed.
     pub(super) fn is_written(&self) -> bool {
         self.write_baseline.is_some()
     }
@@ -149,7 +149,7 @@ fn read(path: &Path) -> Result<Baseline, Failure> {
 }
 
 impl Baseline {
-    /// Takes a finding; whether it is listed.
+    /// Takes a finding, and returns whether it is listed.
     pub(super) fn lists(&mut self, said: &Diagnostic) -> bool {
         match self.purpose {
             Purpose::None => return true,
@@ -163,7 +163,7 @@ impl Baseline {
         false
     }
 
-    /// Takes findings that are too many to be listed; how many of them are not known.
+    /// Takes findings that are too many to be listed, and returns how many of them are not known.
     pub(super) fn unlisted(&mut self, severity: Severity, more: u64) -> u64 {
         let word = severity.as_str().to_owned();
         let known = match self.purpose {
@@ -190,7 +190,7 @@ impl Baseline {
         }
     }
 
-    /// Writes the file, or says what was known. `is_checked` says whether a file was read.
+    /// Writes the file, or reports what was known. `is_checked` is whether a file was read.
     pub(super) fn finish(
         self,
         console: Console,
@@ -238,7 +238,7 @@ impl Baseline {
     }
 }
 
-/// The text of the file, a line a finding, so that two branches can be merged.
+/// Returns the text of the file, one finding per line, so that two branches can be merged.
 fn text(findings: &BTreeMap<BaselineKey, u64>, unlisted: &BTreeMap<String, u64>) -> String {
     let lines = findings.iter().map(|(finding, count)| {
         let counted = Counted {
@@ -268,7 +268,7 @@ impl BaselineKey {
     }
 }
 
-/// A message without the lines that it names, which move.
+/// Returns a message without its line numbers, which change.
 fn without_lines(message: &str) -> String {
     const WORD: &str = "line ";
     let mut plain = String::with_capacity(message.len());

@@ -6,7 +6,7 @@ use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{Measured, TorqueKind};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
-/// Which channels are the motion of an axis.
+/// Options for the channels of an axis's motion.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct MotionChannels {
     /// The channel of the times in a trace: its name, comment or CNC object
@@ -36,7 +36,7 @@ impl MotionChannels {
     }
 }
 
-/// Which channels are the motion and the torque of one axis.
+/// Options for the channels of an axis's motion and torque.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct AxisChannelArgs {
     /// The axis, by its name, or by its number in CNC objects
@@ -60,7 +60,7 @@ impl AxisChannelArgs {
     }
 }
 
-/// Which torque was recorded.
+/// Option for the kind of recorded torque.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct TorqueKindArgs {
     /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
@@ -69,7 +69,7 @@ pub(super) struct TorqueKindArgs {
     pub(super) torque_kind: Option<TorqueKind>,
 }
 
-/// What the user knows of the recorded torque.
+/// What the user knows about the recorded torque.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct TorqueArgs {
     #[command(flatten)]
@@ -97,7 +97,7 @@ impl TorqueArgs {
     }
 }
 
-/// `NAME=UNIT`; a name may contain `=`, a unit does not.
+/// Parses `NAME=UNIT`; a name may contain `=`, a unit does not.
 pub(super) fn parse_unit(text: &str) -> Result<(String, Unit), String> {
     let (name, unit) = text
         .rsplit_once('=')

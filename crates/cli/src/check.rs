@@ -39,7 +39,7 @@ use frictcomp_report::{ListingFormat, command_line, wrap};
 /// A program that another one calls is checked in its callers: it is not checked by itself if it holds
 /// neither M02 nor M30 and a main program of this call executes it to its end.
 #[derive(Debug, Args)]
-// Each is a switch of its own on the command line.
+// Each is a separate switch on the command line.
 #[allow(clippy::struct_excessive_bools)]
 pub(super) struct CheckArgs {
     /// Programs and folders of programs; `-` is standard input
@@ -85,7 +85,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     Failures::of(console, |failures| check(args, console, (None, failures)))
 }
 
-/// Checks all programs, and after each save what it reaches. Ends where it cannot watch any more.
+/// Checks all programs, and after each save what it affects. Ends when watching is no longer possible.
 fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     if args.paths.iter().any(|path| path.as_os_str() == "-") {
         let failure = Failure::new("standard input is not saved, so it cannot be watched");
@@ -98,7 +98,7 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         let mut machines = args.machine.machines(&FileRegistry::default());
         let found = find_programs(&args.paths, |folder| machines.extensions(folder));
         for input in &found.inputs {
-            // Why a machine cannot be used is said by the check.
+            // A machine that cannot be used is reported by the check.
             let _ = machines.for_folder(input.folder());
         }
         files.watch(machines.folders())?;
@@ -212,7 +212,7 @@ fn check(
     Ok(listing.status())
 }
 
-/// Says above everything else that no machine is described (R1.37).
+/// Reports before everything else that no machine is described (R1.37).
 fn say_undescribed(
     args: &CheckArgs,
     jobs: &[ProgramOnMachine<'_>],
@@ -228,7 +228,7 @@ fn say_undescribed(
     };
     if args.listing.format == ListingFormat::Text && !args.listing.quiet && !args.listing.statistics
     {
-        // A writer that takes no more says so at the next line.
+        // A writer that accepts no more fails at the next line.
         let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
     } else {
         console.remark(&remark);
@@ -253,8 +253,8 @@ struct Since {
 }
 
 impl CheckArgs {
-    /// The paths, and the revision with its name where only what changed is checked. A word after
-    /// `--changed` that is no revision may be the first path.
+    /// Returns the paths, and the revision with its name where only changed programs are checked. A word after
+    /// `--changed` that is not a revision may be the first path.
     fn since(&self) -> Result<Since, Failure> {
         let Some(name) = &self.changed else {
             return Ok(Since {
@@ -274,7 +274,7 @@ impl CheckArgs {
             }),
             Err(HostError::NoRevision(_)) if Path::new(name).exists() => {
                 let mut paths = vec![PathBuf::from(name)];
-                // Without a path of its own the current folder is meant, and the word takes its place.
+                // Without a path the current folder is meant, and the word takes its place.
                 paths.extend(
                     self.paths
                         .iter()
@@ -300,7 +300,7 @@ impl CheckArgs {
         }
     }
 
-    /// Runs a program and keeps what there is to note.
+    /// Runs a program and collects its notes.
     fn take_notes(
         &self,
         kind: NoteKind,
@@ -333,7 +333,7 @@ impl CheckArgs {
         Ok(())
     }
 
-    /// Checks the programs, many at once, and lists what was found in their order. Gives how many of
+    /// Checks the programs in parallel, and lists the messages in the order of the programs. Returns how many of
     /// them were checked only in their callers (R17.2).
     fn check_all(
         &self,
@@ -367,7 +367,7 @@ impl CheckArgs {
                 listing.count(*severity, baseline.unlisted(*severity, *more));
             }
         }
-        // Only now it is known which programs reach a message.
+        // Only now is it known which programs reach a message.
         let mut said = causes.diagnostics().iter();
         let _ = said.try_for_each(|said| {
             if baseline.lists(said) {
@@ -378,7 +378,7 @@ impl CheckArgs {
         mains.iter().filter(|is_main| !**is_main).count()
     }
 
-    /// Returns the messages of each program by itself, in their order.
+    /// Returns the messages of each program alone, in the order of the programs.
     fn checked<'a>(
         &self,
         jobs: Vec<ProgramOnMachine<'a>>,
@@ -407,7 +407,7 @@ impl CheckArgs {
         all
     }
 
-    /// Returns the programs that count by themselves.
+    /// Returns the programs that count on their own.
     fn mains(&self, checked: &[CheckedProgram<'_>]) -> Vec<bool> {
         if self.all {
             return vec![true; checked.len()];
@@ -433,7 +433,7 @@ fn in_callers_remark(programs: usize) -> String {
     }
 }
 
-/// A program that was checked by itself.
+/// A program that was checked alone.
 struct CheckedProgram<'a> {
     input: &'a Input,
     loaded: Arc<LoadedMachine>,
@@ -445,11 +445,11 @@ struct ProgramMessages {
     findings: Findings,
     /// Number of further messages, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
-    /// Its feed moves without compensation, by axes.
+    /// Its uncompensated feed moves, by axes.
     uncompensated: Vec<(String, Uncompensated)>,
-    /// The states that are not known at its end or where their axis moves.
+    /// The states that are unknown at its end or where their axis moves.
     unknown: BTreeSet<String>,
-    /// The readings on which its results rest.
+    /// The readings on which its results depend.
     rests_on: ReadingsInForce,
     /// The files that it executed to their end.
     executed_to_end: Vec<String>,

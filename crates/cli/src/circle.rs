@@ -185,7 +185,7 @@ fn simulation(
     Ok((test, origin))
 }
 
-/// The lists that were given for both axes, or for each.
+/// Returns the lists given for both axes, or for each.
 fn given_lists(
     given: &[AxisList],
     registry: &FileRegistry,

@@ -1,8 +1,8 @@
 //! Text for programs that share a console on Windows.
 //!
-//! A console takes text in UTF-16 from the standard library and shows it in any code page. What goes
-//! through a pipe, to `more`, `findstr` or PowerShell, is taken for text in the code page of the console,
-//! 850 or 1252 in western Europe, and so it is written. Files and records are UTF-8 everywhere.
+//! A console receives text in UTF-16 from the standard library and shows it in any code page. Text that goes
+//! through a pipe, to `more`, `findstr` or PowerShell, is read in the code page of the console, 850 or 1252 in
+//! western Europe, and is therefore written in it. Files and records are UTF-8 everywhere.
 
 use std::io::{self, Write};
 use std::str::from_utf8;
@@ -22,8 +22,8 @@ const UNICODE: u16 = 65001;
 pub(super) struct CodePage(u16);
 
 impl CodePage {
-    /// Returns the code page of the console that a pipe leads back to; `None` where text in UTF-8
-    /// is right: in files, on a terminal, without a console, outside Windows.
+    /// Returns the code page of the console that reads from a pipe; `None` where UTF-8 is right: for files, on a
+    /// terminal, without a console, outside Windows.
     pub(super) fn behind(stream: &impl Stream) -> Option<Self> {
         Self::new(console::of_pipe(stream)?)
     }
@@ -32,7 +32,7 @@ impl CodePage {
         (page != UNICODE).then_some(Self(page))
     }
 
-    /// Appends a text, with ASCII of the same width in place of what the code page lacks.
+    /// Appends a text, with ASCII of the same width in place of characters that the code page lacks.
     fn encode(self, text: &str, out: &mut Vec<u8>) {
         for letter in text.chars() {
             if letter.is_ascii() {
@@ -45,7 +45,7 @@ impl CodePage {
         }
     }
 
-    /// The byte of a letter outside ASCII, where the code page has one.
+    /// Returns the byte of a letter outside ASCII, where the code page has one.
     fn byte(self, letter: char) -> Option<u8> {
         if !ANSI.contains(&self.0) {
             return ENCODING_TABLE_CP_MAP.get(&self.0)?.get(&letter).copied();
@@ -61,12 +61,12 @@ impl CodePage {
     }
 }
 
-/// Returns the replacement of a letter that a code page lacks.
+/// Returns the replacement for a letter that a code page lacks.
 fn in_ascii(letter: char) -> String {
     let sign = match letter {
         '◄' | '⟨' => "<",
         '→' | '⟩' => ">",
-        // No word of a program, unlike a full stop.
+        // Not a word of a program, unlike a full stop.
         '…' => "~",
         '─' => "-",
         'Δ' => "D",
@@ -84,7 +84,7 @@ fn in_ascii(letter: char) -> String {
 pub(super) struct Encoded<W> {
     writer: W,
     page: CodePage,
-    /// The beginning of a letter whose end is not written yet.
+    /// The beginning of a letter whose rest has not been written yet.
     begun: Vec<u8>,
 }
 
@@ -130,7 +130,7 @@ mod console {
     pub(crate) trait Stream: AsHandle + IsTerminal {}
     impl<S: AsHandle + IsTerminal> Stream for S {}
 
-    /// The code page of the console, where a stream is a pipe.
+    /// Returns the code page of the console, if a stream is a pipe.
     pub(super) fn of_pipe(stream: &impl Stream) -> Option<u16> {
         let handle = stream.as_handle().try_clone_to_owned().ok()?;
         let is_file = File::from(handle).metadata().is_ok_and(|it| it.is_file());

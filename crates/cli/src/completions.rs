@@ -1,4 +1,4 @@
-//! `frictcomp completions`: what a shell needs to complete the command line.
+//! `frictcomp completions`: command line completion for a shell.
 
 use clap::Args;
 use clap_complete::Shell;

@@ -1,4 +1,4 @@
-//! `frictcomp config`: which configuration counts and what it makes of the machine, and what one may say.
+//! `frictcomp config`: the configuration in effect, the resulting machine, and the schema.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -27,10 +27,10 @@ pub(super) enum ConfigCommand {
     Schema(SchemaArgs),
 }
 
-/// What `config schema` is asked.
+/// Arguments of `config schema`.
 #[derive(Debug, Args)]
 pub(super) struct SchemaArgs {
-    /// Of which file
+    /// The file that it describes
     #[arg(value_enum, default_value_t)]
     of: SchemaOf,
 }
@@ -45,7 +45,7 @@ enum SchemaOf {
     Plant,
 }
 
-/// What `config show` is asked.
+/// Arguments of `config show`.
 #[derive(Debug, Args)]
 pub(super) struct ShowArgs {
     /// The folder of the program

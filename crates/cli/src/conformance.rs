@@ -1,4 +1,4 @@
-//! `frictcomp conformance`: the agreed behaviour as data, on this engine or beside a control's answers.
+//! `frictcomp conformance`: the agreed behaviour as data, checked on this engine or against a control's answers.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -22,8 +22,8 @@ use frictcomp_report::fitted;
 /// Run the conformance cases on this engine, write them for a control, or compare what a control
 /// answered
 ///
-/// A case is a file that says programs, machine and the states that are expected. One that the
-/// documents leave open says the states under both readings.
+/// A case is a file with programs, a machine and the expected states. One that the
+/// documents leave open has the states under both readings.
 #[derive(Debug, Args)]
 pub(super) struct ConformanceArgs {
     /// The folder of the cases
@@ -39,7 +39,7 @@ pub(super) struct ConformanceArgs {
     result: ResultArgs,
 }
 
-/// Verdicts on the answers of a control besides the totals.
+/// Verdicts on the answers of a control, in addition to the totals.
 #[derive(Default)]
 struct Answered {
     unanswered: usize,
@@ -121,7 +121,7 @@ fn write_cases(cases: &[Case], folder: &Path, mut outputs: Outputs) -> Result<u8
     Ok(exit::CLEAN)
 }
 
-/// Every file in a folder and below, for the lines that are answers.
+/// Reads every file in a folder and below, for lines that are answers.
 fn read_answers(folder: &Path, registry: &FileRegistry) -> Result<Answers, Failure> {
     let mut answers = Answers::default();
     let mut folders = vec![folder.to_owned()];
@@ -209,7 +209,7 @@ fn text(totals: &Totals, answered: Option<&Answered>) -> String {
             }
             let _ = writeln!(
                 text,
-                "{cases} cases: {held} held on the control, {undecided} of them undecided still, {} without an \
+                "{cases} cases: {held} held on the control, {undecided} of them still undecided, {} without an \
                  answer; {failed} expectations failed",
                 answered.unanswered
             );

@@ -30,7 +30,7 @@ pub(super) enum Color {
     Never,
 }
 
-/// The user's terminal, or what replaces it.
+/// The user's terminal, or its replacement.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Console {
     color: Color,
@@ -51,20 +51,20 @@ pub(super) enum OutputContents {
     Records,
 }
 
-/// Treatment of remarks besides the results.
+/// Treatment of remarks in addition to the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum RemarkOutput {
     Said,
     Kept,
 }
 
-/// A place for data and how text looks there.
+/// A destination for data, and how text looks there.
 pub(super) struct DataTarget {
     pub(super) writer: Box<dyn Write + Send>,
     pub(super) look: Look,
 }
 
-/// Whether the output was read to its end.
+/// Whether all output was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printed {
     /// It went out.
@@ -74,7 +74,7 @@ pub(super) enum Printed {
 }
 
 impl DataTarget {
-    /// Writes a text; a closed pipe is no failure.
+    /// Writes a text; a closed pipe is not an error.
     pub(super) fn text(&mut self, text: &str) -> Result<Printed, Failure> {
         let written = self.writer.write_all(text.as_bytes());
         match written.and_then(|()| self.writer.flush()) {
@@ -84,7 +84,7 @@ impl DataTarget {
         }
     }
 
-    /// Writes a text, with lines in the styles that `style` gives them.
+    /// Writes a text, with lines in the styles that `style` returns.
     pub(super) fn painted(
         &mut self,
         text: &str,
@@ -105,7 +105,7 @@ impl Console {
         }
     }
 
-    /// The same console, with what `--force` says.
+    /// Returns the console with the setting of `--force`.
     pub(super) fn forcing(self, forced: Option<Replaces>) -> Self {
         Self { forced, ..self }
     }
@@ -115,12 +115,12 @@ impl Console {
         self.forced.unwrap_or(replaces)
     }
 
-    /// The same console, to whose standard output this goes.
+    /// Returns the console with the contents of standard output set.
     pub(super) fn writing(self, written: OutputContents) -> Self {
         Self { written, ..self }
     }
 
-    /// The columns that text may use: what the user says, else the terminal, else `COLUMNS`, else
+    /// Returns the columns available for text: from the user, else from the terminal, else from `COLUMNS`, else
     /// 100 (R9.72).
     fn width(self, terminal: Option<(terminal_size::Width, terminal_size::Height)>) -> usize {
         let terminal = terminal.map(|(width, _)| usize::from(width.0));
@@ -132,7 +132,7 @@ impl Console {
         })
     }
 
-    /// The same console, which says nothing beside the results and failures.
+    /// Returns the console without remarks, only with results and failures.
     pub(super) fn quiet(self) -> Self {
         Self {
             remarks: RemarkOutput::Kept,
@@ -152,7 +152,7 @@ impl Console {
         }
     }
 
-    /// Standard output.
+    /// Returns standard output.
     pub(super) fn stdout(self) -> DataTarget {
         let stdout = io::stdout();
         let choice = self.choice(AutoStream::choice(&stdout));
@@ -162,7 +162,7 @@ impl Console {
                 paint: paint(choice),
                 width,
             },
-            // Old Windows consoles need their own calls; elsewhere nothing stands between.
+            // Old Windows consoles need their own calls; elsewhere nothing is in between.
             writer: match (self.code_page(&stdout), paint(choice)) {
                 (Some(page), _) => Box::new(Encoded::new(stdout, page)),
                 (None, Paint::Styled) => Box::new(OverProgress(AutoStream::new(stdout, choice))),
@@ -172,7 +172,7 @@ impl Console {
         }
     }
 
-    /// The code page of the text that goes to standard output, where that is not UTF-8.
+    /// Returns the code page of the text that goes to standard output, if that is not UTF-8.
     fn code_page(self, stdout: &io::Stdout) -> Option<CodePage> {
         match self.written {
             OutputContents::Text => CodePage::behind(stdout),
@@ -180,19 +180,19 @@ impl Console {
         }
     }
 
-    /// Writes a text to stdout, with pictures for what cannot be seen (R9.76); a closed pipe is no
-    /// failure.
+    /// Writes a text to stdout, with symbols for invisible characters (R9.76); a closed pipe is not an
+    /// error.
     pub(super) fn print(self, text: &str) -> Result<Printed, Failure> {
         self.stdout().text(&visible(text))
     }
 
-    /// A text for people whose lines have room on stdout (R9.72).
+    /// Returns a text for people, wrapped to fit the lines of stdout (R9.72).
     pub(super) fn fitted(self, text: &str) -> String {
         let width = self.width(terminal_size::terminal_size_of(io::stdout()));
         fitted(&visible(text), width)
     }
 
-    /// Writes a text to stdout, with lines in the styles that `style` gives them.
+    /// Writes a text to stdout, with lines in the styles that `style` returns.
     pub(super) fn print_painted(
         self,
         text: &str,
@@ -201,13 +201,13 @@ impl Console {
         self.stdout().painted(text, style)
     }
 
-    /// Writes a line to stderr; a closed stderr is no failure.
+    /// Writes a line to stderr; a closed stderr is not an error.
     pub(super) fn talk(line: &str) {
         clear();
         let _ = writeln!(stderr(ColorChoice::Never), "{}", leading(line));
     }
 
-    /// Writes a line to stderr, unless the user asked only for what counts.
+    /// Writes a line to stderr, unless the user asked only for what matters.
     pub(super) fn remark(self, line: &str) {
         if self.remarks == RemarkOutput::Said {
             Self::talk(line);
@@ -230,7 +230,7 @@ impl Console {
         }
     }
 
-    /// Says on stderr why the tool could not do its work.
+    /// Writes to stderr why the tool could not do its work.
     pub(super) fn explain(self, failure: &Failure) {
         self.show(&failure.diagnostics);
         let stderr = io::stderr();
@@ -264,7 +264,7 @@ impl Console {
     }
 }
 
-/// Standard error, in the code page of its reader.
+/// Returns standard error, in the code page of its reader.
 fn stderr(choice: ColorChoice) -> Box<dyn Write> {
     let stderr = io::stderr();
     match (CodePage::behind(&stderr), paint(choice)) {
@@ -274,7 +274,7 @@ fn stderr(choice: ColorChoice) -> Box<dyn Write> {
     }
 }
 
-/// The width that the environment gives.
+/// Returns the width that the environment gives.
 fn columns() -> Option<usize> {
     std::env::var("COLUMNS")
         .ok()?

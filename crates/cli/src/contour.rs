@@ -67,9 +67,9 @@ enum ContourFormat {
     Text,
     /// One JSON document with every reversal and block.
     Json,
-    /// One line a reversal, then the figures.
+    /// One line per reversal, then the figures.
     Ndjson,
-    /// One row a reversal.
+    /// One row per reversal.
     Csv,
 }
 
@@ -117,7 +117,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     };
     let said = said(&contour, &loaded);
     let has_moved = contour.machine_time_s() > 0.0;
-    // A row has no place for what holds for the whole program.
+    // A row has no place for remarks on the whole program.
     let remarks = match args.result.format {
         ContourFormat::Csv => contour_remarks(&contour),
         _ => Vec::new(),
@@ -129,8 +129,8 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     console.show(&said);
     if !has_moved {
         Console::talk(
-            "no motion was driven: program absolute positions and F first, or say with `--start \
-             X0,Y0` where the axes stand",
+            "no motion was driven: program absolute positions and F first, or give the axis \
+             positions with `--start X0,Y0`",
         );
     }
     remarks
@@ -146,7 +146,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
-/// Checks for a reason to end a contour before the program ends.
+/// Checks for a reason to stop a contour before the program ends.
 fn check(contour: &mut ProgramContour<ContourRecorder<'_>>) -> Result<(), Failure> {
     match contour.sink().take_error() {
         Some(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -156,7 +156,7 @@ fn check(contour: &mut ProgramContour<ContourRecorder<'_>>) -> Result<(), Failur
     }
 }
 
-/// The pictures that are asked for.
+/// The requested pictures.
 struct Pictures {
     svg: Option<OutputFile>,
     html: Option<OutputFile>,

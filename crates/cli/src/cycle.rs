@@ -23,7 +23,7 @@ pub(super) struct CycleArgs {
 }
 
 impl CycleArgs {
-    /// The cycle in seconds, where it is given.
+    /// Returns the cycle in seconds, if it is given.
     pub(super) fn seconds(&self) -> Result<Option<f64>, Failure> {
         let milliseconds = self.cycle_time_ms.map(|cycle| cycle / 1000.0);
         let seconds = milliseconds.or(self.cycle_time);

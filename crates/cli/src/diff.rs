@@ -71,12 +71,12 @@ pub(super) struct DiffArgs {
 }
 
 impl DiffArgs {
-    /// The revision that is compared with, where it is one.
+    /// Returns the revision to compare with, if there is one.
     pub(super) fn revision(&self) -> Option<&str> {
         self.git.as_deref()
     }
 
-    /// Says which options have no effect with the others (R9.71).
+    /// Reports which options have no effect in this combination (R9.71).
     pub(super) fn check_options(&self) -> Result<(), Failure> {
         if !self.contour {
             Tolerance::refuse_without_contour(self.tolerance)?;
@@ -168,7 +168,7 @@ fn remark(machine: &MachineOfVersions) -> Option<String> {
     }
 }
 
-/// The contours of both versions.
+/// Returns the contours of both versions.
 pub(super) fn contours(
     args: &DiffArgs,
     inputs: &[Input; 2],
@@ -191,7 +191,7 @@ pub(super) fn contours(
     })
 }
 
-/// Returns the switches of a version.
+/// Returns the compensation switches of a version.
 pub(super) fn version_of(
     args: &DiffArgs,
     input: &Input,

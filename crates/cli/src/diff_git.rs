@@ -23,7 +23,7 @@ use frictcomp_physics::compare::{Agreement, ContourAgreement, Version, VersionCo
 use frictcomp_report::compare::{VersionsReport, render_json, render_text};
 use frictcomp_report::fitted;
 
-/// A program in both versions; one of them may not have it.
+/// A program in both versions; it may be missing from one of them.
 struct ProgramVersions {
     name: String,
     old: Option<Input>,
@@ -38,7 +38,7 @@ pub(super) fn run(args: &DiffArgs, revision: &str, console: Console) -> Result<u
     })
 }
 
-/// Compares the programs that differ from a revision, or reach what differs.
+/// Compares the programs that differ from a revision, or reach a file that differs.
 fn compare(
     args: &DiffArgs,
     revision: &str,
@@ -56,7 +56,7 @@ fn compare(
     let revised = Revision::new(folder_of(&paths[0]), revision)?;
     let changed = ChangedPrograms::since(&revised, &found.inputs, &mut machines, processors());
     let changed = failures.keep(changed?);
-    // A folder whose programs are all gone holds none.
+    // A folder whose programs were all deleted contains none.
     if changed.files.is_empty() || !found.inputs.is_empty() {
         failures.extend(Failures::from(found.failures));
     }
@@ -120,7 +120,7 @@ fn compare(
     })
 }
 
-/// Names what git does not look at, so that a change of it is not seen.
+/// Returns a remark on files that git does not track, whose changes are not seen.
 pub(super) fn unseen_remark(changed: &ChangedPrograms) -> Option<String> {
     const MOST_NAMED: usize = 5;
     let names = changed.unseen.iter().take(MOST_NAMED);
@@ -139,7 +139,7 @@ pub(super) fn unseen_remark(changed: &ChangedPrograms) -> Option<String> {
     })
 }
 
-/// The program of a report that has no difference to name it.
+/// Returns the name of the program of a report without differences.
 fn named(report: &VersionsReport) -> String {
     match report.comparison.differences().next() {
         Some(_) => String::new(),
@@ -164,7 +164,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// The programs that are compared: those of the work tree, then those that only the revision has.
+/// Returns the programs to compare: those of the work tree, then those that only the revision has.
 fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<ProgramVersions> {
     let mut renamed: BTreeMap<PathBuf, &Path> = BTreeMap::new();
     let mut added: Vec<PathBuf> = Vec::new();
@@ -188,7 +188,7 @@ fn pairs(changed: &ChangedPrograms, (disk, paths): (&Disk, &[PathBuf])) -> Vec<P
         let old = match renamed.get(&place) {
             Some(old) => open(old),
             None if added.contains(&place) => None,
-            // It is the same in both, and reaches what is not.
+            // It is the same in both, and reaches a file that differs.
             None => Some(input.clone()),
         };
         Some(ProgramVersions {

@@ -1,4 +1,4 @@
-//! `frictcomp drive`: whether the torque of friction compensation reaches the drives.
+//! `frictcomp drive`: checks whether the torque of friction compensation reaches the drives.
 
 use std::path::{Path, PathBuf};
 
@@ -64,7 +64,7 @@ fn parse_slave(text: &str) -> Result<SlaveOfAxis, String> {
     })
 }
 
-/// Returns the sources besides the lists.
+/// Returns the sources in addition to the lists.
 fn evidence(args: &DriveArgs, registry: &FileRegistry) -> Result<Evidence, Failure> {
     let mut evidence = Evidence::default();
     let disk = Disk::default();
@@ -110,8 +110,8 @@ fn drives(report: &ListsReport, evidence: &Evidence) -> Vec<DriveReport> {
     drives.collect()
 }
 
-/// The messages about a list: why it cannot be read, then those about its drives. What
-/// the axis list alone makes certain is in both.
+/// Collects the messages about a list: why it cannot be read, then those about its drives. What is certain
+/// from the axis list alone is in both.
 fn collect(report: &ListsReport, drives: &[DriveReport], said: &mut Vec<Diagnostic>) {
     let of_list = report.diagnostics.iter();
     said.extend(of_list.filter(|it| it.severity == Severity::Error).cloned());
@@ -129,7 +129,7 @@ fn no_axis(path: &Path) -> Failure {
         .with_help("name a start-up list, axis lists or a `frictcomp.toml`")
 }
 
-/// Says which `--slave` names no axis of the lists.
+/// Reports which `--slave` names no axis of the lists.
 fn check_axes(args: &DriveArgs, reports: &[DriveReport]) -> Result<(), Failure> {
     let is_known = |given: &&SlaveOfAxis| reports.iter().any(|report| report.axis == given.axis);
     match args.slave.iter().find(|given| !is_known(given)) {

@@ -2,7 +2,7 @@
 
 use clap::Command;
 
-/// Examples of a command, by its name below the tool.
+/// Examples of a command, by its name without that of the tool.
 struct Examples {
     command: &'static [&'static str],
     lines: [&'static str; 2],
@@ -227,7 +227,7 @@ const FIRST: [&str; 2] = ["frictcomp run mill.nc", "frictcomp check programs"];
 const STATUS: &str = "Exit status: 0 no message at --fail-on or above, 1 at least one, \
                       2 frictcomp could not do its work.";
 
-/// The command line with its examples.
+/// Returns the command line with its examples.
 pub(super) fn with_examples(tool: Command) -> Command {
     let tool = tool.after_help(format!("{STATUS}\n\n{}", text(FIRST)));
     EXAMPLES.iter().fold(tool, |tool, examples| {

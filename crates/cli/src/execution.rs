@@ -64,7 +64,7 @@ impl ExecutionArgs {
             .with_limits(limits)
     }
 
-    /// The same where a program runs this many times and a user waits: unless a number of blocks
+    /// Returns the options where a program runs this many times while a user waits: unless a number of blocks
     /// is given, loops and calls end soon (R9.91).
     pub(super) fn brief(&self, stop: StopPolicy, times: NonZeroU64) -> Options {
         let mut run = self.run(stop);
@@ -74,12 +74,12 @@ impl ExecutionArgs {
         run
     }
 
-    /// The options of a session that runs on a machine.
+    /// Returns the options of a session that runs on a machine.
     pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
         Self::session(loaded, self.run(stop))
     }
 
-    /// The options of a session that checks a program on a machine.
+    /// Returns the options of a session that checks a program on a machine.
     pub(super) fn check(&self, loaded: &LoadedMachine) -> SessionOptions {
         Self::session(loaded, self.brief(StopPolicy::CheckAll, NonZeroU64::MIN))
     }

@@ -29,7 +29,7 @@ pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// The page of a code, of a parameter's number or of its key, of a rule or of a word.
+/// Returns the page of a code, of a parameter's number or of its key, of a rule or of a word.
 fn find(text: &str) -> Option<Cow<'static, str>> {
     let number = text.bytes().all(|byte| byte.is_ascii_digit());
     let bare = number.then(|| format!("FC{text}"));
@@ -47,7 +47,7 @@ fn find(text: &str) -> Option<Cow<'static, str>> {
         .or_else(|| vocabulary::find(text).map(Cow::Owned))
 }
 
-/// `frict_comp.table[3].in` is `frict_comp.table[i].in`.
+/// Turns `frict_comp.table[3].in` into `frict_comp.table[i].in`.
 fn general_key(text: &str) -> String {
     let Some((before, rest)) = text.split_once('[') else {
         return text.to_owned();

@@ -1,4 +1,4 @@
-//! The severity from which on a command fails.
+//! The severity from which a command fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::Severity;
 
-/// From which severity on the exit status is 1.
+/// The lowest severity that gives exit status 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(super) enum FailOn {
     /// An error of the control or of a list.
@@ -24,7 +24,7 @@ pub(super) enum FailOn {
 }
 
 impl FailOn {
-    /// Whether something of this severity gives the status 1.
+    /// Whether this severity gives the status 1.
     pub(super) fn counts(self, severity: Severity) -> bool {
         self.least().is_some_and(|least| severity >= least)
     }
@@ -38,7 +38,7 @@ impl FailOn {
         }
     }
 
-    /// The exit status with states that are not known, and how they are named (R2.98).
+    /// Returns the exit status for unknown states, given by their names (R2.98).
     pub(super) fn unknown_status(self, unknown: &BTreeSet<String>) -> u8 {
         if self == Self::Unknown && !unknown.is_empty() {
             super::exit::FOUND
@@ -55,7 +55,7 @@ impl FailOn {
             .then(|| format!("not known at the end of a program or where the axis moves: {named}"))
     }
 
-    /// The exit status for how many diagnostics were said at each severity (R9.26).
+    /// Returns the exit status for the number of diagnostics at each severity (R9.26).
     pub(super) fn status(self, counts: &BTreeMap<Severity, u64>) -> u8 {
         let mut said = counts.iter().filter(|(_, count)| **count > 0);
         if said.any(|(severity, _)| self.counts(*severity)) {

@@ -11,7 +11,7 @@ use frictcomp_physics::current::FollowError;
 use frictcomp_physics::motion::CycleError;
 use frictcomp_report::visible_line;
 
-/// A path as it is shown in a text of several lines (R9.76).
+/// Returns a path as shown in a text of several lines (R9.76).
 pub(super) fn shown(path: &Path) -> String {
     visible_line(&shown_path(path)).into_owned()
 }
@@ -23,12 +23,12 @@ pub(super) struct Failure {
     pub(super) message: String,
     /// Advice.
     pub(super) help: Vec<String>,
-    /// The lines of a configuration or list that are the reason.
+    /// The lines of a configuration or list that are at fault.
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl Failure {
-    /// A failure without advice.
+    /// Creates a failure without advice.
     pub(super) fn new(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -36,13 +36,13 @@ impl Failure {
         }
     }
 
-    /// The same with one more piece of advice.
+    /// Adds a piece of advice.
     pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
     }
 
-    /// The failure with its first advice in one sentence.
+    /// Returns the failure with its first advice in one sentence.
     pub(super) fn sentence(&self) -> String {
         match self.help.first() {
             Some(help) => format!("{}; {help}", self.message),
@@ -50,12 +50,12 @@ impl Failure {
         }
     }
 
-    /// A file that cannot be written.
+    /// Creates the failure for a file that cannot be written.
     pub(super) fn writing(path: &Path, error: io::Error) -> Self {
         HostError::write(path, error).into()
     }
 
-    /// Output that cannot be written.
+    /// Creates the failure for output that cannot be written.
     pub(super) fn output(error: io::Error) -> Self {
         HostError::Output(error).into()
     }
@@ -76,7 +76,7 @@ impl From<HostError> for Failure {
     }
 }
 
-/// Returns the advice in options of the command line, where the host has none of its own.
+/// Returns the advice in terms of command line options, if the host has none.
 fn options_for(error: &HostError) -> Option<String> {
     let help = match error {
         HostError::ReplacesSource { .. } => "name another file, or use `--force` to replace it",
@@ -97,14 +97,14 @@ fn options_for(error: &HostError) -> Option<String> {
              the rows with `--resample`"
         }
         HostError::NoGit => "install git, or compare two files: `frictcomp diff OLD NEW`",
-        HostError::SeveralStartupLists(_) => "say with `--startup LIST` which one the machine has",
+        HostError::SeveralStartupLists(_) => "name the list of the machine with `--startup LIST`",
         HostError::AlreadyThere(path) if frictcomp_host::is_configuration(path) => {
             "`frictcomp config show` shows the machine that it describes"
         }
         HostError::AxisName(_) => "write `--enable X,Y`",
         HostError::NoPlant(_) => {
             return Some(format!(
-                "there are {}, and files: `--plant FILE.toml`",
+                "known plants are {}, and files: `--plant FILE.toml`",
                 frictcomp_physics::simulation::Preset::names()
             ));
         }
@@ -113,7 +113,7 @@ fn options_for(error: &HostError) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// The option that gives what is wrong about a recorded circle.
+/// Returns the option that corrects an error in a recorded circle.
 fn circle_option(error: &HostError) -> Option<&'static str> {
     let HostError::Trace(TraceError::Circle { reason, .. } | TraceError::Circles(reason)) = error
     else {

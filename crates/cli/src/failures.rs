@@ -1,4 +1,4 @@
-//! Failures of parts of a command; the other parts are done all the same (R9.77).
+//! Failures of parts of a command; the other parts are done nevertheless (R9.77).
 
 use super::console::Console;
 use super::exit;
@@ -41,8 +41,8 @@ impl Failures {
         self.0.is_empty()
     }
 
-    /// Does work that keeps what it could not do, and says all of it at the end, also where the work broke
-    /// off (R9.95).
+    /// Does work that collects its failures, and reports all of them at the end, even if the work is
+    /// aborted (R9.95).
     pub(super) fn of(
         console: Console,
         work: impl FnOnce(&mut Self) -> Result<u8, Failure>,
@@ -55,7 +55,7 @@ impl Failures {
         failures.status(console, done)
     }
 
-    /// Says what could not be done: the status of a command that could do the rest.
+    /// Reports what could not be done, and returns the status of a command that could do the rest.
     fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
         let Some(last) = self.0.pop() else {
             return Ok(done);

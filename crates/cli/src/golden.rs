@@ -1,4 +1,4 @@
-//! `frictcomp golden`: each program's timeline, or contour, against the one that was agreed on.
+//! `frictcomp golden`: compares each program's timeline, or contour, with the agreed one.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -30,9 +30,9 @@ const TIMELINE: GoldenKind = GoldenKind {
     writer: "golden --update",
 };
 
-/// Compare each program's timeline with the `.timeline` file beside it
+/// Compare each program's timeline with the `.timeline` file next to it
 ///
-/// With `--contour` it is the contour that is compared, with the `.contour` file beside the program: the
+/// With `--contour`, compares the contour with the `.contour` file next to the program: the
 /// deviation of each block and the glitches of its reversals. A figure that changes by no more than the
 /// tolerance is as agreed.
 #[derive(Debug, Args)]
@@ -62,7 +62,7 @@ pub(super) struct GoldenArgs {
     execution: ExecutionArgs,
 }
 
-/// The programs of one call, what they run on, and what was agreed on.
+/// The programs of one call, their machines, and the agreed results.
 struct GoldenRun<'a> {
     args: &'a GoldenArgs,
     machines: Machines,
@@ -178,7 +178,7 @@ impl GoldenRun<'_> {
                 failures.push(failure);
             }
             Console::talk(&match updated.written.len() {
-                0 => format!("left out `{folder}`: nothing of its {count} was written"),
+                0 => format!("left out `{folder}`: none of its {count} was written"),
                 some => format!("`{folder}`: {some} of its {count} written"),
             });
             written += updated.written.len();
@@ -209,7 +209,7 @@ impl GoldenArgs {
     }
 }
 
-/// Returns the result of one program, which keeps what was agreed on where the tolerance allows it.
+/// Returns the result of one program, keeping the agreed figures where the tolerance allows it.
 fn result(
     (program, agreed): (&Input, Option<&str>),
     (args, machines): (&GoldenArgs, &mut Machines),
@@ -228,7 +228,7 @@ fn result(
     }
 }
 
-/// The contour of one program, the same in every folder.
+/// Returns the contour of one program, the same in every folder.
 fn contour(
     program: &Input,
     (args, loaded): (&GoldenArgs, &LoadedMachine),
@@ -246,7 +246,7 @@ fn contour(
     Ok(agreed_contour(&mut contour, &subject))
 }
 
-/// The timeline of one program, the same on every machine and in every folder.
+/// Returns the timeline of one program, the same on every machine and in every folder.
 fn timeline(
     program: &Input,
     loaded: &LoadedMachine,

@@ -21,7 +21,7 @@ use frictcomp_host::{
 };
 use frictcomp_report::visible_line;
 
-/// The deepest call that is indented; deeper ones begin a tree of their own.
+/// The deepest call that is indented; deeper ones begin a separate tree.
 const MAX_DEPTH: usize = 24;
 
 /// Show which programs call which, those that no program calls, and calls of missing programs
@@ -129,7 +129,7 @@ impl GraphOutput {
         out
     }
 
-    /// The calls of a program, and those of what it calls where they are not shown yet.
+    /// Appends the calls of a program, and those of what it calls unless they are already shown.
     fn tree(
         &self,
         root: usize,
@@ -166,7 +166,7 @@ impl GraphOutput {
         }
     }
 
-    /// The calls of a program that lead nowhere.
+    /// Appends the calls of a program that lead nowhere.
     fn append_other_calls(&self, at: usize, depth: usize, out: &mut String) {
         let (indent, program) = ("  ".repeat(depth), &self.programs()[at]);
         for missing in &program.missing {

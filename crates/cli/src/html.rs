@@ -6,14 +6,14 @@ use frictcomp::text::LineSource;
 use frictcomp_host::{LoadedMachine, OutputFile, reopen};
 use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
 
-/// A report that is written when the session has ended.
+/// A report that is written at the end of the session.
 pub(super) struct HtmlFile {
     file: OutputFile,
     digest: RunDigest,
 }
 
 impl HtmlFile {
-    /// A report on these kinds in a file.
+    /// Creates a report on these kinds in a file.
     pub(super) fn new(file: OutputFile, kinds: KindSet) -> Self {
         Self {
             file,
@@ -21,12 +21,12 @@ impl HtmlFile {
         }
     }
 
-    /// Takes the records of the session.
+    /// Returns the digest that takes the records of the session.
     pub(super) fn digest(&mut self) -> &mut RunDigest {
         &mut self.digest
     }
 
-    /// Writes the report with what the user gave and the parameters in effect.
+    /// Writes the report with the user's options and the parameters in effect.
     pub(super) fn write(
         mut self,
         given: GivenForRun<'_>,
@@ -41,7 +41,7 @@ impl HtmlFile {
     }
 }
 
-/// The programs on the disk. What can be read only once, a pipe, is not read again.
+/// The programs on the disk. Programs that can be read only once, from a pipe, are not read again.
 pub(super) struct Files;
 
 impl Sources for Files {

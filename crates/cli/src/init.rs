@@ -43,7 +43,7 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// Returns the knowledge of a machine, in a few words.
+/// Returns what was found out about a machine, in a few words.
 fn told(outline: &Outline) -> String {
     if let Outline::Startup(path) = outline {
         return format!("the machine of `{path}`");

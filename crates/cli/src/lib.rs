@@ -1,6 +1,6 @@
-//! The command line: files, arguments, exit status. One file a command.
+//! The command line: files, arguments, exit status. One file per command.
 //!
-//! In go the arguments; the exit status comes out, for a process that goes on:
+//! Takes the arguments and returns the exit status, for a process that continues:
 //!
 //! ```
 //! assert_eq!(frictcomp_cli::status(["frictcomp", "explain", "no such word"].map(Into::into)), 2);
@@ -148,7 +148,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     ExitCode::from(status(arguments))
 }
 
-/// Runs the tool and gives its exit status, for a process that goes on after it.
+/// Runs the tool and returns its exit status, for a process that continues after it.
 pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut arguments: Vec<OsString> = arguments.into_iter().collect();
     if cfg!(windows) {
@@ -184,7 +184,7 @@ fn status_of(arguments: Vec<OsString>) -> u8 {
     })
 }
 
-/// Returns the contents that a command writes by its `--format`.
+/// Returns the contents that a command writes with its `--format`.
 fn written(matches: &ArgMatches) -> OutputContents {
     let Some((_, command)) = matches.subcommand() else {
         let format = matches.try_get_raw("format").ok().flatten();
@@ -197,7 +197,7 @@ fn written(matches: &ArgMatches) -> OutputContents {
     written(command)
 }
 
-/// The arguments that hold what cannot be seen, each with what is shown in its place (R9.76).
+/// Returns the arguments with invisible characters, each with its visible form (R9.76).
 fn hidden(arguments: &[OsString]) -> Vec<(String, String)> {
     let texts = arguments.iter().map(|argument| argument.to_string_lossy());
     let pairs = texts.map(|text| (text.clone().into_owned(), visible_line(&text).into_owned()));
@@ -220,7 +220,7 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
         for (argument, shown) in hidden {
             text = text.replace(argument, shown);
         }
-        // A part of an argument, as of `--set=...`, may stand there by itself.
+        // A part of an argument, as of `--set=...`, may appear there alone.
         visible(&text).lines().for_each(Console::talk);
         return exit::FAILED;
     }
@@ -278,7 +278,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
     }
 }
 
-/// The description of the command line, for completions and the manual page.
+/// Returns the description of the command line, for completions and the manual page.
 fn description() -> clap::Command {
     examples::with_examples(Arguments::command())
 }

@@ -24,12 +24,12 @@ impl SharedReport {
         Self(RefCell::new(report))
     }
 
-    /// Writes what is ready. A writer that takes no more says so at the next record.
+    /// Writes what is ready. A writer that accepts no more fails at the next record.
     pub(super) fn flush(&self) {
         let _ = self.0.borrow_mut().flush();
     }
 
-    /// The timeline, once nothing else shares it.
+    /// Returns the timeline, once nothing else shares it.
     pub(super) fn into_report(self) -> Box<dyn Report> {
         self.0.into_inner()
     }
@@ -46,7 +46,7 @@ pub(super) struct Listeners<'a> {
 }
 
 impl<'a> Listeners<'a> {
-    /// A timeline, and perhaps a digest.
+    /// Creates the listeners for a timeline, and possibly a digest.
     pub(super) fn new(report: &'a SharedReport, digest: Option<&'a mut RunDigest>) -> Self {
         Self {
             report,
@@ -55,7 +55,7 @@ impl<'a> Listeners<'a> {
         }
     }
 
-    /// The first of the most severe messages.
+    /// Returns the first of the most severe messages.
     pub(super) fn most_severe(&self) -> Option<Code> {
         self.most_severe.map(|(_, code)| code)
     }
@@ -73,7 +73,7 @@ impl<'a> Listeners<'a> {
 }
 
 impl Sink for Listeners<'_> {
-    /// A reader of the timeline that has seen enough ends the run, unless there is a digest.
+    /// Passes on a record. A timeline reader that has seen enough ends the run, unless there is a digest.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => self.weigh(row.diagnostics),

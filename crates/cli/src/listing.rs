@@ -1,4 +1,4 @@
-//! Diagnostics as `check` and `lists` list them: which of them, and in which form.
+//! Diagnostics as `check` and `lists` list them: the selection, and the format.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -21,7 +21,7 @@ use frictcomp::timeline::{FeedMoves, ReadingsInForce, SCHEMA};
 use frictcomp_report::drives::drive_record;
 use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
 
-/// How diagnostics are listed.
+/// Options for listing diagnostics.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ListingArgs {
     /// The format of the messages
@@ -54,7 +54,7 @@ pub(super) fn of_records(format: ListingFormat, what: &str) -> Result<ListingFor
     Ok(format)
 }
 
-/// Records as text lines, NDJSON or one document.
+/// Returns records as text lines, NDJSON or one document.
 pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> String {
     match format {
         ListingFormat::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
@@ -66,7 +66,7 @@ pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> S
 }
 
 impl ListingArgs {
-    /// A console that says as much as the user asked for.
+    /// Returns a console that reports as much as the user asked for.
     pub(super) fn console(&self, console: Console) -> Console {
         if self.quiet { console.quiet() } else { console }
     }
@@ -113,7 +113,7 @@ pub(super) struct Uncompensated {
 }
 
 impl Uncompensated {
-    /// Those of one program.
+    /// Creates the feed moves of one program.
     pub(super) fn of_program(axis_type: AxisType, moves: FeedMoves) -> Self {
         Self {
             axis_type,
@@ -124,12 +124,12 @@ impl Uncompensated {
 }
 
 impl Lister<'_> {
-    /// Counts a file that was looked at.
+    /// Counts a file that was examined.
     pub(super) fn file(&mut self) {
         self.listing.file();
     }
 
-    /// Lists a diagnostic. `Break` when the writer takes no more.
+    /// Lists a diagnostic. `Break` when the writer accepts no more.
     pub(super) fn diagnostic(&mut self, said: &Diagnostic) -> ControlFlow<()> {
         if self.args.quiet && !self.args.fail_on.counts(said.severity) {
             return ControlFlow::Continue(());
@@ -151,7 +151,7 @@ impl Lister<'_> {
         self.unknown.extend(states);
     }
 
-    /// Adds readings on which the results rest (R15.3).
+    /// Adds readings on which the results depend (R15.3).
     pub(super) fn rests_on(&mut self, readings: ReadingsInForce) {
         self.listing.rests_on(readings);
     }
@@ -219,7 +219,7 @@ impl Lister<'_> {
         self.listing.tally()
     }
 
-    /// The exit status that the list gives.
+    /// Returns the exit status that the list gives.
     pub(super) fn status(&self) -> u8 {
         let status = self.args.fail_on.status(&self.tally().counts);
         status.max(self.args.fail_on.unknown_status(&self.unknown))

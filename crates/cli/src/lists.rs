@@ -42,7 +42,7 @@ pub(super) struct ListsArgs {
 }
 
 impl ListsArgs {
-    /// Says which options have no effect with the others (R9.71).
+    /// Reports which options have no effect in this combination (R9.71).
     fn check_options(&self) -> Result<(), Failure> {
         let format = self.listing.format;
         if self.show
@@ -58,7 +58,7 @@ impl ListsArgs {
     }
 }
 
-/// The curves of all accepted value lists.
+/// Draws the curves of all accepted value lists.
 fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
     let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
     if accepted.is_empty() {

@@ -21,7 +21,7 @@ use frictcomp_host::{
 };
 use frictcomp_report::command_line;
 
-/// The machine, as the user gives it on the command line.
+/// The machine, as given on the command line.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Machine")]
 pub(super) struct MachineArgs {
@@ -46,12 +46,12 @@ pub(super) struct MachineArgs {
 }
 
 impl MachineArgs {
-    /// The machines of the programs of a command.
+    /// Returns the machines of the programs of a command.
     pub(super) fn machines(&self, registry: &FileRegistry) -> Machines {
         self.with_codes(CodeFilter::default(), registry)
     }
 
-    /// The same, with changed severities.
+    /// Returns the machines with changed severities.
     pub(super) fn weighed(
         &self,
         severities: &SeverityArgs,
@@ -82,7 +82,7 @@ impl MachineArgs {
         }
     }
 
-    /// Says which `--set` names nothing in the programs that were read (R9.74).
+    /// Reports which `--set` names nothing in the programs that were read (R9.74).
     pub(super) fn say_unread(&self, registry: &FileRegistry, console: Console) {
         let names = self.settings.iter().map(|set| set.name.as_str());
         for variable in unread_variables(names, registry) {
@@ -103,7 +103,7 @@ pub(super) fn outside_policy(is_allowed: bool) -> OutsidePolicy {
     }
 }
 
-/// One line about what `lists` would say beyond the errors.
+/// Returns one line on what `lists` would report beyond the errors.
 pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
     let mut parts = Vec::new();
     for (severity, noun) in [(Severity::Warning, "warning"), (Severity::Info, "info")] {
@@ -121,7 +121,7 @@ pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
     })
 }
 
-/// The sentence above the messages about programs that run without a described machine, where any of
+/// Returns the sentence above the messages about programs that run without a described machine, if any of
 /// them switches friction compensation (R1.37).
 pub(super) fn undescribed_remark<'a>(
     inputs: impl IntoIterator<Item = &'a Input>,
@@ -134,7 +134,7 @@ pub(super) fn undescribed_remark<'a>(
     Some(advice.in_words(Some(command_line)))
 }
 
-/// The values that a list would give the control.
+/// Returns the values that a list would give the control.
 pub(super) fn value_list(path: &Path, registry: &FileRegistry) -> Result<FrictionList, Failure> {
     let read = read_value_list(path, registry)?;
     let count = read.diagnostics.len();

@@ -37,12 +37,12 @@ pub(super) fn run(args: &ManArgs, tool: clap::Command, console: Console) -> Resu
     Ok(exit::CLEAN)
 }
 
-/// The tool and its commands, each by its whole name, `frictcomp-config-show`.
+/// Returns the tool and its commands, each by its full name, `frictcomp-config-show`.
 fn commands(command: clap::Command) -> Vec<clap::Command> {
     let mut found = Vec::new();
     let mut open = VecDeque::from([command.disable_help_subcommand(true)]);
     while let Some(mut command) = open.pop_front() {
-        // Gives the commands below what they have from above.
+        // Propagates global options to the subcommands.
         command.build();
         let name = command.get_display_name().unwrap_or("frictcomp").to_owned();
         let below = command.get_subcommands().filter(|it| !it.is_hide_set());
@@ -55,7 +55,7 @@ fn commands(command: clap::Command) -> Vec<clap::Command> {
     found
 }
 
-/// The name of a page and its text.
+/// Returns the name of a page and its text.
 fn page(command: clap::Command) -> Result<(String, String), Failure> {
     let man = clap_mangen::Man::new(command);
     let name = man.get_filename();

@@ -22,10 +22,10 @@ use frictcomp_host::{
 };
 use frictcomp_report::{TextChange, render_unified};
 
-/// Number of rounds of changes that call for others.
+/// Largest number of rounds of changes, since changes may call for others.
 const MOST_PASSES: usize = 10;
 
-/// Which changes of the programs are applied or shown.
+/// Options for applying or showing changes of the programs.
 #[derive(Debug, Clone, Args)]
 pub(super) struct FixArgs {
     /// Apply the changes that do not affect what the machine does, then print the remaining messages
@@ -36,7 +36,7 @@ pub(super) struct FixArgs {
     pub(super) diff: bool,
 }
 
-/// Programs, and how they are run.
+/// Programs and the setup of their runs.
 pub(super) struct MendRun<'a> {
     pub(super) inputs: &'a [Input],
     pub(super) machines: &'a mut Machines,
@@ -94,7 +94,7 @@ impl MendRun<'_> {
         Ok(exit::FOUND)
     }
 
-    /// Refuses what can be read only once and not be replaced: standard input, pipes, devices.
+    /// Refuses inputs that can be read only once and not replaced: standard input, pipes, devices.
     fn only_files(&self, option: &str) -> Result<(), Failure> {
         let name = |input: &Input| match input {
             Input::Stdin => Some("standard input".to_owned()),
@@ -133,7 +133,7 @@ impl MendRun<'_> {
         })
     }
 
-    /// The safe changes that hold for every run.
+    /// Returns the safe changes that apply to every run.
     fn safe_fixes(&mut self, failures: &mut Failures) -> SafeFixes {
         let inputs = self.inputs.iter();
         let loaded = inputs.map(|input| (input, self.machines.for_folder(input.folder())));
@@ -186,7 +186,7 @@ pub(super) fn differences<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -
     output
 }
 
-/// A text whose lines end as those of a difference do.
+/// Returns a text whose lines end like those of a difference.
 fn with_line_feeds(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }

@@ -1,4 +1,4 @@
-//! The lists that `lists` and `drive` are given, and how they are read.
+//! The lists given to `lists` and `drive`, and how they are read.
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ pub(super) struct NamedLists {
 }
 
 impl NamedLists {
-    /// The files that are checked (R9.72).
+    /// Returns the files to check (R9.72).
     pub(super) fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if !self.files.is_empty() {
             return Ok(self.files.clone());
@@ -42,7 +42,7 @@ impl NamedLists {
         nearest.map(|path| vec![path]).ok_or_else(failure)
     }
 
-    /// The folders whose lists are shown: the current one and those of the files.
+    /// Returns the folders whose lists are shown: the current one and those of the files.
     pub(super) fn allowed_roots(&self, files: &[PathBuf]) -> AllowedRoots {
         let named = files.iter().filter_map(|path| path.parent());
         let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();

@@ -1,4 +1,4 @@
-//! Names with their places, as `check --unknowns` and `check --opaque` list them.
+//! Names with their places, as listed by `check --unknowns` and `check --opaque`.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use frictcomp::session::NoteKind;
 use frictcomp::text::{Position, shown_json};
 use frictcomp_report::{ListingFormat, leading};
 
-/// A name and where it stands.
+/// A name and its place.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct NotedName {
     pub(super) name: String,
@@ -20,7 +20,7 @@ pub(super) struct NotedName {
 }
 
 impl NotedName {
-    /// `V.E.PART mill.nc:12:5`
+    /// Returns `V.E.PART mill.nc:12:5`.
     fn text(&self) -> String {
         let line = format!("{} {}:{}", self.name, self.file, self.start);
         leading(&line).into_owned() + "\n"
@@ -40,7 +40,7 @@ impl NotedName {
     }
 }
 
-/// Writes the notes that `take` gathers, in the order of their names.
+/// Writes the notes that `take` collects, in the order of their names.
 pub(super) fn list(
     kind: NoteKind,
     format: ListingFormat,

@@ -1,4 +1,4 @@
-//! The outputs of a command: results to standard output or to files, which take their place at the
+//! The outputs of a command: results to standard output or to files, which are put in place at the
 //! end (R9.70).
 
 use std::io::Write;
@@ -10,10 +10,10 @@ use frictcomp::session::SavedState;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, OutputFile, OutputFiles, Replaces, StateFile};
 
-/// The name that stands for standard output.
+/// The name for standard output.
 const STDOUT: &str = "-";
 
-/// The results of a command. Dropped before [`finish`](Self::finish), no file was written.
+/// The results of a command. If dropped before [`finish`](Self::finish), no file is written.
 pub(super) struct Outputs {
     files: OutputFiles,
     console: Console,
@@ -22,7 +22,7 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// No output yet.
+    /// Creates an empty set of outputs.
     pub(super) fn new(registry: &FileRegistry, console: Console) -> Self {
         Self {
             files: OutputFiles::new(registry),
@@ -31,7 +31,7 @@ impl Outputs {
         }
     }
 
-    /// The place of the main result: the file after `--output`, or standard output.
+    /// Returns the destination of the main result: the file after `--output`, or standard output.
     pub(super) fn result(&mut self, path: Option<&Path>) -> Result<DataTarget, Failure> {
         match path {
             None => {
@@ -49,7 +49,7 @@ impl Outputs {
         }
     }
 
-    /// The file that an option names; `-` is standard output.
+    /// Returns the file that an option names; `-` is standard output.
     pub(super) fn file(
         &mut self,
         option: &'static str,
@@ -58,7 +58,7 @@ impl Outputs {
         self.place(option, path, Replaces::Results)
     }
 
-    /// The file of a value list.
+    /// Returns the file of a value list.
     pub(super) fn list(
         &mut self,
         option: &'static str,
@@ -90,7 +90,7 @@ impl Outputs {
         Ok(self.files.create(option, path, replaces)?)
     }
 
-    /// The same, where the option is given.
+    /// Returns the file that an option names, if the option is given.
     pub(super) fn optional(
         &mut self,
         option: &'static str,
@@ -99,7 +99,7 @@ impl Outputs {
         path.map(|path| self.file(option, path)).transpose()
     }
 
-    /// Notes a file that will be written, before it is known with what.
+    /// Notes a file that will be written, before its content is known.
     pub(super) fn claim(&mut self, option: &'static str, path: &Path) {
         let replaces = self.console.replaces(Replaces::Results);
         self.files.claim(option, path, replaces);
@@ -111,12 +111,12 @@ impl Outputs {
         self.claim("the lock of --state", &StateFile::lock_path(path));
     }
 
-    /// Saves the state when the other files take their place.
+    /// Saves the state when the other files are put in place.
     pub(super) fn save(&mut self, file: &StateFile, state: &SavedState) -> Result<(), Failure> {
         Ok(file.save(state, &mut self.files)?)
     }
 
-    /// Says which output goes to standard output; there is one.
+    /// Notes which output goes to standard output; only one may.
     pub(super) fn print(&mut self, who: &'static str) -> Result<(), Failure> {
         if let Some(other) = self.printing.replace(who) {
             return Err(Failure::new(format!(
@@ -127,17 +127,17 @@ impl Outputs {
         Ok(())
     }
 
-    /// The inputs are known: says which output would destroy one, before anything runs.
+    /// Reports which output would destroy an input, once the inputs are known and before anything runs.
     pub(super) fn check(&self) -> Result<(), Failure> {
         Ok(self.files.check()?)
     }
 
-    /// Everything is written: every file takes its place, too many to be named.
+    /// Puts every file in place without naming them, since there are too many.
     pub(super) fn finish_quietly(self) -> Result<(), Failure> {
         Ok(self.files.finish(|_| ())?)
     }
 
-    /// Everything is written: every file takes its place, and is named on stderr.
+    /// Puts every file in place and names it on stderr.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let console = self.console;
         let placed = |path: &Path| console.remark(&format!("wrote `{}`", shown_path(path)));

@@ -6,7 +6,7 @@ use anstyle::{AnsiColor, Style};
 
 use frictcomp_report::{Look, Paint};
 
-/// A text whose lines have the styles that `style` gives them.
+/// Returns a text whose lines have the styles that `style` returns.
 pub(super) fn painted(text: &str, look: Look, style: fn(&str) -> Style) -> String {
     if look.paint == Paint::Plain {
         return text.to_owned();
@@ -19,7 +19,7 @@ pub(super) fn painted(text: &str, look: Look, style: fn(&str) -> Style) -> Strin
     painted
 }
 
-/// Returns the style of a line of a difference: added, removed, or its place.
+/// Returns the style of a line of a difference: added, removed, or a position.
 pub(super) fn difference(line: &str) -> Style {
     match line.as_bytes().first() {
         Some(b'+') => AnsiColor::Green.on_default(),
@@ -29,7 +29,7 @@ pub(super) fn difference(line: &str) -> Style {
     }
 }
 
-/// Titles of a page.
+/// Returns the style of a line of a page: titles stand out.
 pub(super) fn page(line: &str) -> Style {
     if line.starts_with('#') {
         Style::new().bold()
@@ -38,7 +38,7 @@ pub(super) fn page(line: &str) -> Style {
     }
 }
 
-/// Lines that begin a part: those without an indent.
+/// Returns the style of a line that begins a section: one without an indent.
 pub(super) fn parts(line: &str) -> Style {
     if line.starts_with(' ') || line.is_empty() {
         Style::new()
@@ -47,7 +47,7 @@ pub(super) fn parts(line: &str) -> Style {
     }
 }
 
-/// Severities in a table.
+/// Returns the style of severities in a table.
 pub(super) fn severities(line: &str) -> Style {
     let holds = |word: &str| line.split_whitespace().any(|it| it == word);
     if holds("error") {

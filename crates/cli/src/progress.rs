@@ -1,4 +1,4 @@
-//! The line on stderr that says how far a long run is (R9.27, R9.75).
+//! The line on stderr that shows the progress of a long run (R9.27, R9.75).
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,15 +7,15 @@ use std::time::{Duration, Instant};
 
 use frictcomp_host::{Progress, Watch, Watcher};
 
-/// A run that takes longer shows its progress, and so often.
+/// A run that takes longer than this shows its progress, every [`PAUSE`].
 const QUIET: Duration = Duration::from_secs(1);
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// The columns of the line that stands on the terminal. It is overwritten with blanks: not every console
-/// of Windows knows a sequence that clears a line.
+/// The width of the line shown on the terminal. It is overwritten with blanks: not every console
+/// of Windows supports a sequence that clears a line.
 static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
-/// A terminal on which a long run shows its progress; the line goes when this is dropped.
+/// A terminal on which a long run shows its progress; the line is removed when this is dropped.
 #[derive(Debug)]
 pub(super) struct Terminal {
     begun: Instant,
@@ -23,7 +23,7 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    /// The terminal of a run that begins now, where standard error is one.
+    /// Returns the terminal for a run that begins now, if standard error is one.
     pub(super) fn watched() -> Option<Self> {
         io::stderr().is_terminal().then(|| Self {
             begun: Instant::now(),
@@ -32,7 +32,7 @@ impl Terminal {
     }
 }
 
-/// The terminal as the watcher of a run that begins now.
+/// Returns the terminal as the watcher of a run that begins now.
 pub(super) fn watch() -> Watch {
     match Terminal::watched() {
         Some(terminal) => Watch::by(Arc::new(terminal)),
@@ -42,7 +42,7 @@ pub(super) fn watch() -> Watch {
 
 impl Watcher for Terminal {
     fn is_due(&self) -> bool {
-        // While another thread shows its progress, this one need not wait.
+        // If another thread is showing its progress, this one need not wait.
         let last = self.shown.try_lock().map(|shown| *shown);
         self.begun.elapsed() > QUIET
             && last.is_ok_and(|last| last.is_none_or(|last| last.elapsed() > PAUSE))
@@ -65,7 +65,7 @@ impl Drop for Terminal {
     }
 }
 
-/// Takes the line away before something else is written on the terminal.
+/// Removes the line before something else is written on the terminal.
 pub(super) fn clear() {
     let columns = SHOWN.swap(0, Ordering::Relaxed);
     if columns > 0 {
@@ -73,7 +73,7 @@ pub(super) fn clear() {
     }
 }
 
-/// A writer to the terminal on which the line may stand.
+/// A writer to the terminal that may show the line.
 pub(super) struct OverProgress<W>(pub(super) W);
 
 impl<W: Write> Write for OverProgress<W> {

@@ -1,4 +1,4 @@
-//! `run --quiet`: what counts for the exit status, and nothing else (R9.72).
+//! `run --quiet`: only the messages that count for the exit status (R9.72).
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -16,7 +16,7 @@ pub(super) struct Quiet {
 }
 
 impl Quiet {
-    /// A list of what is at or above a severity.
+    /// Creates a list of what is at or above a severity.
     pub(super) fn new(target: DataTarget, fail_on: FailOn) -> Self {
         Self {
             listing: Listing::new(target.writer, ListingFormat::Text, target.look),

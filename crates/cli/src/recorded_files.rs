@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use frictcomp::text::shown_path;
 
-/// Endings of recordings.
+/// Extensions of recordings.
 const RECORDINGS: [&str; 3] = ["csv", "txt", "xml"];
 
-/// The recordings of a folder, by their names.
+/// Returns the recordings of a folder, by their names.
 pub(super) fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| {
         let failure = Failure::new(format!(

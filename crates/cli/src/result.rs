@@ -1,4 +1,4 @@
-//! The result of a command: its format, and where it goes.
+//! The result of a command: its format and its destination.
 
 use std::path::PathBuf;
 

@@ -37,7 +37,7 @@ use frictcomp_report::{
 ///
 /// Each program starts with the state that the one before it leaves.
 #[derive(Debug, Args)]
-// Each is a switch of its own on the command line.
+// Each is a separate switch on the command line.
 #[allow(clippy::struct_excessive_bools)]
 pub(super) struct RunArgs {
     /// The programs, `-` for standard input
@@ -94,7 +94,7 @@ pub(super) struct RunArgs {
     execution: ExecutionArgs,
 }
 
-/// Columns that a CSV timeline has only where they are asked for.
+/// Columns of the CSV timeline that are written only on request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TimelineColumn {
     /// The position of each axis after the block.
@@ -141,7 +141,7 @@ impl RunArgs {
         }
     }
 
-    /// Says which options have no effect with the others (R9.71).
+    /// Reports which options have no effect in this combination (R9.71).
     fn check_options(&self) -> Result<(), Failure> {
         if !self.columns.is_empty() && self.format != TimelineFormat::Csv {
             return Err(Failure::new("`--columns` belongs to `--format csv`"));
@@ -168,7 +168,7 @@ impl RunArgs {
     }
 }
 
-/// Preparation of the first program.
+/// Setup of the first program.
 struct FirstProgram<'a> {
     programs: Programs<'a>,
     loaded: &'a LoadedMachine,
@@ -186,8 +186,8 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
 }
 
-/// Runs the programs, and again after each save that one of them reaches. Ends where it cannot watch any
-/// more.
+/// Runs the programs, and again after each save that affects one of them. Ends when watching is no longer
+/// possible.
 fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if args.files.iter().any(|path| path.as_os_str() == "-") {
         let failure = Failure::new("standard input is not saved, so it cannot be watched");
@@ -203,7 +203,7 @@ fn watch(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         loop {
             let mut machines = args.machine.machines(&FileRegistry::default());
             for input in &inputs {
-                // Why a machine cannot be used was said by the run.
+                // A machine that cannot be used was reported by the run.
                 let _ = machines.for_folder(input.folder());
             }
             files.watch(machines.folders())?;
@@ -234,7 +234,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let mut machines = args.machine.weighed(&args.severities, &registry)?;
     machines.look_ahead(&inputs);
     if let Some(path) = args.state.as_deref() {
-        // Another run of the same machine may bring the programs that name the others.
+        // Another run of the same machine may bring the programs that name the other axes.
         machines.expect_more(StateFile::axes(path));
     }
     let loaded = machines.for_folder(inputs[0].folder())?;
@@ -278,7 +278,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let report = args.report(target);
     let (played, hint) = play(&mut start, report, html.as_mut())?;
     let Some(played) = played else {
-        // The reader has seen enough; a run that was cut short leaves nothing.
+        // The reader has seen enough; a run that was cut short saves nothing.
         return Ok(super::exit::CLEAN);
     };
     if let Some(html) = html {
@@ -299,12 +299,12 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let status = args.fail_on.status(start.session.counts());
     let status = status.max(args.fail_on.unknown_status(&unknown));
-    // Programs that did not run are no all-clear, whatever kept them from it.
+    // Programs that did not run are not an all-clear, whatever the reason.
     let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
     Ok(status.max(unrun.unwrap_or_default()))
 }
 
-/// Runs the programs; `None` where the timeline was not read to its end and there is no other output.
+/// Runs the programs; `None` if the timeline was not read to its end and there is no other output.
 fn play(
     start: &mut FirstProgram<'_>,
     report: Box<dyn Report>,
@@ -313,7 +313,7 @@ fn play(
     let timeline = SharedReport::new(report);
     let goes_on_alone = html.is_some();
     let mut listeners = Listeners::new(&timeline, html.map(HtmlFile::digest));
-    // Between two reads of a program no record is on its way.
+    // Between two reads of a program no record is being written.
     let before_waiting = || timeline.flush();
     let context = RunContext::new(start.loaded, Naming::AsGiven);
     let context = context.before_waiting(&before_waiting);
@@ -332,7 +332,7 @@ fn play(
     Ok((Some(played), most_severe))
 }
 
-/// Says why programs did not run.
+/// Reports why programs did not run.
 fn say_unrun(left: usize, session: &Session) {
     let programs = if left == 1 { "program" } else { "programs" };
     let failed = session.counts().contains_key(&Severity::Error);

@@ -1,4 +1,4 @@
-//! Small languages of the options: `NAME=VALUE`, `FRICT,LEAD`.
+//! Option values with a syntax: `NAME=VALUE`, `FRICT,LEAD`.
 
 use super::console::WIDTHS;
 use frictcomp::comp::{Kind, KindSet};
@@ -12,7 +12,7 @@ pub(super) struct SetVariable {
     pub(super) value: Setting,
 }
 
-/// Parses `V.E.PART=3`; a value that is no number is a text.
+/// Parses `V.E.PART=3`; a value that is not a number is a text.
 pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
     let Some((name, value)) = text.split_once('=') else {
         return Err("write it as NAME=VALUE, such as V.E.PART=3".to_owned());

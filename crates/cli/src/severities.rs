@@ -1,11 +1,11 @@
-//! The codes that count, for one call (R9.72).
+//! The codes to report, for one call (R9.72).
 
 use clap::Args;
 
 use super::failure::Failure;
 use frictcomp::diagnostic::{Code, CodeFilter, Severity, did_you_mean};
 
-/// Which codes count, for this call; what the control itself reports always does.
+/// The codes to report, for this call; those of the control itself always are.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Messages")]
 pub(super) struct SeverityArgs {
@@ -22,7 +22,7 @@ pub(super) struct SeverityArgs {
 }
 
 impl SeverityArgs {
-    /// Returns the codes that count.
+    /// Returns the codes to report.
     pub(super) fn filter(&self) -> Result<CodeFilter, Failure> {
         let mut filter = CodeFilter::default();
         filter.ignore.clone_from(&self.ignore);
@@ -49,7 +49,7 @@ fn parse_code(text: &str) -> Result<Code, String> {
     })
 }
 
-/// A code that may be changed (R9.24).
+/// Parses a code that may be changed (R9.24).
 fn parse_ours(text: &str) -> Result<Code, String> {
     let code = parse_code(text)?;
     if code.is_controller() {

@@ -1,4 +1,4 @@
-//! The drives of the path of a program, on the command line.
+//! Options for driving the path of a program with simulated drives.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -20,7 +20,7 @@ use frictcomp_physics::contour::NoContour;
 use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use frictcomp_physics::simulation::FrictionModel;
 
-/// What drives the path of a program.
+/// The drives for the path of a program.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SimulationArgs {
     /// The axes of the plane, `XY` or `X1,Y1`; by default `XY`
@@ -46,12 +46,12 @@ pub(super) struct SimulationArgs {
 }
 
 impl SimulationArgs {
-    /// The plant, as it was named.
+    /// Returns the plant as named.
     pub(super) fn plant(&self) -> &str {
         self.plant.as_deref().unwrap_or("stiff")
     }
 
-    /// Refuses what only a contour needs, where none is asked for.
+    /// Refuses options of a contour if none is requested.
     pub(super) fn refuse_without_contour(&self) -> Result<(), Failure> {
         let given = [
             ("--plane", self.plane.is_some()),
@@ -64,7 +64,7 @@ impl SimulationArgs {
         ];
         match given.iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => Err(Failure::new(format!(
-                "`{option}` says how a contour is driven, and none is asked for"
+                "`{option}` sets how a contour is driven, but none is requested"
             ))
             .with_help("add `--contour`")),
             None => Ok(()),
@@ -96,7 +96,7 @@ impl SimulationArgs {
         })
     }
 
-    /// The cycle of the command line, else that of the machine.
+    /// Returns the cycle of the command line, else that of the machine.
     fn planner(&self, loaded: &LoadedMachine) -> Result<PlannerOptions, Failure> {
         let usual = PlannerOptions::default();
         let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
@@ -113,23 +113,23 @@ impl SimulationArgs {
 pub(super) struct Tolerance(f64);
 
 impl Default for Tolerance {
-    /// Half a µm: less is seen on no part.
+    /// Returns half a µm: less is not visible on any part.
     fn default() -> Self {
         Self(0.5)
     }
 }
 
 impl Tolerance {
-    /// The tolerance in µm.
+    /// Returns the tolerance in µm.
     pub(super) fn um(self) -> f64 {
         self.0
     }
 
-    /// Refuses a tolerance where no contour is asked for.
+    /// Refuses a tolerance if no contour is requested.
     pub(super) fn refuse_without_contour(given: Option<Self>) -> Result<(), Failure> {
         match given {
             Some(_) => Err(Failure::new(
-                "`--tolerance` is that of a contour, and none is asked for",
+                "`--tolerance` applies to a contour, but none is requested",
             )
             .with_help("add `--contour`")),
             None => Ok(()),
@@ -157,7 +157,7 @@ fn parse_list(text: &str) -> Result<(String, PathBuf), String> {
     }
 }
 
-/// `XY`, or `X1,Y1` for names of several letters.
+/// Parses `XY`, or `X1,Y1` for names of several letters.
 fn parse_plane(text: &str) -> Result<[String; 2], String> {
     let pair = match text.split_once(',') {
         Some((first, second)) => Some([first.trim(), second.trim()]),

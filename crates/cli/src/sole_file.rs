@@ -6,24 +6,24 @@ use std::path::{Path, PathBuf};
 
 use super::exit;
 
-/// Arguments as they are meant.
+/// Arguments as intended.
 pub(super) struct Meant {
     pub(super) arguments: Vec<OsString>,
-    /// The report that is opened after the run.
+    /// The report to open after the run.
     report: Option<PathBuf>,
 }
 
-/// Form in which the command was started.
+/// How the command was started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Invocation {
     /// By a shell or another program.
     Typed,
-    /// By a file that was dropped on it: its console closes with it.
+    /// By a file dropped on it: its console closes with it.
     Dropped,
 }
 
 impl Meant {
-    /// The arguments with `run` before a file that stands alone; `is_command` knows the commands.
+    /// Inserts `run` before a sole file argument; `is_command` recognises the commands.
     pub(super) fn new(arguments: Vec<OsString>, is_command: impl Fn(&str) -> bool) -> Self {
         Self::of(arguments, is_command, start())
     }
@@ -55,7 +55,7 @@ impl Meant {
         Self { arguments, report }
     }
 
-    /// Opens the report of a run that made one. What went wrong stays to be read until Enter.
+    /// Opens the report of a run that made one. Error messages stay on screen until Enter.
     pub(super) fn finish(report: Option<PathBuf>, status: u8) {
         let Some(report) = report else { return };
         if status == exit::FAILED || !open(&report) {
@@ -63,20 +63,20 @@ impl Meant {
         }
     }
 
-    /// The arguments, and the report that [`finish`](Self::finish) opens.
+    /// Returns the arguments, and the report that [`finish`](Self::finish) opens.
     pub(super) fn split(self) -> (Vec<OsString>, Option<PathBuf>) {
         (self.arguments, self.report)
     }
 }
 
-/// Whether an argument is a file, or looks like the path of one; `run` reports a file that is missing.
+/// Whether an argument is a file, or looks like the path of one; `run` reports a missing file.
 fn is_meant_as_file(path: &Path) -> bool {
     let is_option = path.to_string_lossy().starts_with('-');
     let is_written_so = path.extension().is_some() || path.components().count() > 1;
     path.is_file() || (!is_option && is_written_so)
 }
 
-/// A new file among the temporary ones, which the browser reads when the command has ended.
+/// Creates a temporary file for the report, which the browser reads after the command has ended.
 fn new_report() -> Option<PathBuf> {
     let file = tempfile::Builder::new()
         .prefix("frictcomp-")
@@ -86,7 +86,7 @@ fn new_report() -> Option<PathBuf> {
     file.into_temp_path().keep().ok()
 }
 
-/// Opens a file with the program that the system has for it.
+/// Opens a file with its default program.
 fn open(file: &Path) -> bool {
     let mut command = std::process::Command::new("explorer.exe");
     command.arg(file).spawn().is_ok()

@@ -6,10 +6,10 @@ use super::failure::Failure;
 use frictcomp::diagnostic::UnknownName;
 use frictcomp::machine::Machine;
 
-/// Where the axes stand before the first program.
+/// Axis positions before the first program.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct StartArgs {
-    /// Where axes stand before the first program, in mm or degrees: `X0,Y-12.5,Z1=30`
+    /// Axis positions before the first program, in mm or degrees: `X0,Y-12.5,Z1=30`
     #[arg(long, value_name = "POSITIONS", value_delimiter = ',', value_parser = parse_position)]
     start: Vec<(String, f64)>,
 }
@@ -20,7 +20,7 @@ impl StartArgs {
         &self.start
     }
 
-    /// The positions of axes that the machine has (R9.74).
+    /// Returns the positions of axes of the machine (R9.74).
     pub(super) fn positions(&self, machine: &Machine) -> Result<Vec<(String, f64)>, Failure> {
         for (place, (name, _)) in self.start.iter().enumerate() {
             if machine.find(name).is_none() {
@@ -38,7 +38,7 @@ impl StartArgs {
                 .any(|(earlier, _)| earlier == name)
             {
                 return Err(Failure::new(format!(
-                    "`--start` says twice where axis `{name}` stands"
+                    "`--start` gives the position of axis `{name}` twice"
                 )));
             }
         }
@@ -46,7 +46,7 @@ impl StartArgs {
     }
 }
 
-/// `X12.5`, or `X1=12.5` for names of several letters.
+/// Parses `X12.5`, or `X1=12.5` for names of several letters.
 fn parse_position(text: &str) -> Result<(String, f64), String> {
     let text = text.trim();
     let name_end = text.chars().next().map_or(0, char::len_utf8);

@@ -1,4 +1,4 @@
-//! `frictcomp trace`: what a recorded trace holds.
+//! `frictcomp trace`: the contents of a recorded trace.
 
 use std::path::PathBuf;
 

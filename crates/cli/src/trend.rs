@@ -23,8 +23,8 @@ use frictcomp_report::trend::{DatedFriction, TrendReport, render_json, render_te
 /// Follow the friction of an axis over the dates of its recordings
 ///
 /// Takes every recording of constant speeds in a folder whose name holds a date, `x-2026-03-01.csv`, and
-/// says where Fc, Fs, the viscous part or the offset changed by more than 3 combined errors and 5 %. Give
-/// recordings of the same state, warm for instance, of one axis.
+/// lists where Fc, Fs, the viscous part or the offset changed by more than 3 combined errors and 5 %. Give
+/// recordings of the same state, for example warm, of one axis.
 #[derive(Debug, Args)]
 pub(super) struct TrendArgs {
     /// The folder with the recordings
@@ -102,7 +102,7 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
 }
 
 impl TrendArgs {
-    /// The friction of a recording with its date, and the unit of its torque.
+    /// Returns the friction of a recording with its date, and the unit of its torque.
     fn dated(&self, path: &Path) -> Result<(DatedFriction, String), Failure> {
         let name = path.file_name().map(|it| it.to_string_lossy().into_owned());
         let (date, day) = date_in(&name.unwrap_or_default())
@@ -116,7 +116,7 @@ impl TrendArgs {
         let found = identify(&recording.track, &options)
             .map_err(|error| refusal(error, &recording.findings))?;
         let levels = FrictionLevels::of(&found).ok_or_else(|| {
-            Failure::new("its friction has another form than Fc, Fs and fv give it")
+            Failure::new("its friction does not have the form given by Fc, Fs and fv")
         })?;
         let unit = recording
             .torque_unit
@@ -134,7 +134,7 @@ impl TrendArgs {
     }
 }
 
-/// The first date in a name, `2026-03-01`, and the days since 1970-01-01.
+/// Returns the first date in a name, `2026-03-01`, and the days since 1970-01-01.
 fn date_in(name: &str) -> Option<(String, f64)> {
     const FORM: &str = "0000-00-00";
     let starts = name.char_indices().map(|(at, _)| at);
@@ -142,7 +142,7 @@ fn date_in(name: &str) -> Option<(String, f64)> {
     texts.find_map(|text| Some((text.to_owned(), day_of(text)?)))
 }
 
-/// The days from 1970-01-01 to a date of the Gregorian calendar.
+/// Returns the days from 1970-01-01 to a date of the Gregorian calendar.
 fn day_of(date: &str) -> Option<f64> {
     let mut parts = date.splitn(3, '-');
     let mut part = |length: usize| {
@@ -161,7 +161,7 @@ fn day_of(date: &str) -> Option<f64> {
     let earlier = year - 1;
     let leaps = earlier / 4 - earlier / 100 + earlier / 400;
     let days = earlier * 365 + leaps + months[..before].iter().sum::<i32>() + day - 1;
-    // As many days are before 1970-01-01.
+    // The number of days before 1970-01-01.
     Some(f64::from(days - 719_162))
 }
 

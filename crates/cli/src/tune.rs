@@ -1,4 +1,4 @@
-//! `frictcomp tune`: the parameters of a value list that leave the smallest glitch.
+//! `frictcomp tune`: finds the parameters of a value list that leave the smallest glitch.
 
 use std::path::{Path, PathBuf};
 
@@ -33,10 +33,10 @@ use frictcomp_report::tune::{TuneReport, render_json, render_text, round};
 use frictcomp_report::value_lists::render_tuned;
 use frictcomp_report::visible_line;
 
-/// Circles that are tuned at once, at most.
+/// Largest number of circles tuned at once.
 const MAX_CIRCLES: usize = 32;
 
-/// Plants at most.
+/// Largest number of plants.
 const MAX_PLANTS: usize = 16;
 
 /// Find the value lists with the smallest glitch on a simulated machine
@@ -214,7 +214,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
                 &render_tuned(first, x, args.cnc_build, &ListHead::default()),
             )?;
             if x != y {
-                console.remark("Y has a list of its own: `--output-dir` writes both");
+                console.remark("Y has its own list: `--output-dir` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
@@ -236,7 +236,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// Stiction compensation has no value list that could be written.
+/// Refuses a plant with stiction compensation, which has no value list to write.
 fn check_list(plant: &Plant) -> Result<(), Failure> {
     if [&plant.x, &plant.y].iter().all(|it| it.stiction.is_none()) {
         return Ok(());
@@ -250,7 +250,7 @@ fn check_list(plant: &Plant) -> Result<(), Failure> {
     Err(Failure::new(message).with_help(help))
 }
 
-/// The file of the list of an axis, and whose it is.
+/// The file of an axis's list, and its owner.
 struct AxisFile {
     file: OutputFile,
     name: String,
@@ -267,7 +267,7 @@ impl AxisFile {
     }
 }
 
-/// The files of the lists of X and Y, named after the first two linear axes of the machine, if they
+/// Returns the files of the lists of X and Y, named after the first two linear axes of the machine, if they
 /// have no better names: `X.lis`.
 fn axis_lists(
     folder: &Path,
@@ -298,7 +298,7 @@ fn axis_lists(
     PlaneAxis::ALL.into_iter().enumerate().map(of).collect()
 }
 
-/// FC506 where compensation is worse than none (R5.25).
+/// Returns FC506 where compensation is worse than none (R5.25).
 fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
     let worse = report.tuned.feeds.iter().filter(|it| it.is_worse());
     let on_a_circle = |it: &FeedResult| {
@@ -312,7 +312,7 @@ fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
         )
     };
     let mut messages: Vec<String> = worse.map(on_a_circle).collect();
-    // Between the circles it is said once, where it is worst (R5.29).
+    // Between the circles it is reported once, where it is worst (R5.29).
     let between = report.tuned.check.iter().filter(|it| it.is_worse());
     let loss = |it: &RemainingGlitch| it.glitch_on_um - it.glitch_off_um;
     let worst_of_all = between.max_by(|one, other| loss(one).total_cmp(&loss(other)));

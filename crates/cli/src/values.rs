@@ -1,4 +1,4 @@
-//! Words of the library as values of options.
+//! Option values with the words of the library.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
@@ -20,7 +20,7 @@ pub(super) fn timeline_format() -> impl TypedValueParser<Value = TimelineFormat>
     one_of(&TimelineFormat::ALL, |it| (it.as_str(), it.title()))
 }
 
-/// Parses one of some values, each of which has a word and a title.
+/// Parses one of several values, each of which has a word and a title.
 fn one_of<T: Copy + Send + Sync + 'static>(
     values: &'static [T],
     named: fn(T) -> (&'static str, &'static str),

@@ -1,4 +1,4 @@
-//! `frictcomp verify`: a recorded torque against a value list.
+//! `frictcomp verify`: compares a recorded torque with a value list.
 
 use std::path::PathBuf;
 
@@ -36,7 +36,7 @@ pub(super) struct VerifyArgs {
     value_list: PathBuf,
     #[command(flatten)]
     channels: AxisChannelArgs,
-    /// The channel of the actual positions, beside that of the commanded ones: only the following error
+    /// The channel of the actual positions, in addition to the commanded ones: only the following error
     /// shows whether the list is early or late
     #[arg(long, value_name = "CHANNEL")]
     actual_position: Option<String>,

@@ -1,4 +1,4 @@
-//! The words that `explain` knows besides codes and parameters: the sections of `docs/words.md`,
+//! The words that `explain` covers besides codes and parameters: the sections of `docs/words.md`,
 //! and the rules and contradictions of `docs/rules.md`.
 
 use frictcomp::documents::{RULES, WORDS};
@@ -7,31 +7,31 @@ use frictcomp_report::wrap;
 /// Columns of a rule on its page.
 const WIDTH: usize = 80;
 
-/// Objects of a further axis of one device lie this much higher.
+/// Offset of the objects of a further axis of the same device.
 const PER_CHANNEL: u32 = 0x800;
 
-/// The page about a word, a rule or a contradiction.
+/// Returns the page about a word, a rule or a contradiction.
 pub(super) fn find(text: &str) -> Option<String> {
     rule(text).or_else(|| word(text))
 }
 
-/// Every word that has a section.
+/// Returns every word that has a section.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     sections().flat_map(names)
 }
 
-/// The sections of the words, each with its title.
+/// Returns the sections of the words, each with its title.
 fn sections() -> impl Iterator<Item = &'static str> {
     WORDS.split("\n## ").skip(1)
 }
 
-/// The names in the title of a section.
+/// Returns the names in the title of a section.
 fn names(section: &'static str) -> impl Iterator<Item = &'static str> {
     let title = section.lines().next().unwrap_or_default();
     title.split('`').skip(1).step_by(2)
 }
 
-/// The section of a word, in whatever form it is written.
+/// Returns the section of a word, in whatever form it is written.
 fn word(text: &str) -> Option<String> {
     let wanted = canonical(text);
     let section =
@@ -39,7 +39,7 @@ fn word(text: &str) -> Option<String> {
     Some(format!("# {}\n", section.trim_end()))
 }
 
-/// The rule or contradiction with a number: `R1.24`, `c12`.
+/// Returns the rule or contradiction with a number: `R1.24`, `c12`.
 fn rule(text: &str) -> Option<String> {
     let number = text.to_ascii_uppercase();
     let begins = format!("- **{number}** ");
@@ -50,7 +50,7 @@ fn rule(text: &str) -> Option<String> {
     is_title.then(|| format!("# {number}\n\n{}\n", wrap(rule.trim_end(), WIDTH, 0)))
 }
 
-/// One form of a word for all ways to write it: a command, a variable of an axis, a machine
+/// Returns one form for all spellings of a word: a command, a variable of an axis, a machine
 /// parameter of an axis, a key with indices, an object or an IDN of a drive.
 fn canonical(text: &str) -> String {
     let mut text = text.trim().trim_end_matches(':').to_ascii_uppercase();
@@ -70,7 +70,7 @@ fn canonical(text: &str) -> String {
         .unwrap_or_else(|| without_indices(&text))
 }
 
-/// `S_0_81` and `IDN 81` are `S-0-0081`, in every parameter set.
+/// Turns `S_0_81` and `IDN 81` into `S-0-0081`, in every parameter set.
 fn idn(text: &str) -> Option<String> {
     let spaced = text.replace(['-', '_'], " ");
     let mut parts = spaced.split_whitespace();
@@ -82,7 +82,7 @@ fn idn(text: &str) -> Option<String> {
     Some(format!("S-0-{number:04}"))
 }
 
-/// `0x60B2`, `60B2h`, `60B2_00` and `68B2` are `60B2`.
+/// Turns `0x60B2`, `60B2h`, `60B2_00` and `68B2` into `60B2`.
 fn object(text: &str) -> Option<String> {
     let digits = text.strip_prefix("0X").or_else(|| text.strip_prefix("#X"));
     let digits = digits.unwrap_or(text);
@@ -104,7 +104,7 @@ fn object(text: &str) -> Option<String> {
     meant.map(|object| format!("{object:04X}"))
 }
 
-/// A key with its indices left empty.
+/// Returns a key without its indices.
 fn without_indices(text: &str) -> String {
     let mut parts = text.split('[');
     let mut key = parts.next().unwrap_or_default().to_owned();
@@ -133,7 +133,7 @@ mod tests {
     fn every_word_has_one_section() {
         let mut seen = std::collections::BTreeSet::new();
         for name in words() {
-            assert!(seen.insert(canonical(name)), "{name} stands twice");
+            assert!(seen.insert(canonical(name)), "{name} occurs twice");
             assert!(find(name).is_some(), "{name}");
         }
     }

@@ -1,4 +1,4 @@
-//! Again after each save: `check --watch`, `run --watch` (R17.5).
+//! Repeated runs after each save: `check --watch`, `run --watch` (R17.5).
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use super::console::Console;
 use super::failure::{Failure, shown};
 use frictcomp_host::{ChangedFile, Disk};
 
-/// Pause after a save before a run: editors write a file in several steps.
+/// Pause between a save and a run: editors write a file in several steps.
 const QUIET: Duration = Duration::from_millis(100);
 
 /// The files that are watched for saves.
@@ -22,7 +22,7 @@ pub(super) struct FileWatch {
 }
 
 impl FileWatch {
-    /// Nothing is watched yet.
+    /// Creates a watch without files.
     pub(super) fn new() -> Result<Self, Failure> {
         let (sender, events) = mpsc::channel();
         let watcher = notify::recommended_watcher(sender).map_err(|error| cannot(&error))?;
@@ -33,7 +33,7 @@ impl FileWatch {
         })
     }
 
-    /// Watches the folders of files, or folders, with everything below them.
+    /// Watches the folders of files, or folders with everything below them.
     pub(super) fn watch<'a>(
         &mut self,
         paths: impl Iterator<Item = &'a Path>,
@@ -56,7 +56,7 @@ impl FileWatch {
         Ok(())
     }
 
-    /// Waits until a file is saved that counts, and gives all that were until it was quiet.
+    /// Waits until a relevant file is saved, and returns all that were saved until the activity stopped.
     pub(super) fn next(
         &mut self,
         counts: impl Fn(&Path) -> bool,
@@ -84,7 +84,7 @@ impl FileWatch {
         }
     }
 
-    /// Says what is watched.
+    /// Reports what is watched.
     pub(super) fn say(&self) {
         let folders: Vec<String> = self
             .watched
@@ -96,7 +96,7 @@ impl FileWatch {
     }
 }
 
-/// Reading a file is no change.
+/// Whether an event changes a file; reading does not.
 fn is_change(kind: EventKind) -> bool {
     !matches!(kind, EventKind::Access(_))
 }

@@ -1,26 +1,26 @@
-//! Wildcards, which `cmd` and PowerShell leave to the programs that they start.
+//! Wildcards, which `cmd` and PowerShell leave to the called program.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
 use glob::{MatchOptions, glob_with};
 
-/// Upper and lower case are the same, and a name is no more than one part of a path.
+/// Upper and lower case are the same, and a wildcard does not match a path separator.
 const AS_WINDOWS: MatchOptions = MatchOptions {
     case_sensitive: false,
     require_literal_separator: true,
     require_literal_leading_dot: false,
 };
 
-/// The arguments, with the files that match in place of each that has a `*` or a `?`. What matches
-/// nothing stays, and is reported as no file.
+/// Expands each argument with a `*` or a `?` to the files that match. An argument without a match
+/// stays, and is reported as a missing file.
 pub(super) fn expanded(arguments: Vec<OsString>) -> Vec<OsString> {
     arguments.into_iter().flat_map(matching).collect()
 }
 
 fn matching(argument: OsString) -> Vec<OsString> {
     let pattern = argument.to_str().filter(|text| is_pattern(text));
-    // A name can hold `[`, unlike the others, and means itself.
+    // A name can contain `[`, unlike the others, so it means itself.
     let pattern = pattern.map(|text| text.replace('[', "[[]"));
     let Some(paths) = pattern.and_then(|it| glob_with(&it, AS_WINDOWS).ok()) else {
         return vec![argument];
@@ -30,7 +30,7 @@ fn matching(argument: OsString) -> Vec<OsString> {
         .collect();
     match found {
         Ok(found) if !found.is_empty() => found,
-        // A folder that cannot be read may hide a program.
+        // A folder that cannot be read may contain a program.
         _ => vec![argument],
     }
 }

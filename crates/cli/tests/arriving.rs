@@ -1,4 +1,4 @@
-//! Programs from a pipe: they run while they arrive, and say what they say from a file.
+//! Programs from a pipe: they run while they arrive, with the same output as from a file.
 
 mod workspace;
 
@@ -20,7 +20,7 @@ fn tool() -> Command {
     command
 }
 
-/// What a call prints that is given a text on standard input.
+/// The output of a call with a text on standard input.
 fn output(arguments: &[&str], input: &[u8]) -> String {
     let mut child = tool()
         .args(arguments)
@@ -78,7 +78,7 @@ fn records_go_out_while_the_program_still_comes() {
         for word in ["OFF", "ON", "OFF"] {
             writeln!(stdin, "X[COMP {word} FRICT]").expect("it listens");
             stdin.flush().expect("it listens");
-            // Were the record held back, this would wait for ever.
+            // If the record were held back, this would wait for ever.
             let found = lines
                 .by_ref()
                 .map(|line| line.expect("UTF-8"))
@@ -92,7 +92,7 @@ fn records_go_out_while_the_program_still_comes() {
 
 #[test]
 fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
-    // R9.40. Of a machine that is not described a pipe shows no axis beforehand (R9.74).
+    // R9.40. Without a described machine, a pipe shows no axis beforehand (R9.74).
     let folder = tempfile::tempdir().expect("a folder");
     let machine = folder.path().join("machine.toml");
     let axes = ["X", "Y", "Z"].map(|axis| format!("[[axis]]\nname = \"{axis}\"\nenable = true\n"));
@@ -109,7 +109,7 @@ fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
         let arguments = ["run", "--config", machine, "--format", "ndjson"];
         let run = |file| [&arguments[..], &[file]].concat();
         let from_file = output(&run(name), b"");
-        // A refused program runs up to where a pipe shows why; called files lie beside a file.
+        // A refused program runs up to where a pipe shows why; called files are next to a file.
         let refused = from_file.contains("\"seq\":0,\"by\":\"error\"");
         let calls = from_file.contains("FC320") || from_file.contains("\"level\"");
         if refused || calls {

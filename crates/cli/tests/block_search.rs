@@ -4,7 +4,7 @@ mod folder;
 
 use folder::Bench;
 
-/// X is switched off before N100, Y is switched there and back.
+/// X is switched off before N100, Y is switched off and on again.
 const PROGRAM: &str = "N10 X[COMP OFF FRICT]\nN20 G01 X10 F1000\nN30 Y[COMP OFF FRICT]\n\
     N40 Y[COMP ON FRICT]\nN100 G01 X20 Y10\nN110 M30\n";
 
@@ -57,7 +57,7 @@ fn both_readings_are_shown_where_they_differ() {
         "FC413",
         "`FRICT` of axis `X` is inactive here if the block search executes",
         "and active if it only decodes them",
-        // The way goes on to the end of the program.
+        // The way continues to the end of the program.
         "if the block search executes what it passes",
     ] {
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -113,7 +113,7 @@ fn a_block_that_is_never_reached_is_an_error() {
     }
 }
 
-/// What stops the search is shown, and nothing else of what it passes.
+/// Only what stops the search is shown, not the rest of what it passes.
 #[test]
 fn an_error_before_the_block_stops_the_search() {
     let program = "N10 X[COMP OFF FRICT]\nN20 Q[COMP ON FRICT]\nN30 M30\n";

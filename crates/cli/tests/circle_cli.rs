@@ -56,7 +56,7 @@ fn the_document_has_the_promised_keys() {
     assert!(document["on"]["glitch_max"].as_f64() < document["off"]["glitch_max"].as_f64());
 }
 
-/// R5.26: three turns of which the last one leaves more; two turns that are alike.
+/// R5.26: three turns, of which the last one leaves more; two turns that are alike.
 #[test]
 fn a_worse_turn_of_a_recording_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -119,7 +119,7 @@ fn a_circle_that_is_too_fast_says_what_is_not() {
 
 #[test]
 fn each_axis_has_its_own_list() {
-    // R5.25: which list goes where is said, and what is given half is refused.
+    // R5.25: it is reported which list goes where, and incomplete input is refused.
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, output: u32| {
         let path = folder.path().join(name);
@@ -273,7 +273,7 @@ fn a_tuned_list_is_one_that_the_control_takes() {
     }
     let lists = tool(&["lists", "--fail-on", "info", name]);
     assert_eq!(lists.status.code(), Some(0), "{lists:?}");
-    // R3.24: a build before V3.1.3132.0 takes whole numbers only.
+    // R3.24: a build before V3.1.3132.0 accepts only whole numbers.
     let old = tool(&[
         "lists",
         "--cnc-build",
@@ -283,7 +283,7 @@ fn a_tuned_list_is_one_that_the_control_takes() {
         name,
     ]);
     assert_eq!(old.status.code(), Some(0), "{old:?}");
-    // The circle with this list leaves what the tuning said.
+    // The circle with this list leaves what the tuning reported.
     let circle = json(&[
         "circle",
         "--feed",
@@ -302,7 +302,7 @@ fn a_tuned_list_is_one_that_the_control_takes() {
 
 #[test]
 fn each_axis_gets_a_list_with_the_name_of_the_machine() {
-    // R5.25: what `circle` finds with the written lists is what `tune` says.
+    // R5.25: `circle` finds with the written lists what `tune` reports.
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -338,7 +338,7 @@ fn each_axis_gets_a_list_with_the_name_of_the_machine() {
         let words = head.map(|line| line.split_whitespace().skip(1).collect::<String>());
         words.collect::<Vec<_>>()
     };
-    // R3.11: whose list it is.
+    // R3.11: the owner of a list.
     assert_eq!(head(&x), ["7", "X1"]);
     assert_eq!(head(&y), ["Y"]);
     let [x, y] = [("X", x), ("Y", y)].map(|(axis, path)| format!("{axis}={}", path.display()));
@@ -436,7 +436,7 @@ fn stiction_compensation_is_reported_in_place_of_a_list() {
         serde_json::from_str(&said(call("circle", &["--format", "json"]))).expect("JSON");
     assert_eq!(document["stiction"]["X"]["mp1513_m_per_min"], 4.0);
     assert_eq!(document["value_list"], Value::Null);
-    // A value list takes its place.
+    // A value list replaces it.
     let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\n\
                 frict_comp.table[0].in 0\nfrict_comp.table[0].out 100\n";
     fs::write(path("v.lis"), list).expect("written");

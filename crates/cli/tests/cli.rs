@@ -1,4 +1,4 @@
-//! The command line from outside: what needs no dry run.
+//! The command line from outside: features without a dry run.
 
 mod workspace;
 
@@ -21,7 +21,7 @@ fn stderr(output: &Output) -> &str {
     std::str::from_utf8(&output.stderr).expect("text")
 }
 
-/// The output of a call that must fail with status 2 and say nothing on stdout.
+/// The output of a call that must fail with status 2 and print nothing on stdout.
 fn refused(arguments: &[&str]) -> String {
     let output = frictcomp(arguments);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");

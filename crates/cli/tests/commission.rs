@@ -67,7 +67,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// The exit status, and all that was said, blanks and line breaks as one.
+/// The exit status and the whole output, with blanks and line breaks merged.
 fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
         .current_dir(folder)
@@ -224,7 +224,7 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
     }
     let text =
         std::fs::read_to_string(folder.path().join("two/66-circle-500.nc")).expect("a program");
-    // What `sha256sum` says of the list.
+    // The output of `sha256sum` for the list.
     let sum =
         "(value list X: SHA-256 a07fceb4b20732f1fc9f093ed3ffb53e967f0e110bb15fce0fb9688757ea1e0e)";
     assert!(
@@ -235,7 +235,7 @@ fn programs_stay_in_the_travel_and_carry_their_number() {
     assert!(!text.contains("G00"), "{text}");
 }
 
-/// R16.9: a plan whose recordings may be there already gives way to no other one.
+/// R16.9: a plan that may already have recordings is not replaced by another one.
 #[test]
 fn a_plan_is_not_replaced_by_another_one() {
     let folder = folder();
@@ -253,7 +253,7 @@ fn a_plan_is_not_replaced_by_another_one() {
     assert_eq!(status, Some(0), "{said}");
 }
 
-/// R16.1: the page for the operator is one page of plain letters, and says what has to be recorded.
+/// R16.1: the page for the operator is one page of plain letters, and lists what has to be recorded.
 #[test]
 fn the_page_of_the_operator_is_one_page() {
     let folder = folder();
@@ -275,7 +275,7 @@ fn the_page_of_the_operator_is_one_page() {
     }
 }
 
-/// R16.1: one axis alone, or one that turns, has strokes, and they are called what they are.
+/// R16.1: a single axis, or a rotary one, has strokes, and they are labelled as such.
 #[test]
 fn an_axis_alone_has_strokes() {
     let folder = folder();
@@ -306,8 +306,8 @@ fn an_axis_alone_has_strokes() {
     );
 }
 
-/// R16.8: on a machine whose coordinates are in inch there is no plan, since nothing says what G71 does there;
-/// and a travel is never taken in another unit than mm.
+/// R16.8: on a machine whose coordinates are in inches there is no plan, since it is not documented what G71 does
+/// there; and a travel is only ever read in mm.
 #[test]
 fn inch_machines_are_refused() {
     let folder = folder();
@@ -318,7 +318,7 @@ fn inch_machines_are_refused() {
     let in_inch: Vec<&str> = in_inch.iter().map(String::as_str).collect();
     let (status, said) = commission(folder.path(), &in_inch);
     assert!(
-        status == Some(2) && said.contains("`X0..60in` is no travel"),
+        status == Some(2) && said.contains("`X0..60in` is not a travel range"),
         "{said}"
     );
     std::fs::write(folder.path().join("sda.lis"), "mass_einh 1\n").expect("written");
@@ -337,8 +337,8 @@ fn inch_machines_are_refused() {
     assert!(!folder.path().join("one").exists());
 }
 
-/// R16.8: without a travel there is no plan, nor where an acceleration does not fit, an axis is not as fast,
-/// degrees and mm meet, or the machine does not say what an axis can do; and then no file is written.
+/// R16.8: without a travel there is no plan, nor where an acceleration does not fit, an axis is not fast enough,
+/// degrees and mm are mixed, or the machine does not give the limits of an axis; and then no file is written.
 #[test]
 fn what_does_not_fit_is_refused_with_its_reason() {
     let two = ["--axis", "X,Y", "--travel", "X0..60,Y-50..10"];
@@ -355,7 +355,7 @@ fn what_does_not_fit_is_refused_with_its_reason() {
         ),
         (
             &[&["--axis", "X", "--travel", "X0-60"], &feeds],
-            "`X0-60` is no travel",
+            "`X0-60` is not a travel range",
         ),
         (
             &[&["--axis", "X", "--travel", "X60..0"], &feeds],

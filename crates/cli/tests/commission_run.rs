@@ -91,7 +91,7 @@ fn planned() -> tempfile::TempDir {
     planned_with(&PLAN)
 }
 
-/// The same for another plan.
+/// A folder with the machine and the programs of another plan.
 fn planned_with(plan: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let machine = format!("[[axis]]\nname = \"X\"\n{AXIS}[[axis]]\nname = \"Y\"\n{AXIS}");
@@ -112,7 +112,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), said(&output))
 }
 
-/// Positions of X and Y in mm and their speeds in mm/s as a program commands them, a row a ms.
+/// Positions of X and Y in mm and their speeds in mm/s as a program commands them, one row per ms.
 fn driven(folder: &Path, program: &str) -> Vec<[f64; 4]> {
     let arguments = ["--axis", "X,Y", "--start", "X50,Y0", "--cycle-time-ms", "1"];
     let output = call(folder, &[&["current", program], &arguments[..]].concat());
@@ -173,7 +173,7 @@ fn machine() -> Plant {
     plant
 }
 
-/// A circle that is driven on a plant, with the lists of X and Y or without.
+/// A circle driven on a plant, with or without the lists of X and Y.
 struct Driven {
     plant: Plant,
     radius: f64,
@@ -181,7 +181,7 @@ struct Driven {
     lists: Option<[FrictionList; 2]>,
 }
 
-/// Radial deviations in mm over the angle, counter-clockwise and clockwise, without a list or with one.
+/// Radial deviations in mm over the angle, counter-clockwise and clockwise, with or without a list.
 fn deviations(feed: f64, list: Option<&FrictionList>) -> [Vec<f64>; 2] {
     deviations_of(&Driven {
         plant: machine(),
@@ -224,7 +224,7 @@ fn deviations_of(driven: &Driven) -> [Vec<f64>; 2] {
     })
 }
 
-/// What a recorder adds to positions.
+/// The errors that a recorder adds to positions.
 #[derive(Debug, Clone, Copy)]
 struct Recorder {
     noise_um: f64,
@@ -326,7 +326,7 @@ fn provisional(folder: &Path, axis: &str) -> String {
 }
 
 /// R16.2, R16.9: from the recordings of stage 1 to provisional lists, from those of stage 2 to their
-/// acceptance; what is missing is named, what is known is kept, a changed recording is read again.
+/// acceptance; missing recordings are named, known results are kept, a changed recording is read again.
 #[test]
 fn from_recordings_to_accepted_lists() {
     let folder = planned();
@@ -373,7 +373,7 @@ fn from_recordings_to_accepted_lists() {
     other_recordings(folder);
 }
 
-/// Friction alone: provisional lists, and all circles are missing.
+/// Friction only: provisional lists, and all circles are missing.
 fn first_stage(folder: &Path) {
     let (status, text) = run(folder, &[]);
     assert_eq!(status, Some(1), "{text}");
@@ -381,7 +381,7 @@ fn first_stage(folder: &Path) {
         text.contains("missing: a recording of 01-friction-X.nc") && text.contains("X: no list"),
         "{text}"
     );
-    // The names tell nothing, the content does.
+    // The content counts, not the names.
     put(folder, "a.csv", &friction(1, 1.0));
     put(folder, "b.csv", &friction(0, 1.0));
     let (status, text) = run(folder, &[]);
@@ -434,7 +434,7 @@ fn second_stage(folder: &Path) {
     }
 }
 
-/// At one feed the lists were not on.
+/// At one feed the lists were not active.
 fn one_feed_without_effect(folder: &Path) {
     let path = folder.join("m/recordings/on3000.csv");
     let whole = std::fs::read(&path).expect("a recording");
@@ -444,7 +444,7 @@ fn one_feed_without_effect(folder: &Path) {
     let words = "at F3000 off and on hardly differ, and at the next feeds they do";
     assert!(status == Some(1) && text.contains(words), "{text}");
     std::fs::write(path, whole).expect("written");
-    // Nor at the fastest feed, beside which there are feeds on one side only.
+    // Nor at the fastest feed, which has neighbouring feeds on one side only.
     let path = folder.join("m/recordings/on5000.csv");
     let whole = std::fs::read(&path).expect("a recording");
     let off = circles(folder, "m/69-circle-5000.nc", &deviations(5000.0, None));
@@ -457,7 +457,7 @@ fn one_feed_without_effect(folder: &Path) {
 
 /// Another round, then a recording that changed.
 fn other_recordings(folder: &Path) {
-    // Other lists are another round: no recording of round 2 is taken for one of round 3.
+    // Other lists are another round: no recording of round 2 is mistaken for one of round 3.
     let zero = ["--value-list", "X=zero.lis", "--value-list", "Y=zero.lis"];
     let output = call(folder, &[&PLAN[..], &["m"], &zero[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
@@ -497,8 +497,8 @@ fn other_recordings(folder: &Path) {
     );
 }
 
-/// R16.5: the report is a page with machine, verdict, circles, an axis a page, the change of a list, and the
-/// SHA-256 of each recording; it says that nothing in it is predicted.
+/// R16.5: the report is a page with machine, verdict, circles, one page per axis, the change of a list, and the
+/// SHA-256 of each recording; it states that nothing in it is predicted.
 fn check_report(folder: &Path) {
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
     let options = roxmltree::ParsingOptions {

@@ -64,7 +64,7 @@ fn play(command: &str) -> String {
     text
 }
 
-/// The document with the output of today below each command.
+/// The document with the current output below each command.
 fn replayed(text: &str) -> String {
     let mut fresh = String::new();
     let mut in_console = false;
@@ -100,7 +100,7 @@ fn rules(text: &str) -> BTreeSet<String> {
     found.collect()
 }
 
-/// The sources that hold tests, each with the part that is tests.
+/// The sources with tests, each with its test part.
 fn tests() -> BTreeMap<String, String> {
     let mut parts = BTreeMap::new();
     for path in files("tests", &["rs"]) {
@@ -190,7 +190,7 @@ fn console_blocks_show_what_the_tool_prints() {
     }
 }
 
-/// The list of assumptions with its tables made from the code; what stands above them is prose.
+/// The list of assumptions with its tables made from the code; the text above them is prose.
 fn assumptions(text: &str) -> String {
     let prose = text.split("\n## ").next().unwrap_or_default();
     let mut fresh = prose.trim_end().to_owned();
@@ -285,7 +285,7 @@ fn every_named_rule_exists() {
     let listed = rules(&read(&root().join("docs/rules.md")));
     for path in documents().into_iter().chain(sources()) {
         let here = rules(&read(&path));
-        // Pages may speak of chapters that are not built yet.
+        // Pages may mention chapters that are not built yet.
         let chapter = |rule: &str| rule.split('.').next().map(|chapter| format!("{chapter}."));
         let built = |rule: &str| {
             let chapter = chapter(rule).unwrap_or_default();

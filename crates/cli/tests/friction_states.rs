@@ -10,7 +10,7 @@ use workspace::root;
 
 const CHANNELS: [&str; 4] = ["--velocity", "SetVelo", "--torque", "ActTorque"];
 
-/// The recording of the demo with its torque multiplied, and something added.
+/// The recording of the demo with its torque multiplied and an offset added.
 fn recording(factor: f64, more: f64) -> String {
     let demo = std::fs::read_to_string(root().join("programs/demo/recordings/friction_x.csv"));
     let mut text = String::new();
@@ -55,8 +55,8 @@ fn call(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     )
 }
 
-/// R16.6: recordings of several states stand side by side with their spread, and the list is that of the
-/// state in which the machine works.
+/// R16.6: recordings of several states are shown side by side with their spread, and the list is that of the
+/// working state of the machine.
 #[test]
 fn states_stand_side_by_side() {
     let folder = folder(&[("cold.csv", 1.2, 0.0), ("warm.csv", 1.0, 0.0)]);
@@ -141,7 +141,7 @@ fn a_state_that_is_not_there_is_refused() {
 }
 
 /// R16.6: a trend names a parameter that changed by more than 3 combined errors and 5 %, a slow drift as
-/// well as a step, and none that changed by less; files that tell nothing are named with their reason.
+/// well as a step, and none that changed by less; files that yield nothing are named with their reason.
 #[test]
 fn a_trend_says_what_changed() {
     let folder = folder(&[
@@ -181,7 +181,7 @@ fn a_trend_says_what_changed() {
     assert_eq!(record["left_out"].as_array().expect("files").len(), 2);
 }
 
-/// R16.6: without a change that is said with what it rests on; one date is no trend.
+/// R16.6: without a change, this is reported with its basis; one date gives no trend.
 #[test]
 fn what_did_not_change_is_said_and_one_date_is_no_trend() {
     let steady = folder(&[("2026-03-01.csv", 1.0, 0.0), ("2027-03-01.csv", 1.04, 0.0)]);

@@ -1,5 +1,5 @@
-//! Names and texts that mean harm: nothing that a terminal, a log, a runner or a spreadsheet would
-//! obey leaves the tool (R9.76).
+//! Malicious names and texts: the tool outputs nothing that a terminal, a log, a runner or a spreadsheet
+//! would obey (R9.76).
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A name of a file that turns colours on, rings, turns the direction of writing, ends its line and
+/// A file name that switches colours on, rings the bell, reverses the writing direction, ends its line and
 /// gives a runner a command.
 const NAME: &str = "a\u{1b}[31m\u{7}\u{9b}31m\u{202e}\u{2028}\r\n::error file=x::boom.nc";
 
@@ -82,7 +82,7 @@ fn prepare(folder: &Path) {
     .unwrap();
 }
 
-/// Nothing of the output is obeyed by a terminal or a runner.
+/// No output is obeyed by a terminal or a runner.
 fn is_harmless(output: &Output, arguments: &[&str]) {
     for bytes in [&output.stdout, &output.stderr] {
         let text = std::str::from_utf8(bytes).unwrap();
@@ -93,7 +93,7 @@ fn is_harmless(output: &Output, arguments: &[&str]) {
         assert_eq!(hidden, None, "{arguments:?}\n{text}");
         let github = arguments.contains(&"github");
         for line in text.lines().map(str::trim_start) {
-            // `::: ` leads to another file, as in rustc; a runner knows no command of that name.
+            // `::: ` leads to another file, as in rustc; a runner has no command of that name.
             let ours = line.starts_with("::: ") || github && line.contains(",title=");
             let command = line.starts_with("::") || line.starts_with("##");
             assert!(!command || ours, "{arguments:?}\n{line}");

@@ -34,7 +34,7 @@ fn text_of(node: Node<'_, '_>) -> String {
     texts.filter_map(|text| text.text()).collect()
 }
 
-/// Links lead somewhere, identifiers are unique, headings go down one by one, images have names.
+/// Links have targets, identifiers are unique, headings descend one by one, images have names.
 fn assert_sound(report: &str) {
     let document = parse(report);
     let mut ids = BTreeSet::new();
@@ -112,7 +112,7 @@ fn a_session_is_told_from_its_end_to_its_assumptions() {
     let report = report_of(&bench, &["a.nc", "b.nc"]);
     assert_sound(&report);
     let left = part(&report, "left");
-    // FC401 has said it.
+    // FC401 has reported it.
     assert!(!left.contains("stays inactive"), "{left}");
     assert!(!left.contains("Nothing to do"), "{left}");
     assert!(left.contains("N45 (a.nc:5)"));
@@ -453,7 +453,7 @@ fn browser() -> Option<PathBuf> {
         .find(|file| file.is_file())
 }
 
-/// Loads a page and gives the document as it stands then, and what the browser logged.
+/// Loads a page and returns the resulting document, and what the browser logged.
 fn load(browser: &Path, page: &Path) -> (String, String) {
     let profile = tempfile::tempdir().expect("a folder");
     let output = tempfile::NamedTempFile::new().expect("a file");
@@ -494,7 +494,7 @@ fn load(browser: &Path, page: &Path) -> (String, String) {
     (read(&output), read(&log))
 }
 
-/// What the page is asked when it stands in a browser. Reports have no script: this one is put into
+/// The script that queries the page in a browser. Reports have no script: this one is inserted into
 /// a copy whose policy allows it.
 const PROBE: &str = "<script>
 const fold = document.querySelector('.source details');

@@ -1,4 +1,4 @@
-//! Recordings that are wrong: each fault is named before any list (R6.21).
+//! Faulty recordings: each fault is named before any list (R6.21).
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -43,7 +43,7 @@ fn demo() -> Track {
     axis.track
 }
 
-/// A recording of the simulation that is independent of the crate; up and down.
+/// A recording of a simulation that is independent of the crate; up and down.
 fn simulated() -> Track {
     static TRACK: LazyLock<Track> = LazyLock::new(simulate);
     TRACK.clone()
@@ -135,7 +135,7 @@ fn velocities(track: &mut Track) -> &mut Vec<f64> {
     track.velocities.as_mut().expect("velocities")
 }
 
-/// The codes of recordings that are wrong.
+/// The codes of faulty recordings.
 const DOUBTS: [Code; 7] = [
     Code::Fc520,
     Code::Fc521,
@@ -236,7 +236,7 @@ fn clipped_torque_is_named() {
 
 #[test]
 fn compensation_that_was_on_is_named() {
-    // R6.21: the torque less what a list adds, too low, right, too high.
+    // R6.21: the torque minus what a list adds, too low, right, too high.
     for (name, track) in both() {
         let curve = found(&track).expect(name).curve;
         for part in [0.9, 1.0, 1.3] {
@@ -267,7 +267,7 @@ fn compensation_that_was_on_is_named() {
 
 #[test]
 fn what_the_torque_holds_is_asked() {
-    // R6.21: a list only of a torque that holds what is added, or where nothing was.
+    // R6.21: a list only from a torque that contains what is added, or if nothing was added.
     let track = demo();
     let options = |kind, compensation| IdentifyOptions {
         measured: Measured {
@@ -309,7 +309,7 @@ fn a_statement_that_the_recording_contradicts_gives_no_list() {
     }
     let [actual, loop_output] = [TorqueKind::Actual, TorqueKind::Loop].map(Some);
     let [on, off] = [Switched::On, Switched::Off].map(Some);
-    // What the recording shows, what is said, and whether there is no list.
+    // What the recording shows, the message, and whether there is no list.
     for (shown, said, refused) in [
         ((loop_output, None), (actual, None), true),
         ((loop_output, on), (actual, None), true),
@@ -334,7 +334,7 @@ fn a_statement_that_the_recording_contradicts_gives_no_list() {
         assert_eq!(code, Code::Fc521, "{message}");
         assert!(message.contains(" given as "), "{message}");
     }
-    // What agrees with the recording raises no doubt.
+    // A statement that agrees with the recording raises no doubt.
     let agreed = Measured::default().stated(actual, off);
     assert_eq!(agreed.contradiction, None);
 }
@@ -400,7 +400,7 @@ fn a_factor_of_ten_is_named() {
         let mut track = demo();
         times(factor)(&mut track);
         assert!(is_refused(&track));
-        // Of newton metres nobody knows how many the drive has.
+        // It is not known how many newton metres the drive has.
         let mut options = IdentifyOptions::default();
         options.measured.rated = None;
         assert!(identify(&track, &options).is_ok());
@@ -462,7 +462,7 @@ fn with_torques(change: impl Fn(i64) -> i64) -> String {
 
 #[test]
 fn the_command_writes_no_wrong_list() {
-    // R6.21: refused with status 2 and no list; said first, and at the head of the list.
+    // R6.21: refused with status 2 and no list; reported first, and in the header of the list.
     let channels = ["--velocity", "SetVelo", "--torque", "ActTorque"];
     let (status, said, list) = play("absolute.csv", with_torques(i64::abs).as_bytes(), &channels);
     assert_eq!(status, Some(2), "{said}");
@@ -480,7 +480,7 @@ fn the_command_writes_no_wrong_list() {
         "{said}"
     );
     assert!(list.contains("FC522"), "{list}");
-    // Nobody knows what an unnamed torque holds, unless it is said.
+    // The content of an unnamed torque is unknown unless it is declared.
     let plain = with_torques(|it| it)
         .replace("ActTorque", "Signal")
         .replace("actual torque", "signal");
@@ -503,7 +503,7 @@ fn the_command_writes_no_wrong_list() {
         assert_eq!(said.contains("FC521"), refused, "{more:?}: {said}");
         assert_eq!(list.is_empty(), refused, "{more:?}");
     }
-    // The name of the channel tells more than what is said of it.
+    // The channel name takes precedence over the declaration.
     let named = plain.replace("Signal", "SpeedControllerOut");
     let channels = ["--velocity", "SetVelo", "--torque", "SpeedControllerOut"];
     let actual = [&channels[..], &["--torque-kind", "actual"]].concat();
@@ -530,7 +530,7 @@ fn what_scope_scales_is_found_or_asked() {
     let channels = ["--velocity", "SetVelo", "--torque", "ActTorque"];
     let header = |rows: &str| with_torques(|it| it).replacen("Unit\t", &format!("{rows}Unit\t"), 1);
     let said = |rows: &str| play("scope.csv", header(rows).as_bytes(), &channels);
-    // Whole samples of a whole variable that is drawn in parts of a thousand.
+    // Integer samples of an integer variable that is drawn in thousandths.
     let (_, raw, _) = said("Offset\t0\t0\nScaleFactor\t1\t0.001\n");
     assert!(raw.contains("which are not in its samples"), "{raw}");
     let (_, open, _) = said("Offset\t0\t0\nScaleFactor\t1\t-1\n");
@@ -544,7 +544,7 @@ fn what_scope_scales_is_found_or_asked() {
     let (_, found, _) =
         said("Offset\t0\t0\nScaleFactor\t1\t-1\nMin\t-120000\t-456\nMax\t120000\t454\n");
     assert!(found.contains("which are not in its samples"), "{found}");
-    // A scaled unit is refused, until the unit of the samples is given.
+    // A scaled unit is refused unless the unit of the samples is given.
     let rows = "Unit ScaleFactor\t0.001\t1\nUnit Offset\t0\t0\n";
     let (status, refused, list) = said(rows);
     assert_eq!(status, Some(2), "{refused}");

@@ -19,7 +19,7 @@ use frictcomp_host::{
 use frictcomp_report::{TimelineFormat, TimelineOptions, command_line};
 use workspace::root;
 
-/// The bound on executed blocks for all programs, so that a loop that does not end is seen.
+/// The bound on executed blocks for all programs, so that an endless loop is noticed.
 const MAX_BLOCKS: u64 = 5000;
 
 /// Every file below a folder of the repository, by its path from the root.
@@ -43,7 +43,7 @@ fn texts(folder: &str) -> Vec<OpenText> {
     texts
 }
 
-/// What a timeline writes.
+/// The output of a timeline.
 #[derive(Clone, Default)]
 struct Written(Rc<RefCell<Vec<u8>>>);
 

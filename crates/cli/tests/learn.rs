@@ -30,7 +30,7 @@ use serde_json::Value;
 /// Feeds of the long test.
 const FEEDS: [f64; 6] = [500.0, 800.0, 1300.0, 2000.0, 3200.0, 5000.0];
 
-/// Those at which its lists are judged: between the recorded ones, too.
+/// Feeds at which its lists are judged, including some between the recorded ones.
 const JUDGED: [f64; 11] = [
     500.0, 630.0, 800.0, 1000.0, 1300.0, 1600.0, 2000.0, 2500.0, 3200.0, 4000.0, 5000.0,
 ];
@@ -46,7 +46,7 @@ fn call(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the tool starts")
 }
 
-/// Exit status and all that was said, in one line.
+/// The exit status and the whole output, in one line.
 fn said(output: &Output) -> (Option<i32>, String) {
     let bytes = [&output.stdout[..], &output.stderr[..]].concat();
     let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -202,8 +202,8 @@ fn scope(rows: &[Row]) -> Vec<u8> {
     export.bytes()
 }
 
-/// R16.4 R16.7 R16.9: from the measured friction to lists that were learned, with recordings of two layouts; steps
-/// are bounded, no list adds too much, what the plant says is predicted, and nothing is written twice.
+/// R16.4 R16.7 R16.9: from the measured friction to learned lists, with recordings of two layouts; steps
+/// are bounded, no list adds too much, results of the plant are called predicted, and nothing is written twice.
 #[test]
 fn recorded_circles_give_the_next_list() {
     let bench = Bench::new(Machine::small(), &SMALL);
@@ -258,7 +258,7 @@ fn recorded_circles_give_the_next_list() {
     refused::changed_after_a_round(&bench);
 }
 
-/// The second round is judged by its recordings alone, and the list handed over is the better one.
+/// Only its recordings judge the second round, and the better list is handed over.
 fn second_round(bench: &Bench, first: &Value) {
     bench.drive(2);
     let second = bench.record();
@@ -282,7 +282,7 @@ fn second_round(bench: &Bench, first: &Value) {
 }
 
 /// R16.4: on machines from stiff to soft, uneven, noisy, half and twice as stiff as the plant says, five rounds leave
-/// at most 1.33 times what the best known lists leave, and never more than the first lists by more than the spread.
+/// at most 1.33 times as much as the best known lists, and never more than the first lists by more than the spread.
 #[test]
 #[ignore = "minutes a machine"]
 #[allow(clippy::print_stdout, reason = "the table is what it is for")]
@@ -330,7 +330,7 @@ fn five_rounds_come_close_to_the_best_known_lists() {
     }
 }
 
-/// What the lists leave that are tuned with knowledge of the machine.
+/// The glitches left by lists tuned with knowledge of the machine.
 fn best_known(machine: &Machine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

@@ -1,4 +1,4 @@
-//! The language server, as a client sees it.
+//! The language server from the client's point of view.
 
 #[path = "lsp/calls.rs"]
 mod calls;

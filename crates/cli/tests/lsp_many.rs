@@ -1,5 +1,5 @@
-//! Many open texts (R12.16): a check or a question of one of them costs what that one costs. A process of
-//! its own, since the server has threads whose processor time is measured together.
+//! Many open texts (R12.16): a check or a question of one of them costs what that one costs. It is a separate
+//! process, since the server has threads whose processor time is measured together.
 
 #![cfg(unix)]
 
@@ -23,19 +23,19 @@ fn of_process() -> Duration {
     Duration::new(seconds, nanoseconds)
 }
 
-/// What the work takes.
+/// The processor time of the work.
 fn taken(work: impl FnOnce()) -> Duration {
     let before = of_process();
     work();
     of_process().saturating_sub(before)
 }
 
-/// A program of five lines. Every other one lies on the disk, the others were never saved.
+/// A program of five lines. Every other one is on the disk, the others were never saved.
 fn program(number: usize) -> String {
     format!("%P{number}\nN10 G1 X1 F100\nN20 X[COMP OFF FRICT]\nN30 X{number}\nN40 M30\n")
 }
 
-/// What it takes to open so many programs, and to type in one of them and ask about it.
+/// The cost of opening so many programs, and of typing in one of them and asking about it.
 fn many(folder: &Path, count: usize) -> [Duration; 2] {
     let uris: Vec<String> = (0..count)
         .map(|number| {

@@ -1,4 +1,4 @@
-//! The machine at the command line: lists from any folder, what is missing, what is no list.
+//! The machine at the command line: lists from any folder, missing lists, files that are not lists.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 

@@ -1,4 +1,4 @@
-//! `check --fix` and `check --diff`: which changes are made, and that nothing else is touched.
+//! `check --fix` and `check --diff`: the changes that are made, and that nothing else is touched.
 
 mod folder;
 
@@ -79,7 +79,7 @@ fn a_change_that_guesses_is_not_made() {
         bench.read("b.nc"),
         "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n"
     );
-    // Nothing is left to change.
+    // There is nothing left to change.
     let (code, shown, said) = status(&bench, &["check", "--fix", "b.nc"]);
     assert_eq!((code, shown.as_str()), (Some(0), ""), "{said}");
     assert!(!said.contains("fixed"), "{said}");

@@ -124,7 +124,7 @@ fn a_program_and_its_recorded_trace_have_the_same_current() {
 
 #[test]
 fn several_axes_stand_side_by_side() {
-    // R5.1: columns by axis, a file that is whole, another value list and cycle.
+    // R5.1: columns by axis, a complete file, another value list and cycle.
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = [
         "a.nc",
@@ -314,7 +314,7 @@ fn a_start_is_given_and_proposed() {
     );
     for (start, wanted) in [
         ("Q0", "the machine has no axis `Q`"),
-        ("X0,X1", "says twice where axis `X` stands"),
+        ("X0,X1", "gives the position of axis `X` twice"),
         ("X", "write axes with their positions"),
     ] {
         let (status, _, said) = run(&["a.nc", "--axis", "X", "--start", start]);
@@ -327,7 +327,7 @@ fn a_start_is_given_and_proposed() {
 
 #[test]
 fn every_demo_has_currents_from_the_start_that_is_proposed() {
-    // R5.1: what FC906 proposes is taken, and then it proposes nothing any more.
+    // R5.1: what FC906 proposes is accepted, and then it proposes nothing more.
     let demo = root().join("programs/demo");
     let sets = ["--set", "V.E.WARM_UP=1", "--set", "V.E.SERVICE=0"];
     for (program, axes, more) in [
@@ -363,7 +363,7 @@ fn every_demo_has_currents_from_the_start_that_is_proposed() {
 
 #[test]
 fn channels_of_several_rates_are_resampled_or_refused() {
-    // R4.5: an export of Scope with times of its own for each channel, in ms.
+    // R4.5: an export of Scope with separate times for each channel, in ms.
     let folder = tempfile::tempdir().expect("a folder");
     let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\nfrict_comp.table[0].out 12\nEnde\n";
     std::fs::write(folder.path().join("v.lis"), list).expect("a list");

@@ -1,4 +1,4 @@
-//! The options of the commands: what they do, and what is refused.
+//! The options of the commands: their effect, and refused values.
 
 mod folder;
 #[path = "options/help.rs"]
@@ -132,7 +132,7 @@ fn codes_are_left_out_and_weighed_for_one_call() {
     assert!(all.contains(&"FC401 warning".to_owned()), "{all:?}");
     assert!(!codes(&["--ignore", "FC401", "a.nc"]).contains(&"FC401 warning".to_owned()));
     assert_eq!(codes(&["--select", "FC401", "a.nc"]), ["FC401 warning"]);
-    // The control's own errors are always said (R9.24).
+    // The control's own errors are always reported (R9.24).
     assert!(codes(&["--select", "FC401", "b.nc"]).contains(&"P-ERR-70495 error".to_owned()));
     let weighed = codes(&["--severity", "FC401=error", "a.nc"]);
     assert!(weighed.contains(&"FC401 error".to_owned()), "{weighed:?}");
@@ -335,11 +335,11 @@ fn only_axes_that_occur_are_enabled() {
     let mistyped = [&open[..], &["x", "a.nc"]].concat();
     assert!(refused(&bench, &mistyped).contains("did you mean `X`?"));
     assert!(bench.read("s").contains("axis Z number - type"));
-    // What is called may have more axes.
+    // A called program may have more axes.
     assert_eq!(bench.status(&["run", "--enable", "X", "call.nc"]), Some(0));
     let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert!(refused(&configured, &["run", "--enable", "W", "a.nc"]).contains("no axis `W`"));
-    // No word stands for all axes, whatever the programs call.
+    // No word means all axes, whatever the programs call.
     for all in ["all", "ALL", "X,all"] {
         for program in ["a.nc", "call.nc"] {
             let said = refused(&bench, &["check", "--enable", all, program]);
@@ -547,7 +547,7 @@ fn stiction_is_computed_from_what_is_given() {
     assert_eq!(document["schema"], 1);
     for (arguments, words) in [
         (&["stiction"][..], "no quantity is given"),
-        (&["stiction", "--tc", "3000mm"], "`mm` is no unit of t_C"),
+        (&["stiction", "--tc", "3000mm"], "`mm` is not a unit of t_C"),
         (
             &["stiction", "--gp", "0", "--mp1512", "5"],
             "GP must be more than 0",

@@ -1,4 +1,4 @@
-//! What commands write, and what becomes of it when something is in the way.
+//! The outputs of commands, also when something is in the way.
 
 mod folder;
 mod workspace;
@@ -77,7 +77,7 @@ fn no_output_destroys_an_input() {
         &["run", "part.nc", "--startup", "s.lis", "-o", "s.lis"],
         "s.lis",
     );
-    // What a program calls is known only when it has called.
+    // The calls of a program are known only when it has made them.
     both(&["run", "call.nc", "-o", "part.nc", "--force"], "part.nc");
     both(&["run", "call.nc", "--html", "hard"], "part.nc");
     both(&["lists", "v.lis", "-o", "v.lis"], "v.lis");
@@ -131,9 +131,9 @@ fn what_users_write_is_replaced_only_when_they_say_so() {
     let forced = with(&["-o", "other.nc", "--force"]);
     assert_eq!(bench.status(&forced), Some(0));
     assert!(bench.read("other.nc").contains("Summary"));
-    // An input is an input.
+    // An input remains an input.
     assert!(refused(&bench, &with(&["-o", "part.nc", "--force"])).contains("would overwrite"));
-    // What is not there is replaced by nobody, but a configuration would count from then on.
+    // A file that does not exist is not replaced, but a configuration would count from then on.
     fs::create_dir(bench.folder().join("below")).expect("a folder");
     let said = refused(&bench, &with(&["--isolated", "-o", "below/frictcomp.toml"]));
     assert!(said.contains("take the place of a configuration"), "{said}");
@@ -167,7 +167,7 @@ fn no_link_leads_an_output_to_what_users_write() {
             "{call:?}: {said}"
         );
     }
-    // A link to another result stays one.
+    // A link to another result remains one.
     bench.write("report.html", "old");
     link("report.html", "latest.html");
     assert_eq!(
@@ -302,8 +302,8 @@ mod unix {
         assert!(killed.expect("kill starts").success());
     }
 
-    /// Whether these tests run where a signal is ignored, as `nohup` and background jobs of a shell
-    /// do; the tool leaves that as it is.
+    /// Whether these tests run with a signal ignored, as under `nohup` and in background jobs of a shell;
+    /// the tool does not change that.
     fn is_ignored(signal: i32) -> bool {
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status
@@ -361,7 +361,7 @@ mod unix {
                 "{said}"
             );
         }
-        // A link to an output stays one.
+        // A link to an output remains one.
         bench.write("real.txt", "old");
         symlink("real.txt", path("out")).expect("a link");
         assert_eq!(bench.status(&["run", "part.nc", "-o", "out"]), Some(0));
@@ -496,7 +496,7 @@ fn golden_writes_all_or_nothing_of_a_folder() {
     assert!(said.contains("left out `bad`"), "{said}");
     assert!(said.contains("2 of 3 timelines written"), "{said}");
     assert!(!bench.folder().join("bad/a.nc.timeline").exists());
-    // A folder in which one cannot be written.
+    // A folder in which one file cannot be written.
     bench.write("later/b.nc", PROGRAM);
     fs::create_dir(bench.folder().join("later/b.nc.timeline")).expect("a folder");
     bench.write("later/a.nc", "N10 M30\n");

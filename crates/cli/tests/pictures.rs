@@ -1,4 +1,4 @@
-//! Pictures: well-formed, bounded, told in words, and the same bytes for the same input.
+//! Pictures: well-formed, bounded, described in words, and the same bytes for the same input.
 
 #[path = "pictures/commands.rs"]
 mod commands;
@@ -151,7 +151,7 @@ fn a_value_list_shows_its_points_and_held_ends() {
     ] {
         assert!(texts.contains(&text), "{text}: {texts:?}");
     }
-    // A tenth of the axis shows the slow points apart from each other.
+    // A tenth of the axis separates the slow points from each other.
     let places: Vec<f64> = document
         .descendants()
         .filter(|node| node.attribute("class") == Some("fc-m0"))
@@ -287,7 +287,7 @@ fn glitches_are_drawn_from_zero() {
         .flat_map(|panel| &mut panel.series)
         .flat_map(|series| &mut series.points)
     {
-        // As large as those of a soft plant, and as much alike.
+        // As large as those of a soft plant, and as similar.
         point[1] += 100.0;
     }
     let svg = chart.render(Frame::Alone);
@@ -416,7 +416,7 @@ fn odd_values_make_no_odd_picture() {
     }
 }
 
-/// Well-formed, with nothing but numbers where numbers belong.
+/// Well-formed, with only numbers where numbers belong.
 fn assert_sound(svg: &str) {
     let document = parse(svg);
     for node in document.descendants() {

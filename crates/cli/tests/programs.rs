@@ -15,7 +15,7 @@ use files::files;
 use frictcomp::diagnostic::Code;
 use workspace::root;
 
-/// The bound on executed blocks for all programs, so that a loop that does not end is seen.
+/// The bound on executed blocks for all programs, so that an endless loop is noticed.
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
@@ -163,7 +163,7 @@ fn name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// What a call printed, as it is kept in a snapshot.
+/// The output of a call, as kept in a snapshot.
 fn transcript(output: &Output) -> String {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
     let mut all = text(&output.stdout);
@@ -177,7 +177,7 @@ fn transcript(output: &Output) -> String {
     all
 }
 
-/// The code in front of the words of a file's name: `FC202-fric.nc` is about FC202.
+/// The code at the start of a file name: `FC202-fric.nc` is about FC202.
 fn promised(name: &str) -> Option<Code> {
     Code::ALL.iter().copied().find(|code| {
         name.strip_prefix(code.as_str())
@@ -199,7 +199,7 @@ fn codes(arguments: &[&str]) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// The codes of a program when everything in it is carried out that can be.
+/// The codes of a program when everything possible in it is carried out.
 fn program_codes(path: &Path) -> BTreeMap<String, String> {
     let path_text = shown(path);
     let mut arguments = vec!["run", "--keep-going", "--format", "ndjson"];
@@ -216,7 +216,7 @@ fn program_codes(path: &Path) -> BTreeMap<String, String> {
 
 #[test]
 fn forms_of_the_manual_raise_nothing() {
-    // R2.70: forms of the manual, one a line, whatever their meaning. No message, and no state changes.
+    // R2.70: forms of the manual, one per line, whatever their meaning. No message, and no state changes.
     for path in files("programs/ok/forms", &["nc"]) {
         let name = shown(&path);
         let found = program_codes(&path);
@@ -294,7 +294,7 @@ fn wrong_programs_raise_their_code() {
             continue;
         };
         let mut found = program_codes(&path);
-        // What is never executed is read by `check` alone.
+        // Only `check` reads blocks that are never executed.
         let path = shown(&path);
         let mut check = vec!["check", "--format", "ndjson"];
         check.extend(seen_machine(&path));

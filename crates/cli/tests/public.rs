@@ -1,4 +1,4 @@
-//! What every host may rely on: the names that are public, and that all of it can be sent to another
+//! The promises to hosts: the public names, and that all of them can be sent to another
 //! thread.
 
 #[path = "workspace/files.rs"]
@@ -19,7 +19,7 @@ struct Package {
     name: &'static str,
     /// Its folder.
     folder: &'static str,
-    /// What stands before its rooms in the list.
+    /// The prefix of its rooms in the list.
     prefix: &'static str,
 }
 
@@ -51,7 +51,7 @@ impl Package {
         }
     }
 
-    /// Whether a room shows what belongs to another one, which is the same thing.
+    /// Whether a room re-exports an item of another one, which is the same item.
     fn shows(&self, room: &str, name: &str) -> bool {
         let room = room.strip_prefix(self.prefix).unwrap_or(room);
         let room = room.trim_start_matches("::").replace("::", "/");
@@ -74,7 +74,7 @@ impl Package {
         items
     }
 
-    /// Appends what the face of a room makes public, and the rooms in it.
+    /// Appends the public names of the interface of a room, and the rooms in it.
     fn gather(&self, room: &str, needed: &str, items: &mut Vec<String>) {
         for item in public(&code(&self.face(room))) {
             let feature = match item.feature.as_str() {
@@ -107,10 +107,10 @@ fn code(path: &Path) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What the statements of a file make public.
+/// The names that the statements of a file make public.
 struct Public {
     name: String,
-    /// The feature that it needs, or nothing.
+    /// The feature that it requires, or nothing.
     feature: String,
     is_room: bool,
 }
@@ -159,7 +159,7 @@ fn items() -> Vec<String> {
 
 #[test]
 fn the_public_names_change_on_purpose() {
-    // `INSTA_UPDATE=always cargo test --test public` takes a change over.
+    // `INSTA_UPDATE=always cargo test --test public` accepts a change.
     let listed = PACKAGES.iter().map(|package| {
         let items = package.items().join("\n");
         format!("# {}\n{items}\n", package.name)
@@ -172,7 +172,7 @@ fn a_type_has_a_name_of_its_own() {
     let mut rooms: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for package in &PACKAGES {
         for item in package.items() {
-            // What only packages of the same version see is named within its room.
+            // Names that only packages of the same version see are named within their room.
             if item.ends_with("(unstable)") {
                 continue;
             }
@@ -209,7 +209,7 @@ fn is_trait(name: &str) -> bool {
     TRAITS.contains(&name)
 }
 
-/// What a caller fills in: all of it has to be named, so that a new field is a new question.
+/// The types that a caller fills in: all fields have to be named, so that a new field is a new question.
 const FILLED_IN: &[&str] = &[
     "lists::Conditions",
     "lists::FrictionList",
@@ -280,8 +280,8 @@ const FILLED_IN: &[&str] = &[
     "host::replay::ReplayChannels",
 ];
 
-/// Whether the definition of a type in a text lets it grow without breaking those who read it; `None` where
-/// the text does not define it, or where nothing of it is public.
+/// Whether the definition of a type in a text allows it to grow without breaking its readers; `None` if
+/// the text does not define it, or if nothing of it is public.
 fn can_grow(text: &str, name: &str) -> Option<bool> {
     let lines: Vec<&str> = text.lines().collect();
     let start = ["struct", "enum"].map(|kind| format!("pub {kind} {name}"));
@@ -335,7 +335,7 @@ fn every_public_type_is_checked_to_be_send() {
         let path = item.split(' ').next().unwrap_or_default();
         path.to_owned()
     });
-    // They borrow what flushes the output of the thread that runs the programs.
+    // They borrow the flushing output of the thread that runs the programs.
     let is_at_home = |item: &String| item == "host::RunContext";
     let public: Vec<String> = public
         .filter(|item| is_type(item) && !is_at_home(item))

@@ -57,7 +57,7 @@ fn programs(bench: &Bench, rule: &str) -> Vec<String> {
     there.map(|name| bench.read(name)).collect()
 }
 
-/// What a control that follows a reading leaves, with what its operator writes down.
+/// The answers of a control that follows a reading, with the notes of its operator.
 fn answered(bench: &Bench, rule: &'static str, second: bool) -> String {
     let mut control = Control::new(rule, second);
     for (at, program) in programs(bench, rule).iter().enumerate() {
@@ -86,7 +86,7 @@ fn answered(bench: &Bench, rule: &'static str, second: bool) -> String {
     control.messages
 }
 
-/// R15.1, R15.2, R15.4: each question that a program answers is asked of a control of either kind, and
+/// R15.1, R15.2, R15.4: each question that a program answers is put to a control of either kind, and
 /// the answer is that of the control.
 #[test]
 fn a_control_of_either_kind_is_read_rightly() {
@@ -121,7 +121,7 @@ fn a_control_of_either_kind_is_read_rightly() {
     }
 }
 
-/// R15.1, R15.2: what an operator sees is a line of a note.
+/// R15.1, R15.2: what an operator sees is a line in a note.
 #[test]
 fn a_note_answers_what_no_program_does() {
     let bench = bench();
@@ -249,7 +249,7 @@ fn an_answer_without_a_build_confirms_nothing() {
     assert!(!written.contains("[confirmed]"), "{written}");
 }
 
-/// R15.3: a report says of an assumption which reading is selected, and on which build it was confirmed.
+/// R15.3: a report gives for an assumption the selected reading, and the build on which it was confirmed.
 #[test]
 fn a_report_says_what_was_confirmed() {
     let bench = bench();
@@ -275,7 +275,7 @@ fn a_report_says_what_was_confirmed() {
     );
 }
 
-/// R15.2, R4.2, R4.6: the additive current follows the configuration, and an option goes before it.
+/// R15.2, R4.2, R4.6: the additive current follows the configuration, and an option takes precedence over it.
 #[test]
 fn the_current_follows_the_selected_readings() {
     let bench = bench();
@@ -318,7 +318,7 @@ fn the_current_follows_the_selected_readings() {
     assert_eq!(between, 3);
 }
 
-/// R15.1, R15.3: the list says each question, both readings, and what the one in force rests on.
+/// R15.1, R15.3: the list shows each question, both readings, and what the one in force rests on.
 #[test]
 fn the_list_says_what_is_answered() {
     let bench = bench();
@@ -372,7 +372,7 @@ fn every_conformance_case_holds() {
     assert!(document["undecided"].as_u64().expect("a number") >= 12);
 }
 
-/// R15.11: a case that does not hold is named, with what was found.
+/// R15.11: a case that fails is named, with the actual result.
 #[test]
 fn a_case_that_does_not_hold_is_named() {
     let bench = bench();

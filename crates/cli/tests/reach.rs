@@ -1,4 +1,4 @@
-//! Which files a program makes the tool read, and what it shows of those that it must not.
+//! The files that a program makes the tool read, and what the tool shows of forbidden ones.
 
 #![cfg(unix)]
 
@@ -12,7 +12,7 @@ use std::process::{Command, Output};
 
 use folder::Bench;
 
-/// Text that no output may hold.
+/// Text that no output may contain.
 const SECRET: &str = "root:x:0:0:geheim";
 
 /// Every way in which a command shows a program.
@@ -33,7 +33,7 @@ const WAYS: [&[&str]; 14] = [
     &["current", "--axis", "X", "main.nc"],
 ];
 
-/// A project in a folder beside which a secret lies.
+/// A project in a folder next to a secret.
 fn project(main: &str) -> (tempfile::TempDir, Bench) {
     let around = tempfile::tempdir().expect("a folder");
     fs::write(around.path().join("secret"), SECRET).expect("written");
@@ -45,7 +45,7 @@ fn all(output: &Output) -> String {
     text + &String::from_utf8_lossy(&output.stderr)
 }
 
-/// What every command says and writes about `main.nc`.
+/// The output of every command about `main.nc`.
 fn everything(bench: &Bench, further: &[&str]) -> String {
     let mut said = String::new();
     for way in WAYS {
@@ -110,7 +110,7 @@ fn a_program_makes_no_command_show_what_lies_elsewhere() {
             assert!(allowed.contains("geheim"), "{call}: {allowed}");
         }
     }
-    // On a way of which only the machine knows whether it is taken, too.
+    // Also on a way that only the machine knows to be taken.
     bench.write(
         "main.nc",
         &format!("$IF V.E.X\nL \"{secret}\"\n$ENDIF\nM30\n"),
@@ -198,7 +198,7 @@ fn a_program_that_is_there_with_an_extension_may_be_meant() {
         (place, &fix["text"]),
         ([Some(6), Some(10)], &"4712.nc".into())
     );
-    // A folder is no program, and neither is a link that leads outside.
+    // A folder is not a program, and neither is a link that leads outside.
     let bench = Bench::new(&[("main.nc", "L4712\nM30\n")]);
     fs::create_dir(bench.folder().join("4712.d")).expect("a folder");
     symlink("/etc/hostname", bench.folder().join("4712.nc")).expect("a link");
@@ -276,7 +276,7 @@ fn a_list_elsewhere_is_named_and_not_shown() {
             assert!(said.contains("geheim"), "{toml}: {said}");
         }
     }
-    // A list that the user names is shown wherever it lies.
+    // A list that the user names is shown wherever it is.
     let said = all(&bench.call(&["lists", &secret]));
     assert!(said.contains("geheim"), "{said}");
     // A configuration that was found may be a link.

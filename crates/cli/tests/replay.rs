@@ -1,4 +1,4 @@
-//! What a machine did, beside the dry run (R15.20 to R15.22).
+//! Recordings of a machine compared with the dry run (R15.20 to R15.22).
 
 mod folder;
 
@@ -34,9 +34,9 @@ N70 X40
 N80 M30
 ";
 
-/// A control that follows the lines of a program one after the other, and what differs in it.
+/// A control that follows the lines of a program one after the other, and its differences.
 #[derive(Clone, Copy)]
-#[allow(clippy::struct_excessive_bools)] // each is a difference of its own
+#[allow(clippy::struct_excessive_bools)] // each is a separate difference
 struct Control {
     /// The state at the start.
     active: bool,
@@ -175,7 +175,7 @@ fn another_state_at_the_start_is_found() {
     assert_eq!(axis["rests_on"], json(r#"["R1.28","R1.29"]"#));
 }
 
-/// R15.21: a block that the machine skipped, and the dry run was told that it would not, is found.
+/// R15.21: a block that the machine skipped, although the dry run was told otherwise, is found.
 #[test]
 fn a_skipped_block_is_found() {
     let control = Control {
@@ -193,7 +193,7 @@ fn a_skipped_block_is_found() {
     assert_eq!(axis["rests_on"], json(r#"["R2.90"]"#));
 }
 
-/// R15.21: a way that the machine did not take is found, also where only positions tell it.
+/// R15.21: a way that the machine did not take is found, even if only positions show it.
 #[test]
 fn another_way_is_found() {
     for with_lines in [true, false] {
@@ -268,7 +268,7 @@ fn no_way_fits_or_too_many() {
     );
 }
 
-/// R15.21: a dry run that an error ends is no agreement.
+/// R15.21: a dry run that ends with an error does not agree.
 #[test]
 fn a_dry_run_that_ends_early_does_not_agree() {
     let program = "N10 G1 X10 F1000\nN20 Z[COMP ON FRICT]\nN30 X20\nN40 M30\n";
@@ -286,7 +286,7 @@ fn a_dry_run_that_ends_early_does_not_agree() {
     );
 }
 
-/// R15.21: so it is with one that uses up its blocks.
+/// R15.21: nor does one that uses up its blocks.
 #[test]
 fn a_dry_run_without_an_end_does_not_agree() {
     let (status, found) = replay(CONTROL, WITHOUT_CONDITIONS, &["--max-blocks", "7"]);
@@ -294,8 +294,8 @@ fn a_dry_run_without_an_end_does_not_agree() {
     assert_eq!(found["stopped"], "FC910 at m.nc:8");
 }
 
-/// R15.22: without a state there is nothing to compare; the object to record is named. So it is with times
-/// and with what is no state.
+/// R15.22: without a state there is nothing to compare; the object to record is named. The same applies to
+/// times and to values that are not a state.
 #[test]
 fn a_recording_without_states_is_refused() {
     let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
@@ -323,7 +323,7 @@ fn a_recording_without_states_is_refused() {
     }
 }
 
-/// R15.21: what a recording cannot show is said beside an agreement: axes that it does not hold, and stretches
+/// R15.21: an agreement names what a recording cannot show: axes that it does not contain, and stretches
 /// without samples.
 #[test]
 fn an_agreement_says_what_was_not_recorded() {
@@ -337,8 +337,8 @@ fn an_agreement_says_what_was_not_recorded() {
     let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
     for words in [
         "X: agrees (2 changes)",
-        "Y: switched by the programs and not recorded; nothing is said about it",
-        "no samples for 0.700 s after 0.200 s: a change there and back is not seen",
+        "Y: switched by the programs but not recorded, so not compared",
+        "no samples for 0.700 s after 0.200 s: a change that is undone meanwhile is not seen",
     ] {
         assert!(said.contains(words), "{said}");
     }
@@ -347,7 +347,7 @@ fn an_agreement_says_what_was_not_recorded() {
     assert_eq!(found["gap"], json(r#"{"t":0.2,"seconds":0.7}"#));
 }
 
-/// R15.21: block numbers in the column of the lines are called so.
+/// R15.21: block numbers in the line column are named as such.
 #[test]
 fn block_numbers_that_stand_for_lines_are_named() {
     let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
@@ -357,7 +357,7 @@ fn block_numbers_that_stand_for_lines_are_named() {
     );
     let said = bench.stdout(&["replay", "states.csv", "m.nc"]);
     assert!(
-        said.contains("the program has no such lines, but such block numbers"),
+        said.contains("the program has no such lines, but has such block numbers"),
         "{said}"
     );
 }
@@ -376,7 +376,7 @@ fn channels_are_named_by_options() {
     assert_eq!(bench.status(&arguments), Some(0));
 }
 
-/// R15.21: without lines and positions the order alone is compared, and that is said.
+/// R15.21: without lines and positions only the order is compared, and that is reported.
 #[test]
 fn what_is_compared_by_the_order_alone_is_said() {
     let states = "t,active_X\n0,1\n0.01,0\n0.02,1\n";
@@ -403,8 +403,8 @@ fn what_is_compared_by_the_order_alone_is_said() {
     );
 }
 
-/// R15.21: the page has the verdict, each recorded state over the time, and each change with its line; it says
-/// what speaks against an agreement.
+/// R15.21: the page has the verdict, each recorded state over the time, and each change with its line; it names
+/// what contradicts an agreement.
 #[test]
 fn the_page_says_what_the_text_says() {
     let bench = Bench::new(&[("m.nc", WITHOUT_CONDITIONS)]);
@@ -421,7 +421,7 @@ fn the_page_says_what_the_text_says() {
     };
     let agrees = page(CONTROL);
     for words in [
-        "states.csv beside the dry run",
+        "states.csv compared with the dry run",
         "X: agrees (3 changes)",
         "m.nc:2",
         "inactive from ",
@@ -437,7 +437,7 @@ fn the_page_says_what_the_text_says() {
     for words in ["X: disagrees after", "rests on R1.31", "class=\"to-do\""] {
         assert!(differs.contains(words), "{words}: {differs}");
     }
-    // An output never takes the place of an input.
+    // An output never replaces an input.
     let refused = bench.status(&["replay", "states.csv", "m.nc", "--html", "states.csv"]);
     assert_eq!(refused, Some(2));
     assert!(bench.read("states.csv").starts_with("t,"));

@@ -13,7 +13,7 @@ fn caller(called: &str) -> String {
     format!("N10 X[COMP OFF FRICT]\nN20 L {called}\nN30 M30\n")
 }
 
-/// What is said on stderr.
+/// The output on stderr.
 fn talk(bench: &Bench, arguments: &[&str]) -> String {
     String::from_utf8(bench.call(arguments).stderr).expect("text")
 }
@@ -48,7 +48,7 @@ fn a_called_program_is_checked_in_its_callers() {
     // A program that ends itself is a main program, whoever calls it.
     bench.write("sub.nc", "N1 Y[COMP OFF FRICT]\nM30\n");
     assert!(talk(&bench, &["check", "."]).contains("2 files checked"));
-    // So is one that no main program comes back from.
+    // So is one from which no main program returns.
     bench.write("sub.nc", SUB);
     bench.write(
         "a.nc",
@@ -208,7 +208,7 @@ fn known_findings_are_not_listed() {
     let known = ["check", "--baseline", "known.json", "."];
     let output = bench.call(&known);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0));
-    // Errors of the control are counted even where nothing else is said.
+    // Errors of the control are counted even if nothing else is reported.
     for quiet in [&known[..], &[&known[..], &["-q"]].concat()] {
         let said = talk(&bench, quiet);
         let expected = format!(
@@ -229,11 +229,11 @@ fn known_findings_are_not_listed() {
         (&new[0]["line"], bench.status(&known)),
         (&2.into(), Some(1))
     );
-    // What is no longer there is said, also where its program is gone.
+    // Findings that are gone are reported, even if their program is gone.
     fs::remove_file(bench.folder().join("bad.nc")).expect("removed");
     assert!(talk(&bench, &known).contains("no longer there"));
     assert!(!talk(&bench, &known).contains(", 0 no longer there"));
-    // A call about other programs does not miss it.
+    // A call about other programs does not report it as missing.
     bench.write("bad.nc", "M30\n");
     assert!(talk(&bench, &["check", "--baseline", "known.json", "a.nc"]).contains(", 0 no longer"));
 }
@@ -282,7 +282,7 @@ N80 M30
     );
 }
 
-/// Main programs that call three levels deep, with findings of their own and in what they call.
+/// Main programs that call three levels deep, with findings in them and in what they call.
 fn deep_archive(programs: usize) -> (Bench, Vec<String>) {
     let bench = Bench::new(&[]);
     let mut names = Vec::new();

@@ -1,5 +1,5 @@
-//! Chapter 17 of the rules from outside: one finding a cause, one machine for both versions, axes for
-//! those programs that have them; and what a session costs (R13.12).
+//! Chapter 17 of the rules from outside: one finding per cause, one machine for both versions, axes for
+//! the programs that have them; and what a session costs (R13.12).
 
 mod folder;
 
@@ -51,7 +51,7 @@ fn a_message_in_a_called_program_is_one_message() {
             (&summary["errors"], &summary["warnings"]),
             (&1.into(), &1.into())
         );
-        // Blocks of their own have findings of their own.
+        // Separate blocks have separate findings.
         assert_eq!(of_code(&records, "FC402").len(), 5, "{lines}");
     }
 }
@@ -176,7 +176,7 @@ fn an_axis_that_a_program_only_reads_can_be_enabled() {
     assert_eq!(status("X,Z"), Some(2));
 }
 
-/// R9.28: a key outside its table is told where it belongs.
+/// R9.28: the message about a key outside its table names the right table.
 #[test]
 fn a_key_outside_its_table_is_told_its_header() {
     let bench = Bench::new(&[("p.nc", "M30\n")]);
@@ -246,7 +246,7 @@ fn both_versions_run_on_one_machine() {
 
 #[test]
 fn a_version_calls_its_own_programs_first() {
-    // R17.4: with the programs of the other version a change in them would not be seen.
+    // R17.4: with the programs of the other version, a change in them would not show.
     let bench = Bench::new(&[]);
     for (folder, sub) in [("old", SUB), ("new", "N1 G04 X1\nN2 M17\n")] {
         fs::create_dir(bench.folder().join(folder)).expect("a folder");
@@ -273,7 +273,7 @@ const CUTS: &str = "N10 X[COMP OFF FRICT]\nN20 G01 X10 F100\nN30 X22.5 Z1\nN40 G
 
 #[test]
 fn feed_moves_without_compensation_are_counted() {
-    // R13.12: rapid motion and words that move nothing do not count, nor does an axis without
+    // R13.12: rapid motion and words without motion do not count, nor does an axis without
     // P-AXIS-00522; commands act before the motion of their block.
     let bench = Bench::new(&[("p.nc", CUTS), ("q.nc", "N10 G01 X10 F100\nN20 M30\n")]);
     let shown = bench.stdout(&["run", "p.nc"]);
@@ -338,7 +338,7 @@ fn unknown_states_are_counted_apart() {
 
 #[test]
 fn motion_without_a_word_counts() {
-    // R13.12: what moves an axis by itself or through another one; homing is no feed move.
+    // R13.12: what moves an axis by itself or through another one; homing is not a feed move.
     let bench = Bench::new(&[]);
     for (blocks, cost) in [
         (

@@ -1,4 +1,4 @@
-//! Chapter 11 of the rules: where a program needs compensation.
+//! Chapter 11 of the rules: the places where a program needs compensation.
 
 #[path = "contour/driven.rs"]
 mod driven;
@@ -66,7 +66,7 @@ fn circle(turn: &str, compensation: &str) -> String {
     )
 }
 
-/// The same circle from chords of 0.25°, which the jerk of the axes lets pass at full feed; its second turn is lines 1443 to 2882.
+/// The circle made of chords of 0.25°, which the axis jerk allows at full feed; its second turn is lines 1443 to 2882.
 fn chords(turn: &str) -> String {
     let sense = if turn == "G03" { 1.0 } else { -1.0 };
     let mut text = format!(
@@ -181,7 +181,7 @@ fn rapid_motions_are_counted_apart_and_never_judged() {
         (&x["axis"], &x["rapid"], &x["cutting"]),
         (&"X".into(), &2.into(), &1.into())
     );
-    // On a straight line nothing is beside the path.
+    // On a straight line nothing deviates from the path.
     assert!(number(&found["programmed"]["max"]) < 0.01, "{found}");
 }
 
@@ -193,7 +193,7 @@ fn what_is_not_known_is_left_out_and_counted() {
     let bench = bench(program);
     let found = contour(&bench, &["--start", "X0,Y0"]);
     assert!(number(&found["time_not_of_the_machine"]) > 0.0 || number(&found["left_out"]) > 0.0);
-    // It is seen in the picture, and only where there is such a stretch.
+    // It appears in the picture only if there is such a stretch.
     let picture = |bench: &Bench| {
         bench.call(&["contour", "part.nc", "--start", "X0,Y0", "--svg", "a.svg"]);
         bench.read("a.svg")
@@ -240,7 +240,7 @@ fn a_limit_fails_the_build() {
     assert_eq!(status("5"), Some(1));
     assert_eq!(status("500"), Some(0));
     assert_eq!(status("-1"), Some(2));
-    // What was not driven is no all-clear.
+    // A stretch that was not driven is not an all-clear.
     let unknown = bench.call(&["contour", "part.nc", "--fail-above", "500", "--plane", "XZ"]);
     assert_eq!(unknown.status.code(), Some(1), "{unknown:?}");
 }
@@ -261,7 +261,7 @@ fn feed_moves_that_were_left_out_are_no_all_clear() {
 
 #[test]
 fn a_program_that_is_stopped_is_no_all_clear() {
-    // R2.60, R11.6: what follows an endless loop is never driven, and both commands say so.
+    // R2.60, R11.6: what follows an endless loop is never driven, and both commands report it.
     let bench = bench("G00 X0 Y0\nG01 X10 F2000\n$WHILE 1 == 1\nG04 1\n$ENDWHILE\nX50\nM30\n");
     let contour = [
         "contour",
@@ -353,7 +353,7 @@ fn the_picture_rings_what_is_not_compensated() {
         ];
         assert_eq!(bench.call(&arguments).status.code(), Some(0));
         let picture = bench.read("a.svg");
-        // One ring stands in the legend.
+        // One ring is in the legend.
         assert_eq!(picture.matches("fc-outline\" cx").count() > 1, rings);
         assert!(picture.contains(">line 5: "), "{picture}");
         let page = bench.read("a.html");
@@ -384,7 +384,7 @@ fn each_mark_leads_to_its_line_and_each_line_shows_its_reversals() {
         line.contains("X: 2 reversals, ") && line.contains("2 without compensation"),
         "{line}"
     );
-    // Alone, a picture has nowhere to lead.
+    // A picture on its own has no link targets.
     assert!(!bench.read("a.svg").contains("href="));
 }
 

@@ -60,7 +60,7 @@ fn talk(bench: &Bench, arguments: &[&str]) -> String {
     String::from_utf8(bench.call(arguments).stderr).expect("text")
 }
 
-/// How many programs `check --changed` takes, and the codes that it finds.
+/// The number of programs that `check --changed` checks, and the codes that it finds.
 fn changed(bench: &Bench, arguments: &[&str]) -> (String, Vec<String>) {
     let all = [&["check", "--format", "ndjson", "--changed"], arguments].concat();
     let output = bench.call(&all);
@@ -118,10 +118,10 @@ fn only_what_reaches_a_change_is_checked() {
         "4 of 5 programs differ from `HEAD` or reach one that does"
     );
     assert_eq!(codes, ["FC401"]);
-    // A revision is not needed, and a first path is none.
+    // A revision is not required, and a first path is not one.
     assert_eq!(changed(&bench, &[]).1, ["FC401"]);
     assert_eq!(changed(&bench, &["."]).1, ["FC401"]);
-    // Programs that git does not know yet count.
+    // Programs that git does not track yet count.
     commit(&bench);
     bench.write("new.nc", "N10 Y[COMP OFF FRICT]\nN20 M30\n");
     let (said, codes) = changed(&bench, &["HEAD", "."]);
@@ -219,7 +219,7 @@ fn new_and_deleted_programs_are_compared_with_nothing() {
         shown.contains(&"HEAD:alone.nc /dev/null different".to_owned()),
         "{shown:?}"
     );
-    // Callers of what is gone reach the change.
+    // Callers of a removed program reach the change.
     assert!(
         shown.iter().any(|it| it.starts_with("HEAD:a.nc a.nc ")),
         "{shown:?}"
@@ -373,7 +373,7 @@ fn a_renamed_program_concerns_those_that_call_its_old_name() {
     let (said, codes) = changed(&bench, &["HEAD", "."]);
     assert!(said.starts_with("4 of 5 programs"), "{said}");
     assert_eq!(codes, ["FC320", "FC320"]);
-    // The callers follow: nothing switches otherwise.
+    // The callers follow: nothing switches differently.
     bench.write("a.nc", &caller("part.nc"));
     bench.write("b.nc", "N1 L part.nc\nM17\n");
     let shown = compared(&bench, &["--git", "HEAD"]);
@@ -382,7 +382,7 @@ fn a_renamed_program_concerns_those_that_call_its_old_name() {
         "{shown:?}"
     );
     assert!(shown.iter().all(|it| it.ends_with(" same")), "{shown:?}");
-    // The control does not tell the cases apart.
+    // The control does not distinguish the cases.
     commit(&bench);
     git(&bench, &["mv", "part.nc", "PART.NC"]);
     assert_eq!(changed(&bench, &["HEAD", "."]).1, [""; 0]);

@@ -1,4 +1,4 @@
-//! Chapter 10 of the rules: what the order of programs does.
+//! Chapter 10 of the rules: the effect of the order of programs.
 
 #[path = "order/archives.rs"]
 mod archives;
@@ -370,7 +370,7 @@ fn the_block_stands_where_every_way_comes_by() {
 
 #[test]
 fn nothing_is_written_that_cannot_be_undone() {
-    // R10.3: what no block mends stays, and is said; what is refused writes nothing.
+    // R10.3: what no block corrects remains and is reported; a refusal writes nothing.
     let error = "X1\nX[COMP OFF FRICT]\nM30\n";
     let bench = bench(&[("a.nc", error)]);
     for arguments in [

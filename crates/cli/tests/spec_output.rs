@@ -47,7 +47,7 @@ fn records_have_their_keys_in_order() {
         r#"{"record":"summary","programs":1,"blocks":3,"errors":1,"warnings":1,"opaque":{},"#;
     let rests_on = r#""rests_on":[{"rule":"R1.28","reading":"kept","meaning":"a reset keeps the state","basis":"assumed"}],"#;
     assert_eq!(lines[8], format!("{summary}{rests_on}{left}"));
-    // The same as one document.
+    // The records as one document.
     let document = json(&bench.stdout(&["run", "--keep-going", "--format", "json", "a.nc"]));
     assert!(document.to_string().contains("P-ERR-70495"));
 }
@@ -259,7 +259,7 @@ fn comments_allow_a_lint_and_no_error() {
 
 #[test]
 fn a_remark_in_a_loop_is_made_once_and_counted() {
-    // R9.10 R9.13: FC402 once a place, with how often it came true.
+    // R9.10 R9.13: FC402 once per place, with the number of its occurrences.
     let program = "P1 = 0\n$WHILE P1 < 5\nX[COMP ON FRICT]\nP1 = P1 + 1\n$ENDWHILE\nM30\n";
     let bench = Bench::new(&[("a.nc", program)]);
     let text = bench.stdout(&["run", "a.nc"]);
@@ -314,7 +314,7 @@ fn check_has_six_formats() {
 
 #[test]
 fn the_fingerprints_of_gitlab_outlive_a_change_above() {
-    // R13.6: the same message twice is two fingerprints, and a line more above changes neither.
+    // R13.6: a message that occurs twice has two fingerprints, and an additional line above changes neither.
     let fingerprints = |text: &str| -> Vec<String> {
         let bench = Bench::new(&[("a.nc", text)]);
         let report = json(&bench.stdout(&["check", "--format", "gitlab", "a.nc"]));

@@ -1,4 +1,4 @@
-//! The JSON schemas of `frictcomp.toml` and of plant files, held to the reader (R17.6).
+//! The JSON schemas of `frictcomp.toml` and of plant files, checked against the reader (R17.6).
 
 #[path = "workspace/files.rs"]
 mod files;
@@ -41,7 +41,7 @@ fn is_plant(text: &str) -> bool {
     Plant::from_toml(SourceFile::new("plant.toml", text)).is_ok()
 }
 
-/// The files of TOML that programs and documents bring.
+/// The TOML files of programs and documents.
 fn configurations() -> Vec<PathBuf> {
     let mut found = files("programs", &["toml"]);
     found.extend(files("docs", &["toml"]));
@@ -147,7 +147,7 @@ fn a_wrong_value_is_refused_by_both() {
             let text = text.join("\n");
             let (is_read, fits) = (is_configuration(&text), fits(&validator, &text));
             refused += usize::from(!is_read);
-            // Some texts only the reader can judge: names, builds, severities of codes.
+            // Only the reader can judge some texts: names, builds, severities of codes.
             let is_text = value.contains('"');
             assert!(
                 is_read == fits || (fits && is_text),

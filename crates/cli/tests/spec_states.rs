@@ -1,4 +1,4 @@
-//! States across programs: the lints on use, the state file, what is said where no machine is
+//! States across programs: the lints on use, the state file, the messages if no machine is
 //! described.
 
 mod folder;

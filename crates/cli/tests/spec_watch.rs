@@ -1,4 +1,4 @@
-//! Chapter 17 of the rules while somebody works: again after each save (R17.5).
+//! Chapter 17 of the rules while a user works: checks after each save (R17.5).
 
 mod folder;
 
@@ -12,7 +12,7 @@ use folder::Bench;
 /// Longer than a check takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Long enough for what should not come.
+/// Long enough for output that should not appear.
 const QUIET: Duration = Duration::from_secs(1);
 
 /// The tool while it watches.
@@ -48,7 +48,7 @@ impl Watching {
         watching
     }
 
-    /// Waits until everything is said and the next save is awaited.
+    /// Waits until the output is complete and the next save is awaited.
     fn settle(&self) {
         loop {
             let line = self.said.recv_timeout(PATIENCE).expect("it goes on");
@@ -94,7 +94,7 @@ fn a_save_checks_what_it_reaches() {
     let second = watching.printed();
     assert_eq!(second.len(), 1, "{second:?}");
     assert!(second[0].starts_with("sub.nc:1:") && second[0].ends_with("(reached from a.nc)"));
-    // A file that is no program, a list or a configuration says nothing.
+    // A file that is not a program, list or configuration causes no output.
     bench.write("notes.txt", "x");
     assert_eq!(watching.printed(), [""; 0]);
     // A mistake in the configuration does not end it.

@@ -1,7 +1,7 @@
-//! Nothing is lost whatever happens: full disks, closed pipes, killed runs, damaged files, old
-//! encodings. `docs/reliability.md` says what is promised.
+//! Nothing is lost, whatever happens: full disks, closed pipes, killed runs, damaged files, old
+//! encodings. `docs/reliability.md` lists the promises.
 //!
-//! What takes minutes is ignored: `cargo test --release --test unbreakable -- --ignored`.
+//! Tests that take minutes are ignored: `cargo test --release --test unbreakable -- --ignored`.
 
 #![allow(clippy::print_stderr, reason = "figures, and what a system cannot try")]
 

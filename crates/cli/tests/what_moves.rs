@@ -1,4 +1,4 @@
-//! What moves an axis (R10.7), and what follows from it: hazards, cures, program ends.
+//! The motion of an axis (R10.7), and its consequences: hazards, cures, program ends.
 
 mod folder;
 
@@ -347,7 +347,7 @@ fn a_command_between_two_moves_in_one_direction_is_said() {
     let last = "N90 X[COMP ON FRICT]\nM30\n";
     for (between, said_at) in [
         ("N40 X[COMP OFF FRICT]\nN50 X20\n", Some(4)),
-        // An arc that goes on as the line did, and one that turns X round.
+        // An arc that continues like the line, and one that reverses X.
         ("N40 X[COMP OFF FRICT]\nN50 G03 X20 Y10 I0 J10\n", Some(4)),
         ("N40 X[COMP OFF FRICT]\nN50 G02 X10 Y20 I0 J10\n", None),
         (

@@ -9,7 +9,7 @@ use std::process::Command;
 use unicode_width::UnicodeWidthStr;
 use workspace::root;
 
-/// What a command prints on both channels at a width.
+/// The output of a command on both channels at a width.
 fn said(width: usize, arguments: &[&str]) -> [String; 2] {
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
         .args(arguments)
@@ -20,7 +20,7 @@ fn said(width: usize, arguments: &[&str]) -> [String; 2] {
     [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
 }
 
-/// What a command prints as its result at a width.
+/// The result of a command at a width.
 fn printed(width: usize, arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
         .args(arguments)
@@ -32,7 +32,7 @@ fn printed(width: usize, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The columns that a line cannot do without: its indent or what leads it, and its longest word.
+/// The minimum columns of a line: its indent or prefix, and its longest word.
 fn least(line: &str) -> usize {
     let longest = line
         .split([' ', '\u{a0}'])

@@ -1,5 +1,5 @@
-//! What users on Windows rely on. Most of it is the same on every system and tried on each; what only
-//! Windows has is tried there, by `scripts/windows-test` under Wine.
+//! The features that users on Windows rely on. Most are the same on every system and tested on each; those
+//! specific to Windows are tested there, by `scripts/windows-test` under Wine.
 
 use std::fs;
 use std::path::MAIN_SEPARATOR_STR as SEPARATOR;
@@ -113,7 +113,7 @@ fn texts_of_notepad_and_powershell_are_read() {
     }
 }
 
-/// What is said about a program on standard input that is refused.
+/// The message about a refused program on standard input.
 fn piped(bench: &Bench, text: &[u8]) -> String {
     use std::io::Write;
     let mut command = bench.command(&["check", "-"]);
@@ -131,7 +131,7 @@ fn piped(bench: &Bench, text: &[u8]) -> String {
 
 #[test]
 fn long_paths_are_read_and_written() {
-    // R13.1: Windows has a limit of 260 characters, which need not be met.
+    // R13.1: Windows has a limit of 260 characters, which need not be respected.
     let bench = Bench::new(&[]);
     let long = ["a".repeat(90), "b".repeat(90), "c".repeat(90)].join("/");
     let folder = bench.folder().canonicalize().expect("a folder").join(&long);
@@ -225,7 +225,7 @@ mod only {
         assert_eq!(bench.status(&["check", "*.mpf"]), Some(2));
     }
 
-    /// Who has a file open on Windows keeps it from being read or replaced.
+    /// A program that has a file open on Windows prevents it from being read or replaced.
     #[test]
     fn a_file_that_another_program_has_open_is_named_and_kept() {
         // R13.1

@@ -1,7 +1,7 @@
-//! What ENI and ESI files say about the torque interfaces of drives.
+//! Reads what ENI and ESI files say about the torque interfaces of drives.
 //!
-//! In goes the text of a file; out come the [`Network`](frictcomp::drive_interface::Network) of an ENI
-//! or the [`Device`](frictcomp::drive_interface::Device)s of an ESI, by which
+//! It takes the text of a file and returns the [`Network`](frictcomp::drive_interface::Network) of an ENI
+//! file or the [`Device`](frictcomp::drive_interface::Device)s of an ESI file, from which
 //! [`check_drive`](frictcomp::drive_interface::check_drive) judges whether the torque reaches the drive.
 //!
 //! ```

@@ -1,5 +1,5 @@
 //! ENI and ESI files: what their devices map, found while the file is read element by element
-//! (R7.3, R7.4). No entity is expanded but those of XML itself, and a document type is refused.
+//! (R7.3, R7.4). Only the entities of XML itself are expanded; a document type is refused.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -14,19 +14,19 @@ use frictcomp::drive_interface::{Device, Network, NetworkObject, Protocol, Slave
 use frictcomp::drive_interface::{Signal, channel};
 use frictcomp::text::SourceFile;
 
-/// Elements within each other; the published structures have fewer than twenty.
+/// Limit for nested elements; the published structures have fewer than twenty levels.
 const MOST_NESTED: usize = 64;
 
-/// Characters of a name that are kept.
+/// Number of characters kept of a name.
 const MOST_NAME: usize = 200;
 
-/// `CANopen` objects that only drives have, for the first axis: control word, status word, and the
+/// `CANopen` objects that only drives have, for the first axis: control word, status word, and
 /// target and actual values of position, velocity and torque.
 const OF_DRIVES: [u16; 8] = [
     0x6040, 0x6041, 0x6064, 0x606C, 0x6071, 0x6077, 0x607A, 0x60FF,
 ];
 
-/// Why a description of a network or of devices is not read.
+/// Why a description of a network or of devices cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}:{line}: {reason}")]
 #[non_exhaustive]
@@ -42,7 +42,7 @@ pub struct XmlError {
 /// Reads the network information of an `EtherCAT` master, an ENI file.
 ///
 /// # Errors
-/// It is no well-formed XML, has a document type, or is no ENI file.
+/// The file is not well-formed XML, has a document type, or is not an ENI file.
 pub fn read_network(source: &SourceFile) -> Result<Network, XmlError> {
     let mut slaves = Vec::new();
     read(source, "EtherCATConfig", &mut |item| {
@@ -57,7 +57,7 @@ pub fn read_network(source: &SourceFile) -> Result<Network, XmlError> {
 /// Reads the devices and modules of an `EtherCAT` device description, an ESI file.
 ///
 /// # Errors
-/// It is no well-formed XML, has a document type, or is no ESI file.
+/// The file is not well-formed XML, has a document type, or is not an ESI file.
 pub fn read_devices(source: &SourceFile) -> Result<Vec<Device>, XmlError> {
     let mut devices = Vec::new();
     read(source, "EtherCATInfo", &mut |item| {
@@ -115,7 +115,7 @@ impl OpenDevice {
         pdo.has_sync_manager || self.assigned.contains(&pdo.index)
     }
 
-    /// The torque values in these process data objects.
+    /// Returns the torque values mapped in these process data objects.
     fn mapped<'a>(&'a self, pdos: impl Iterator<Item = &'a Pdo>) -> Vec<NetworkObject> {
         let mut mapped = Vec::new();
         for pdo in pdos {
@@ -232,12 +232,12 @@ impl OpenDevice {
     }
 }
 
-/// The axis of a SERCOS device whose telegram this is: those of further axes lie 1000h higher.
+/// Returns the axis that a SERCOS telegram belongs to: those of further axes lie 1000h higher.
 fn soe_channel(pdo: u16) -> u8 {
     u8::try_from(pdo >> 12).map_or(1, |above| above + 1)
 }
 
-/// An element that is open, with the texts and the children that it had so far.
+/// An open element, with the texts and children read so far.
 struct Open {
     name: String,
     number: u32,
@@ -246,7 +246,7 @@ struct Open {
     line: u32,
 }
 
-/// The elements that are open, from the root on.
+/// The open elements, from the root on.
 #[derive(Default)]
 struct Path(Vec<Open>);
 
@@ -255,7 +255,7 @@ impl Path {
         self.0.iter().map(|open| open.name.as_str()).collect()
     }
 
-    /// The path of the innermost element, or of the one around it, in the manner of `XPath`.
+    /// Returns the path of the innermost element, or of its parent, in the manner of `XPath`.
     fn shown(&self, without: usize) -> String {
         let step = |open: &Open| match open.number {
             0 => open.name.clone(),
@@ -282,7 +282,7 @@ impl Path {
     }
 }
 
-/// Returns the rest of the path below a device, where one is open.
+/// Returns the rest of the path below a device, if one is open.
 fn below<'a>(names: &'a [&'a str]) -> Option<&'a [&'a str]> {
     ITEMS.iter().find_map(|item| names.strip_prefix(*item))
 }
@@ -407,7 +407,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The file ends.
+    /// Checks that no element is open at the end of the file.
     fn end(&self) -> Result<(), String> {
         match self.path.0.last() {
             Some(open) => Err(format!("the file ends inside `<{}>`", open.name)),
@@ -417,7 +417,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Returns the message on a file with another outermost element.
+/// Returns the message for a file with another outermost element.
 fn other_root(name: &str, wanted: &str) -> String {
     let what = match name {
         "EtherCATConfig" => "network information (ENI)",
@@ -432,7 +432,7 @@ fn attribute(start: &BytesStart<'_>, name: &str) -> Option<String> {
     Some(attribute.value.to_string())
 }
 
-/// A number as these files write it: `#x60b2`, `0x60b2` or decimal.
+/// Parses a number as these files write it: `#x60b2`, `0x60b2` or decimal.
 fn number(text: &str) -> Option<u32> {
     let hex = ["#x", "#X", "0x", "0X"]
         .iter()

@@ -1,4 +1,4 @@
-//! The debug adapter over its protocol: scripted sessions, and clients that keep to nothing.
+//! The debug adapter over its protocol: scripted sessions, and clients that break the protocol.
 
 #[path = "dap/breakpoints.rs"]
 mod breakpoints;
@@ -77,7 +77,7 @@ impl Client {
         }
     }
 
-    /// The same, for a request that is granted.
+    /// Sends a request that must succeed, and gives its answer.
     fn granted(&mut self, command: &str, arguments: &Value) -> Value {
         let mut answer = self.ask(command, arguments);
         assert_eq!(answer["success"], true, "{answer}");
@@ -101,7 +101,7 @@ impl Client {
         Some(serde_json::from_slice(&body).expect("JSON"))
     }
 
-    /// The next event of a kind; the others before it are passed over.
+    /// The next event of a kind; the others before it are dropped.
     fn event(&mut self, kind: &str) -> Value {
         loop {
             let message = if self.events.is_empty() {
@@ -129,7 +129,7 @@ impl Client {
         assert_eq!(self.event("stopped")["reason"], "entry");
     }
 
-    /// Goes on, and gives why and before which line the run stopped.
+    /// Continues, and gives the reason for the stop and the line of the next block.
     fn go(&mut self, command: &str) -> (String, u64) {
         self.granted(command, &json!({ "threadId": 1 }));
         let stopped = self.event("stopped");
@@ -295,7 +295,7 @@ fn a_value_that_only_the_machine_knows_can_be_set_where_it_is_read() {
     let refused = client.ask("setVariable", &wrong);
     assert_eq!(
         refused["message"],
-        "`three` is no number and no text in quotes"
+        "`three` is not a number or a text in quotes"
     );
     let set = json!({ "variablesReference": 2, "name": "V.E.PART", "value": "3" });
     assert_eq!(client.granted("setVariable", &set)["value"], "3");
@@ -438,7 +438,7 @@ fn expressions_are_computed_and_a_called_program_shows_its_parameters() {
         "unknown, from V.E.PART"
     );
     let refused = value("P1*");
-    assert_eq!(refused["message"], "`P1*` is no expression");
+    assert_eq!(refused["message"], "`P1*` is not an expression");
     assert!(
         value("P8 + 1")["message"]
             .as_str()

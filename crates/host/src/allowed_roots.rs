@@ -1,4 +1,4 @@
-//! The folders that programs and lists are expected in, and what is kept back about files elsewhere.
+//! The folders that programs and lists are expected in, and what is withheld about files elsewhere.
 
 use std::path::{Path, PathBuf};
 
@@ -13,16 +13,16 @@ pub enum OutsidePolicy {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
-    /// They are as good as any other.
+    /// They are treated like any other file.
     Allowed,
 }
 
 /// Folders, each with everything below it.
 #[derive(Debug, Clone, Default)]
 pub struct AllowedRoots {
-    /// As they are named, from the root on.
+    /// The folders as named, from the root on.
     named: Vec<PathBuf>,
-    /// With all links resolved.
+    /// The folders with all links resolved.
     real: Vec<PathBuf>,
     outside_policy: OutsidePolicy,
     /// Disk of the folders.
@@ -30,12 +30,12 @@ pub struct AllowedRoots {
 }
 
 impl AllowedRoots {
-    /// No folder yet.
+    /// Creates an empty set of folders.
     pub fn new(outside_policy: OutsidePolicy) -> Self {
         Self::on(&Disk::default(), outside_policy)
     }
 
-    /// The same on another disk than that of the system.
+    /// Creates an empty set of folders on a disk other than the system's.
     pub fn on(disk: &Disk, outside_policy: OutsidePolicy) -> Self {
         Self {
             outside_policy,
@@ -44,7 +44,7 @@ impl AllowedRoots {
         }
     }
 
-    /// The same with one more folder; an empty path is the current one.
+    /// Adds a folder; an empty path is the current one.
     pub fn with(mut self, folder: &Path) -> Self {
         let named = self.disk.absolute(folder);
         self.named.extend(named.map(|path| folded(&path)));
@@ -52,8 +52,8 @@ impl AllowedRoots {
         self
     }
 
-    /// Whether a file may lie here by its name alone. Nothing is looked up for it: a look at a
-    /// network share signs in there, and whether a file exists elsewhere is no one's business.
+    /// Whether a file may lie here, judged by its name alone. Nothing is looked up: a look at a network
+    /// share would sign in there, and whether a file exists elsewhere must not be disclosed.
     pub fn may_hold(&self, path: &Path) -> bool {
         if self.outside_policy == OutsidePolicy::Allowed {
             return true;
@@ -75,7 +75,7 @@ impl AllowedRoots {
                 .is_ok_and(|path| self.real.iter().any(|root| path.starts_with(root)))
     }
 
-    /// Takes out of diagnostics what they show of files elsewhere; place and code stay.
+    /// Removes from diagnostics what they show of files elsewhere; place and code stay.
     pub fn conceal(&self, diagnostics: &mut [Diagnostic]) {
         for diagnostic in diagnostics {
             let is_elsewhere =
@@ -102,7 +102,7 @@ impl AllowedRoots {
     }
 }
 
-/// Leaves a place's line and column and nothing to read.
+/// Keeps a place's line and column, but blanks its text.
 fn blank(place: &mut Place) {
     let text = place.text.char_indices();
     // As many bytes as before, so that the span keeps its place.
@@ -115,7 +115,7 @@ fn blank(place: &mut Place) {
     place.text = blank.into();
 }
 
-/// Returns a path in the form in which paths are compared: Windows ignores case.
+/// Returns a path in the form used for comparison: Windows ignores case.
 fn folded(path: &Path) -> PathBuf {
     match path.to_str() {
         Some(text) if cfg!(windows) => {

@@ -1,4 +1,4 @@
-//! Axes on which friction compensation is assumed because the user says so (R9.74, R17.7).
+//! Axes on which friction compensation is assumed at the user's request (R9.74, R17.7).
 
 use super::axes_ahead::{AxesAhead, may_be_axis};
 use super::error::HostError;
@@ -24,7 +24,7 @@ impl AxesOfPrograms {
         }
     }
 
-    /// Looks over programs whose machine is not described for the usual axes and further names.
+    /// Looks through programs whose machine is not described, for the usual axes and further names.
     pub(super) fn look<'a>(
         &mut self,
         inputs: impl IntoIterator<Item = &'a Input>,
@@ -33,7 +33,7 @@ impl AxesOfPrograms {
         self.ahead = AxesAhead::of(inputs, names);
     }
 
-    /// Programs of other runs name the usual axes, and those of an earlier one.
+    /// Allows for programs of other runs, which name the usual axes and those of an earlier run.
     pub(super) fn expect_more(&mut self, left: Vec<String>) {
         self.ahead.expect_more(left);
     }
@@ -45,7 +45,7 @@ impl AxesOfPrograms {
 }
 
 /// Assumes friction compensation on the axes that the user names, and returns those that the machine
-/// has. An axis that only other programs have is none of this machine.
+/// has. An axis that only other programs have does not belong to this machine.
 ///
 /// # Errors
 /// A name that no axis can have, or that no program has.
@@ -74,7 +74,7 @@ pub(super) fn assume_axes<'a>(
 }
 
 /// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
-/// pipes may name axes that cannot be seen ahead.
+/// pipes may name axes that cannot be known in advance.
 fn check_occurs(name: &str, programs: Option<&AxesOfPrograms>) -> Result<(), HostError> {
     let may_occur = match programs {
         Some(programs) if programs.may_hold(name) => true,

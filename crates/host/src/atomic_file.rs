@@ -1,5 +1,5 @@
-//! Files that are replaced in one step: whether the tool is killed or the disk is full, the old or
-//! the new file is there, whole.
+//! Files that are replaced in one step: if the tool is killed or the disk is full, the old or
+//! the new file is there, complete.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, Metadata};
@@ -27,8 +27,8 @@ const MOST_HELD: usize = 200;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
 
-/// A locked file that is written to its end. As long as it is open, other runs do not take what it
-/// locks for something that was left.
+/// A locked file that is completely written. While it is open, other runs do not mistake what it
+/// locks for a leftover.
 #[derive(Debug)]
 struct Held(#[allow(dead_code, reason = "it is there to be dropped")] File);
 
@@ -48,7 +48,7 @@ impl Drop for Held {
     }
 }
 
-/// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
+/// A file that is written next to the old one. Dropped before [`take_place`](Self::take_place), it
 /// leaves the old one as it was.
 #[derive(Debug)]
 pub(super) struct AtomicFile {
@@ -58,19 +58,19 @@ pub(super) struct AtomicFile {
 
 #[derive(Debug)]
 enum FileStage {
-    /// More may come. The file is locked, so that other runs know that it is being written.
+    /// More data may follow. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
-    /// It lies on the disk, and many may wait for each other: most of them are locked still.
+    /// It is on the disk. Many files may wait for each other; most of them stay locked.
     Synced(TempPath, Option<Held>),
     /// It has taken its place.
     Done,
 }
 
 impl AtomicFile {
-    /// Begins a file beside the old one. It keeps the rights of the old one; a link stays a link.
+    /// Begins a file next to the old one. It keeps the permissions of the old one; a link stays a link.
     ///
     /// # Errors
-    /// The old file may not be written or is a link to nothing, or there can be no new one.
+    /// The old file may not be written or is a link to nothing, or no new one can be created.
     pub(super) fn begin(path: &Path) -> io::Result<Self> {
         let target = target(path)?;
         let file = create(folder(&target))?;
@@ -83,7 +83,7 @@ impl AtomicFile {
         })
     }
 
-    /// Everything is written: it goes to the disk.
+    /// Flushes the finished file to the disk.
     ///
     /// # Errors
     /// It cannot be written to the disk.
@@ -102,7 +102,7 @@ impl AtomicFile {
         Ok(())
     }
 
-    /// Whether the old file can be replaced, as far as that is known before.
+    /// Checks beforehand, to the extent possible, that the old file can be replaced.
     ///
     /// # Errors
     /// Another program has it open.
@@ -110,7 +110,7 @@ impl AtomicFile {
         check_replaceable(&self.target)
     }
 
-    /// The file takes the old one's place.
+    /// Replaces the old file.
     ///
     /// # Errors
     /// It cannot be written, or moved.
@@ -118,7 +118,7 @@ impl AtomicFile {
         self.place(|file, target| file.persist(target))
     }
 
-    /// The file takes a place where there is none; one that is there by now stays.
+    /// Moves the file to a free place; a file that is there by now stays.
     ///
     /// # Errors
     /// It cannot be written, or the place is taken.
@@ -156,10 +156,10 @@ impl AtomicFile {
 pub(super) struct Placed(BTreeMap<PathBuf, Vec<PathBuf>>);
 
 impl Placed {
-    /// A file takes its place, under the name that the user gave it.
+    /// Moves a file to its place, under the name that the user gave it.
     ///
     /// # Errors
-    /// It cannot be written; the error names the files that took theirs before (R9.95).
+    /// It cannot be written; the error names the files already in place (R9.95).
     pub(super) fn take_place(
         &mut self,
         file: &mut AtomicFile,
@@ -179,16 +179,16 @@ impl Placed {
         Ok(())
     }
 
-    /// Notes a file, under the name that the user gave it.
+    /// Records a file under the name that the user gave it.
     pub(super) fn add(&mut self, file: &AtomicFile, path: &Path) {
         let folder = folder(&file.target).to_owned();
         self.0.entry(folder).or_default().push(path.to_owned());
     }
 
-    /// Brings the new names to the disk, so that the files keep their place when the power fails.
+    /// Flushes the new names to the disk, so that the files stay in place when the power fails.
     ///
     /// # Errors
-    /// The disk fails. The files are in their place all the same.
+    /// The disk fails. The files are in place nevertheless.
     pub(super) fn settle(self) -> Result<(), HostError> {
         for (folder, files) in self.0 {
             settle(&folder).map_err(|reason| HostError::Unsettled { files, reason })?;
@@ -197,7 +197,7 @@ impl Placed {
     }
 }
 
-/// A folder that may not be read, or a file system that has nothing of the kind, is no failure.
+/// Flushes a folder. One that may not be read, or a file system without this call, is not an error.
 #[cfg(unix)]
 fn settle(folder: &Path) -> io::Result<()> {
     let Ok(file) = File::open(folder) else {
@@ -222,7 +222,7 @@ impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.stage {
             FileStage::Open(file) => file.write(bytes),
-            FileStage::Synced(..) | FileStage::Done => Err(io::Error::other("it is whole already")),
+            FileStage::Synced(..) | FileStage::Done => Err(io::Error::other("it is complete")),
         }
     }
 
@@ -247,7 +247,7 @@ impl Drop for AtomicFile {
     }
 }
 
-/// The file that a path names, with links followed. It may be missing, a link to nothing may not.
+/// Returns the file that a path names, with links followed. It may be missing, a link to nothing may not.
 ///
 /// # Errors
 /// It may not be written.
@@ -278,14 +278,14 @@ pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
     Ok(target)
 }
 
-/// The place of a file that is no link. On Windows a path from the root on may be longer than others.
+/// Returns the place of a file that is not a link. On Windows an absolute path may be longer than others.
 fn place(path: &Path) -> PathBuf {
     let whole = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
     let whole = if cfg!(windows) { whole() } else { None };
     whole.unwrap_or_else(|| path.to_owned())
 }
 
-/// A new file in a folder, which is not taken for one that was left.
+/// Creates a file in a folder that no run takes for a leftover.
 fn create(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX).rand_bytes(LETTERS);
@@ -307,8 +307,8 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
     Err(io::Error::other("other runs delete every new file"))
 }
 
-/// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a
-/// run that lives is locked.
+/// Removes what killed runs of the same user left in the folder of a file. The unfinished file of a
+/// live run is locked.
 pub(super) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) {
     let folder = folder(&beside.target);
     let FileStage::Open(own) = &beside.stage else {
@@ -331,13 +331,13 @@ pub(super) fn take_away_left(beside: &AtomicFile, seen: &mut BTreeSet<PathBuf>) 
             && let Ok(file) = File::open(entry.path())
             && file.try_lock().is_ok()
         {
-            // What cannot be removed does no harm.
+            // A file that cannot be removed does no harm.
             let _ = std::fs::remove_file(entry.path());
         }
     }
 }
 
-/// Whether a name is one that [`create`] gives, to the letter.
+/// Whether a name has exactly the form that [`create`] gives.
 fn is_unfinished(name: &str) -> bool {
     name.strip_prefix(PREFIX)
         .and_then(|rest| rest.strip_suffix(SUFFIX))
@@ -413,7 +413,7 @@ mod tests {
         assert!(!path(left).exists());
         assert!(others.iter().all(|name| path(name).exists()));
         for mut file in [alive, mine] {
-            // What waits for others to be whole lives, too.
+            // A file that is complete and waits for others stays, too.
             file.sync().unwrap();
             let other = AtomicFile::begin(&path("other")).unwrap();
             take_away_left(&other, &mut BTreeSet::new());

@@ -1,4 +1,4 @@
-//! Programs of the disk, audited (chapter 10).
+//! Audits of programs on the disk (chapter 10).
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -17,7 +17,7 @@ use frictcomp::comp::{Kind, KindSet};
 use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
 use frictcomp::text::SourceFile;
 
-/// Blocks between two looks at the clock.
+/// Number of blocks between two looks at the clock.
 const STEP: u64 = 1 << 14;
 
 /// Options of an audit.
@@ -33,29 +33,29 @@ pub struct AuditOptions {
 }
 
 impl AuditOptions {
-    /// Programs that run in this way, on all processors, with an eye on friction compensation.
+    /// Creates the options of an audit on all processors that looks at friction compensation.
     pub fn new(run: Options) -> Self {
         Self {
-            // Its own runs tell the states apart that programs find.
+            // Its own runs distinguish the states in which programs start.
             run,
             kinds: KindSet::of(Kind::Frict),
             workers: processors(),
         }
     }
 
-    /// The same with other [`kinds`](Self::kinds).
+    /// Sets the [`kinds`](Self::kinds).
     pub fn with_kinds(self, kinds: KindSet) -> Self {
         Self { kinds, ..self }
     }
 
-    /// The same with another number of [`workers`](Self::workers).
+    /// Sets the number of [`workers`](Self::workers).
     pub fn with_workers(self, workers: NonZeroUsize) -> Self {
         Self { workers, ..self }
     }
 }
 
-/// Audits programs of the disk, each on the machine of its folder. What cannot be read is left out
-/// and told.
+/// Audits programs on the disk, each on the machine of its folder. What cannot be read is left out
+/// and reported.
 pub struct ArchiveAuditor {
     machines: Vec<Arc<LoadedMachine>>,
     /// The programs, each with the position of its machine.
@@ -70,7 +70,7 @@ pub(super) struct ProgramAuditor<'a> {
 }
 
 impl ArchiveAuditor {
-    /// Finds the machine of each program; what keeps a program from having one is returned, too.
+    /// Finds the machine of each program; also returns why a program has none.
     pub fn new(
         inputs: Vec<Input>,
         machines: &mut Machines,
@@ -104,12 +104,12 @@ impl ArchiveAuditor {
             })
     }
 
-    /// The machines of the programs, in the order in which they come up.
+    /// Returns the machines of the programs, in the order in which they were found.
     pub fn machines(&self) -> &[Arc<LoadedMachine>] {
         &self.machines
     }
 
-    /// The programs, each with the position of its machine.
+    /// Returns the programs, each with the position of its machine.
     pub fn programs(&self) -> &[(Input, usize)] {
         &self.programs
     }
@@ -126,7 +126,7 @@ impl ArchiveAuditor {
         self.options.workers.min(most)
     }
 
-    /// `Break` where the watcher stops the work.
+    /// Returns `Break` where the watcher stops the work.
     pub(super) fn flow(&self) -> ControlFlow<()> {
         if self.machines.iter().any(|it| it.watch.is_stopped()) {
             return ControlFlow::Break(());
@@ -134,7 +134,7 @@ impl ArchiveAuditor {
         ControlFlow::Continue(())
     }
 
-    /// Runs every program twice, and those again that ask for what others leave in variables (R2.34). Gives the
+    /// Runs every program twice, and those again that depend on what others leave in variables (R2.34). Returns the
     /// archive of each machine, and what cannot be read.
     pub fn audit(&self) -> (Vec<Archive>, Vec<HostError>) {
         let auditors = self.auditors();
@@ -200,7 +200,7 @@ impl ArchiveAuditor {
         }
     }
 
-    /// Runs the programs one after another in their order, each machine from the start of its control.
+    /// Runs the programs in their order, each machine from the start of its control.
     pub fn follow(&self) -> (Vec<Step>, Vec<HostError>) {
         let auditors = self.auditors();
         let mut sequences: Vec<Sequence<'_>> = auditors
@@ -221,7 +221,7 @@ impl ArchiveAuditor {
     }
 }
 
-/// The programs of archives that are to be run again, each with its archive.
+/// Returns the programs of archives that have to be run again, each with its archive.
 fn unsettled(archives: &[Archive]) -> Vec<(usize, usize)> {
     let archives = archives.iter().enumerate();
     let unsettled = archives.flat_map(|(machine, archive)| {
@@ -231,7 +231,7 @@ fn unsettled(archives: &[Archive]) -> Vec<(usize, usize)> {
     unsettled.collect()
 }
 
-/// Tells the auditors what the programs of their archives find in variables that outlive programs.
+/// Passes to the auditors what the programs of their archives find in variables that outlive programs.
 pub(super) fn find(auditors: &mut [ProgramAuditor<'_>], archives: &[Archive]) {
     for (auditor, archive) in auditors.iter_mut().zip(archives) {
         auditor.auditor.find(archive.found());
@@ -320,7 +320,7 @@ impl<'a> ProgramAuditor<'a> {
     }
 }
 
-/// Lets a watch see the blocks of a run.
+/// Reports the blocks of a run to a watch.
 #[derive(Default)]
 struct Heard {
     blocks: u64,

@@ -1,4 +1,4 @@
-//! The axes that programs name, before they run (R9.74).
+//! The axes that programs name, found before they run (R9.74).
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -10,21 +10,21 @@ use frictcomp::syntax::{NamedAxes, Scan};
 /// The letters that are axes where no machine is described (R2.20).
 const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
 
-/// The axes that a look over the text of programs found. The interpreter decides what is one: the
-/// look only says which to expect.
+/// The axes that a look through the text of programs found. The interpreter decides what is an axis;
+/// the look only says which to expect.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct AxesAhead {
     found: BTreeSet<String>,
-    /// Those whose state programs read.
+    /// The axes whose state programs read.
     read: BTreeSet<String>,
-    /// Names that programs of other runs may have.
+    /// Names that may occur in programs of other runs.
     elsewhere: Vec<String>,
-    /// Whether there may be more: in what is called, or comes through a pipe.
+    /// Whether there may be more: in called programs, or in those from a pipe.
     is_open: bool,
 }
 
 impl AxesAhead {
-    /// Looks over programs for the usual axes and for further names.
+    /// Looks through programs for the usual axes and for further names.
     pub(crate) fn of<'a>(
         inputs: impl IntoIterator<Item = &'a Input>,
         names: impl IntoIterator<Item = &'a str>,
@@ -38,7 +38,7 @@ impl AxesAhead {
                 Input::File(path) if path.is_file() => {
                     let file = File::open(path);
                     let looked = file.and_then(|file| whole_lines(file, |it| scan.feed(it)));
-                    // What cannot be read is reported when it is run.
+                    // A program that cannot be read is reported when it is run.
                     ahead.is_open |= looked.is_err();
                 }
                 Input::Open(open) => scan.feed(open.text.as_bytes()),
@@ -52,14 +52,14 @@ impl AxesAhead {
         ahead
     }
 
-    /// The usual axes that occur, in the order of the machine.
+    /// Returns the usual axes that occur, in the order of the machine.
     pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
         LETTERS
             .into_iter()
             .filter(|name| self.found.contains(*name))
     }
 
-    /// Other runs name the usual axes, and those of an earlier one.
+    /// Allows for other runs, which name the usual axes and those of an earlier run.
     pub(crate) fn expect_more(&mut self, left: Vec<String>) {
         let usual = LETTERS.into_iter().map(str::to_owned);
         self.elsewhere = usual.chain(left).collect();
@@ -73,7 +73,7 @@ impl AxesAhead {
     }
 }
 
-/// Whether a program can name an axis so: in capital letters, and `ALL` is no axis.
+/// Whether a program can name such an axis: in capital letters, and not `ALL`.
 pub(super) fn may_be_axis(name: &str) -> bool {
     name != "ALL" && !name.contains(|letter: char| letter.is_ascii_lowercase())
 }

@@ -1,4 +1,4 @@
-//! The machine of two versions of a program, and where each finds what it calls (R17.4).
+//! The machine for two versions of a program, and where each finds what it calls (R17.4).
 
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
@@ -9,8 +9,8 @@ use super::error::HostError;
 use super::finder::SearchPath;
 use super::input::Input;
 
-/// The machine of two versions of a program: the same for both, each with the folders in which it
-/// looks for what it calls.
+/// The machine for two versions of a program: the same for both, each with its own folders for
+/// called programs.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MachineOfVersions {
@@ -26,7 +26,7 @@ pub struct MachineOfVersions {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MachineOwner {
-    /// No version has another one.
+    /// Both versions; neither has another one.
     Both,
     /// The new version; the old one has another configuration.
     NewNotOld(PathBuf),
@@ -46,7 +46,7 @@ enum Nearness {
 }
 
 impl Machines {
-    /// The machine of two versions: that of the new one, else that of the old one, else that of the
+    /// Returns the machine of two versions: that of the new one, else that of the old one, else that of the
     /// current folder. A version that lies elsewhere finds called programs where the other one does.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl Machines {
     }
 }
 
-/// The folders that a version has itself, then those of the machine that it runs on.
+/// Returns the folders of a version itself, then those of the machine that it runs on.
 fn with_own(own: &SearchPath, shared: &SearchPath) -> SearchPath {
     let dirs = own.program_dirs.iter().chain(&shared.program_dirs);
     SearchPath {

@@ -32,9 +32,9 @@ pub struct GraphProgram {
     pub input: Input,
     /// Its name in outputs.
     pub name: String,
-    /// The one path that all names of its file lead to; `None` for standard input.
+    /// The one path to which all names of its file lead; `None` for standard input.
     pub place: Option<PathBuf>,
-    /// Whether it is one of the programs that were asked about, not only called by one.
+    /// Whether it is one of the requested programs, not only called by one.
     pub is_named: bool,
     /// The calls of programs that were found, in the order of the text.
     pub calls: Vec<FoundCall>,
@@ -49,7 +49,7 @@ pub struct GraphProgram {
 }
 
 impl GraphProgram {
-    /// Whether it calls nothing.
+    /// Whether it does not call anything.
     pub fn is_leaf(&self) -> bool {
         self.calls.is_empty() && self.missing.is_empty() && self.open.is_empty()
     }
@@ -65,7 +65,7 @@ pub struct FoundCall {
     pub line: u32,
 }
 
-/// A call whose program is not there.
+/// A call whose program does not exist.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MissingCall {
@@ -73,18 +73,18 @@ pub struct MissingCall {
     pub name: String,
     /// The line of the call, from 1.
     pub line: u32,
-    /// Why there is none.
+    /// Why it was not found.
     pub why: NoProgram,
 }
 
-/// Finders and what they found, one for the programs of a folder.
+/// Finders and their results, one for the programs of a folder.
 #[derive(Default)]
 struct Finders {
     of_folders: HashMap<PathBuf, ProgramFinder>,
     found: HashMap<(PathBuf, String), Result<PathBuf, NoProgram>>,
 }
 
-/// A graph that grows.
+/// A graph under construction.
 struct Builder<'a> {
     machines: &'a mut Machines,
     disk: Disk,
@@ -97,7 +97,7 @@ struct Builder<'a> {
 }
 
 impl CallGraph {
-    /// The graph of programs, each on the machine of its folder, and what cannot be read.
+    /// Builds the graph of programs, each on the machine of its folder, and returns what cannot be read.
     pub fn of(
         inputs: &[Input],
         machines: &mut Machines,
@@ -132,12 +132,12 @@ impl CallGraph {
         (graph, errors)
     }
 
-    /// The programs, in the order in which they came up.
+    /// Returns the programs, in the order in which they were found.
     pub fn programs(&self) -> &[GraphProgram] {
         &self.programs
     }
 
-    /// Whether each program is a main program of its own: no program calls it, it may end a main program,
+    /// Whether each program is a main program in its own right: no program calls it, it may end a main program,
     /// or it is called in a circle that no main program reaches (R17.2). The programs that the
     /// configuration runs around main programs become calls of these.
     pub fn mains(&mut self, workers: NonZeroUsize) -> Vec<bool> {
@@ -179,7 +179,7 @@ impl CallGraph {
         mains
     }
 
-    /// The calls of the programs around a main program, which its text does not hold.
+    /// Adds the calls of the programs around a main program, which its text does not contain.
     fn take_around(&mut self, at: usize) {
         let program = &mut self.programs[at];
         let around = std::mem::take(&mut program.around).into_iter();
@@ -188,7 +188,7 @@ impl CallGraph {
         program.calls.extend(around);
     }
 
-    /// The programs that call each other in a cycle, or themselves, by their positions.
+    /// Returns the programs that call each other in a cycle, or themselves, by their positions.
     pub fn circles(&self) -> Vec<Vec<usize>> {
         let edges = self.edges();
         let mut circles = callers_first(&edges);
@@ -200,7 +200,7 @@ impl CallGraph {
         circles
     }
 
-    /// Programs of one name in several folders of which one is called, by their positions.
+    /// Returns programs of one name in several folders of which one is called, by their positions.
     pub fn of_one_name(&self) -> Vec<Vec<usize>> {
         let mut names: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (at, program) in self.programs.iter().enumerate() {
@@ -229,7 +229,7 @@ impl CallGraph {
         reached
     }
 
-    /// The programs that reach a program by their calls, itself aside, by their positions.
+    /// Returns the programs that reach a program by their calls, except itself, by their positions.
     pub fn callers(&self, program: usize) -> Vec<usize> {
         let mut reached = vec![false; self.programs.len()];
         let mut next = vec![program];
@@ -269,7 +269,7 @@ impl CallGraph {
     }
 }
 
-/// Goes along edges from the positions that come next, and marks what is reached, them included.
+/// Follows edges from the positions that come next, and marks what is reached, them included.
 fn walk(edges: &[Vec<usize>], next: &mut Vec<usize>, reached: &mut [bool]) {
     while let Some(at) = next.pop() {
         if !std::mem::replace(&mut reached[at], true) {
@@ -279,7 +279,7 @@ fn walk(edges: &[Vec<usize>], next: &mut Vec<usize>, reached: &mut [bool]) {
 }
 
 impl Builder<'_> {
-    /// The position of a program, which may be new.
+    /// Returns the position of a program, and adds it if it is new.
     fn add(&mut self, input: Input, name: String, is_named: bool) -> usize {
         let next = self.graph.programs.len();
         let place = match &input {
@@ -374,7 +374,7 @@ impl Builder<'_> {
 }
 
 impl Finders {
-    /// The file that a program means by a name.
+    /// Returns the file that a program refers to by a name.
     fn find(
         &mut self,
         name: &str,
@@ -394,7 +394,7 @@ impl Finders {
     }
 }
 
-/// The calls that a program holds.
+/// Returns the calls in a program.
 fn sites_of(
     input: &Input,
     programs: &ConfiguredPrograms,

@@ -13,7 +13,7 @@ use super::git::{ChangedFile, OldFile, Revision};
 use super::input::Input;
 use super::open_text::OpenText;
 
-/// The programs of a call that differ from a revision, or reach what differs.
+/// The programs of a call that differ from a revision, or reach a file that differs.
 #[derive(Debug)]
 pub struct ChangedPrograms {
     /// The programs, in the order in which they were named.
@@ -22,28 +22,28 @@ pub struct ChangedPrograms {
     pub files: Vec<ChangedFile>,
     /// Whether a configuration or a list differs.
     pub is_machine_changed: bool,
-    /// The places of the programs and lists that git does not look at: those that it ignores, or that
+    /// The places of the programs and lists that git does not track: those that it ignores, or that
     /// lie elsewhere.
     pub unseen: Vec<PathBuf>,
-    /// The extensions that programs have here, in lower case.
+    /// The extensions of programs here, in lower case.
     extensions: BTreeSet<String>,
     /// The places of the programs that were looked at.
     read: Vec<PathBuf>,
 }
 
-/// Differences, in the form in which programs are compared with them.
+/// Differences, in the form used to compare programs with them.
 struct Changes<'a> {
     files: &'a [ChangedFile],
     /// The files of the work tree that differ.
     places: BTreeSet<PathBuf>,
-    /// The names of files that are gone, in lower case and without their extensions.
+    /// The names of deleted files, in lower case and without their extensions.
     gone: BTreeSet<String>,
-    /// Whether a list that a machine has read differs, or one is gone.
+    /// Whether a list that a machine has read differs, or one was deleted.
     lists: bool,
 }
 
 impl ChangedPrograms {
-    /// Those of the inputs, and what cannot be read. Where a configuration or a list differs, every
+    /// Returns the inputs affected, and what cannot be read. Where a configuration or a list differs, every
     /// program of its machine is one; so is a program with a call known only at run time, where any
     /// program differs.
     ///
@@ -68,7 +68,7 @@ impl ChangedPrograms {
         Ok((changed, errors))
     }
 
-    /// The same for files that are known to differ.
+    /// Returns the changed programs for files that are known to differ.
     pub fn of(
         files: Vec<ChangedFile>,
         inputs: &[Input],
@@ -107,13 +107,13 @@ impl ChangedPrograms {
         (changed, errors)
     }
 
-    /// Whether a file is a program by its name.
+    /// Whether a file is a program, judged by its name.
     pub fn is_program(&self, path: &Path) -> bool {
         let extensions: Vec<String> = self.extensions.iter().cloned().collect();
         is_program(path, None) || is_program(path, Some(&extensions))
     }
 
-    /// The disk with the programs as they are in the revision.
+    /// Returns the disk with the programs as they are in the revision.
     ///
     /// # Errors
     /// The command `git` fails, or a program is too big to be kept.
@@ -130,7 +130,7 @@ impl ChangedPrograms {
         Ok(Disk::of_revision(texts, absent))
     }
 
-    /// The programs of the revision that differ from those of the work tree.
+    /// Returns the programs of the revision that differ from those of the work tree.
     pub fn old_programs(&self) -> impl Iterator<Item = &OldFile> {
         let olds = self.files.iter().filter_map(|file| file.old.as_ref());
         olds.filter(|old| self.is_program(&old.path))
@@ -158,7 +158,7 @@ impl<'a> Changes<'a> {
         }
     }
 
-    /// Whether a program differs, or a call of it means another one.
+    /// Whether a program differs, or one of its calls means another program.
     fn hold(&self, program: &GraphProgram) -> bool {
         let place = program.place.as_deref();
         let misses = |name: &str| {
@@ -185,7 +185,7 @@ impl<'a> Changes<'a> {
         if paths.any(is_above) {
             return true;
         }
-        // Why a machine cannot be used is said where it is needed.
+        // A machine that cannot be used is reported where it is needed.
         machines.for_folder(folder).is_ok_and(|loaded| {
             let origin = loaded.origin.as_deref();
             let has_lists = loaded.lists != (0, 0);
@@ -195,7 +195,7 @@ impl<'a> Changes<'a> {
     }
 }
 
-/// The name of a file without its extension, in lower case: the control ignores case.
+/// Returns the name of a file without its extension, in lower case: the control ignores case.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default();
     stem.to_string_lossy().to_lowercase()

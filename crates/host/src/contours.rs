@@ -27,7 +27,7 @@ pub struct ContourSetup {
     pub plane: [String; 2],
     /// The drives.
     pub plant: Plant,
-    /// Value lists that take the place of the machine's: the axis, the name of the list, the list.
+    /// Value lists that replace those of the machine: the axis, the name of the list, the list.
     pub value_lists: Vec<(String, String, FrictionList)>,
     /// The friction model.
     pub model: FrictionModel,
@@ -39,7 +39,7 @@ pub struct ContourSetup {
     pub naming: Naming,
 }
 
-/// Why there is no contour of a program.
+/// Why a program has no contour.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NoDrivenContour {
@@ -49,7 +49,7 @@ pub enum NoDrivenContour {
     /// Its axes cannot be driven.
     #[error(transparent)]
     Axes(#[from] NoContour),
-    /// A plant whose loops do not hold the path.
+    /// A plant whose control loops are unstable on the path.
     #[error("the simulated drives are unstable after {after_s:.3} s of `{program}`")]
     Unstable {
         /// Path of the program.
@@ -57,7 +57,7 @@ pub enum NoDrivenContour {
         /// The machine time in s.
         after_s: f64,
     },
-    /// Nobody waits for it any more.
+    /// The watcher stopped the work.
     #[error("the contour was stopped")]
     Stopped,
     /// Standard input, which can be read only once.
@@ -65,8 +65,8 @@ pub enum NoDrivenContour {
     OnlyOnce,
 }
 
-/// Drives the path of a program: a first run finds the axes that move, and how long it takes where
-/// somebody watches; a second one drives them. `sink` is made for the axes that are driven.
+/// Drives the path of a program: a first run finds the axes that move, and, if there is a watcher,
+/// the machine time; a second one drives them. `sink` is made for the driven axes.
 ///
 /// # Errors
 /// The program cannot be read or its axes cannot be driven, a drive is unstable, or the watcher stops it.
@@ -127,10 +127,10 @@ pub fn drive_contour<S: ContourSink>(
     Ok(contour)
 }
 
-/// Facts known before anything is driven.
+/// Facts known before the axes are driven.
 struct Ahead {
     moving: MovingAxes,
-    /// The trace of no axis: it counts cycles, where there is a watcher.
+    /// A trace of no axis, to count cycles for a watcher.
     trace: Option<ProgramTrace<Cycles>>,
     cycle_s: f64,
 }
@@ -160,7 +160,7 @@ impl Ahead {
         }
     }
 
-    /// The axes that move, and the machine time in s.
+    /// Returns the axes that move, and the machine time in s.
     fn finish(self) -> (MovingAxes, f64) {
         let seconds = self.trace.map_or(0.0, |mut trace| {
             let _ = trace.finish();
@@ -179,7 +179,7 @@ impl Sink for Ahead {
     }
 }
 
-/// Shows how much of the machine time is driven.
+/// Reports how much of the machine time is covered.
 struct WatchedContour<'a, S> {
     contour: &'a mut ProgramContour<S>,
     watch: &'a Watch,

@@ -1,4 +1,4 @@
-//! The files of an archive, mended (R10.3): each block is tried on every program that is known to run it
+//! Mending of the files of an archive (R10.3): each block is tried on every program that is known to run it
 //! (R10.8).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -14,7 +14,7 @@ use super::workers::in_order;
 use frictcomp::audit::{Affected, Archive, MendedEnd, Mending, Missed, insertions, mend};
 use frictcomp::interpreter::{Interpreter, Observer};
 
-/// Mended program of an archive, or file that programs call.
+/// A mended program of an archive, or a file that programs call.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MendedProgram {
@@ -22,9 +22,9 @@ pub struct MendedProgram {
     pub machine: usize,
     /// The position of the program in the archive of its machine; `None` for a file that was not audited.
     pub program: Option<usize>,
-    /// The file with the blocks, where there are any.
+    /// The file with the blocks, if there are any.
     pub file: Option<MendedFile>,
-    /// The other programs that the blocks mend, which call the file.
+    /// The other programs that the blocks mend; they call the file.
     pub also: Vec<String>,
     /// Mendings left to the user.
     pub missed: Vec<Missed>,
@@ -72,7 +72,7 @@ impl ArchiveAuditor {
     }
 }
 
-/// The files of archives on their way to be mended. Files are known by their real paths.
+/// The files of archives to be mended. Files are known by their real paths.
 struct Cures<'a> {
     auditors: Vec<ProgramAuditor<'a>>,
     archives: &'a [Archive],
@@ -80,7 +80,7 @@ struct Cures<'a> {
     places: Places,
     /// The programs of the archives.
     programs: HashMap<PathBuf, ArchivedProgram>,
-    /// The programs that call a file, each with the name under which it does.
+    /// The programs that call a file, each with the name used in the call.
     callers: HashMap<PathBuf, BTreeMap<ArchivedProgram, Arc<str>>>,
     /// Texts with the blocks that were found.
     texts: Vec<OpenText>,
@@ -132,7 +132,7 @@ impl<'a> Cures<'a> {
         cures
     }
 
-    /// The files to be mended: those that other programs call, a called file before its callers, and all
+    /// Returns the files to be mended: those that other programs call, a called file before its callers, and all
     /// others.
     fn files(&self) -> (Vec<PathBuf>, Vec<PathBuf>) {
         let mut files: BTreeSet<PathBuf> = BTreeSet::new();
@@ -161,7 +161,7 @@ impl<'a> Cures<'a> {
         self.places.known(&self.audit(program).file)
     }
 
-    /// The other programs that call a file, each with the name under which it does.
+    /// Returns the other programs that call a file, each with the name used in the call.
     fn callers(&self, place: &Path) -> impl Iterator<Item = (ArchivedProgram, &Arc<str>)> {
         let own = self.programs.get(place);
         let callers = self.callers.get(place).into_iter().flatten();
@@ -169,7 +169,7 @@ impl<'a> Cures<'a> {
         callers.filter(move |(program, _)| Some(program) != own)
     }
 
-    /// The file that makes a program need mending.
+    /// Returns the file that makes a program need mending.
     fn cause(&self, program: ArchivedProgram, mending: Mending) -> Option<&Path> {
         let axis = &self.audit(program).axes[mending.at];
         let site = axis.cause(mending.cure)?;
@@ -216,8 +216,8 @@ impl<'a> Cures<'a> {
         })
     }
 
-    /// A program that runs a file, and what a block in the file should mend of it: of the file itself
-    /// all, of its callers what comes from there, or from what it calls as well.
+    /// Returns a program that runs a file, and what a block in the file should mend of it: all in the file
+    /// itself; in its callers, what comes from the file or from what it calls.
     fn affected(&self, place: &Path, program: ArchivedProgram) -> Affected<'_> {
         let own = self.programs.get(place).copied();
         let is_own = own == Some(program);
@@ -242,7 +242,7 @@ impl<'a> Cures<'a> {
         }
     }
 
-    /// Later blocks are tried with those that were found for a file.
+    /// Keeps the blocks found for a file, so that later blocks are tried with them.
     fn keep(&mut self, change: &MendedProgram) {
         self.texts.extend(change.file.iter().map(|file| OpenText {
             path: file.path.clone(),

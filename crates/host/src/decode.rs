@@ -1,8 +1,8 @@
-//! Bytes of files as text: UTF-8, the code page 1252 of old systems, or UTF-16.
+//! Decoding of files: UTF-8, the code page 1252 of old systems, or UTF-16.
 
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-/// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
+/// Returns the text of a file, decoded like a stream of its lines. A byte order mark at its start is passed
 /// over.
 pub fn decode(bytes: Vec<u8>) -> String {
     if let Some(text) = decode_wide(&bytes) {
@@ -22,16 +22,16 @@ pub fn decode(bytes: Vec<u8>) -> String {
     text
 }
 
-/// The text of bytes in UTF-16.
+/// Decodes bytes in UTF-16.
 fn decode_wide(bytes: &[u8]) -> Option<String> {
     let (encoding, mark) = wide(bytes)?;
     let (text, _) = encoding.decode_without_bom_handling(&bytes[mark..]);
     Some(text.into_owned())
 }
 
-/// The UTF-16 of a text, as Notepad and PowerShell write it, and the length of its byte order mark.
-/// Where an editor has left the mark out, two letters decide: no text of letters begins with such
-/// zeros.
+/// Returns the UTF-16 encoding of a text, as Notepad and PowerShell write it, and the length of its byte order mark.
+/// If an editor has left the mark out, the zeros in two letters decide: no other text of letters begins
+/// with them.
 pub(crate) fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
     match bytes {
         [0xff, 0xfe, ..] => Some((UTF_16LE, 2)),
@@ -42,7 +42,7 @@ pub(crate) fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
     }
 }
 
-/// A line in UTF-8; `None` where it is one of code page 1252.
+/// Returns a line in UTF-8; `None` where it is in code page 1252.
 pub(super) fn utf8_line<'a>(line: &'a [u8], legacy: &mut bool) -> Option<&'a str> {
     let utf8 = std::str::from_utf8(line).ok();
     let utf8 = utf8.filter(|line| !*legacy || line.is_ascii());
@@ -50,7 +50,7 @@ pub(super) fn utf8_line<'a>(line: &'a [u8], legacy: &mut bool) -> Option<&'a str
     utf8
 }
 
-/// Appends whole lines in UTF-8. The first line that is none is taken as code page 1252, and so is
+/// Appends whole lines in UTF-8. The first line that is not UTF-8 is taken as code page 1252, and so is
 /// every later one that is not ASCII.
 pub(crate) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
     match std::str::from_utf8(bytes) {

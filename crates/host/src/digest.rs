@@ -8,10 +8,10 @@ use sha2::{Digest, Sha256};
 use super::error::HostError;
 use super::read::open_regular;
 
-/// Bytes that are read at a time.
+/// Number of bytes read at a time.
 const PIECE: usize = 1 << 16;
 
-/// The SHA-256 of the bytes of a file in hexadecimal digits.
+/// Returns the SHA-256 of a file in hexadecimal digits.
 ///
 /// # Errors
 /// It cannot be read, or is not a regular file.
@@ -29,7 +29,7 @@ pub fn sha256_of(path: &Path) -> Result<String, HostError> {
     Ok(format!("{:x}", digest.finalize()))
 }
 
-/// The SHA-256 of a text in hexadecimal digits.
+/// Returns the SHA-256 of a text in hexadecimal digits.
 pub fn sha256_of_text(text: &str) -> String {
     format!("{:x}", Sha256::digest(text))
 }

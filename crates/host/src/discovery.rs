@@ -29,7 +29,7 @@ pub enum ConfigurationChoice {
     Nearest,
     /// This file.
     File(PathBuf),
-    /// None, whatever lies there.
+    /// None, whatever files exist.
     Isolated,
 }
 
@@ -39,25 +39,25 @@ pub enum ConfigurationChoice {
 pub struct MachineOptions {
     /// The configuration.
     pub configuration: ConfigurationChoice,
-    /// The start-up list that gives the axes in place of the configuration.
+    /// The start-up list that provides the axes in place of the configuration.
     pub startup: Option<PathBuf>,
     /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
     pub enable: Vec<String>,
     /// Treatment of programs and lists outside the folders.
     pub outside_policy: OutsidePolicy,
-    /// Values of variables that only the machine knows.
+    /// Values of variables that only the machine has.
     pub settings: Vec<(String, Setting)>,
     /// Codes that count.
     pub codes: CodeFilter,
 }
 
-/// A machine and what else its configuration says.
+/// A machine with the rest of its configuration.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LoadedMachine {
     /// The machine.
     pub machine: Machine,
-    /// Values of variables that only the machine knows.
+    /// Values of variables that only the machine has.
     pub settings: Vec<(String, Setting)>,
     /// The user's severities.
     pub levels: Levels,
@@ -71,9 +71,9 @@ pub struct LoadedMachine {
     pub programs: Vec<Parameter>,
     /// The configuration or the start-up list that was read.
     pub origin: Option<PathBuf>,
-    /// Number of lists read, and of named ones that do not exist.
+    /// Number of lists read, and of named lists that do not exist.
     pub lists: (usize, usize),
-    /// The extensions of files that are programs.
+    /// The extensions of program files.
     pub extensions: Option<Vec<String>>,
     /// Registry of the files of a run on this machine.
     pub registry: FileRegistry,
@@ -118,7 +118,7 @@ impl LoadedMachine {
         }
     }
 
-    /// The machine without a configuration.
+    /// Creates a machine without a configuration.
     fn unconfigured(registry: &FileRegistry) -> Self {
         Self {
             machine: Machine::unconfigured(),
@@ -127,7 +127,7 @@ impl LoadedMachine {
         }
     }
 
-    /// Returns the messages on faults that stop the control at start-up or keep it from taking a
+    /// Returns the messages on faults that stop the control at start-up or make it reject a
     /// list.
     pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics
@@ -142,18 +142,18 @@ pub struct Machines {
     options: MachineOptions,
     registry: FileRegistry,
     disk: Disk,
-    /// The axes of the programs, where axes are asked for.
+    /// The axes of the programs, where axes are requested.
     ahead: Option<AxesOfPrograms>,
     watch: Arc<Watch>,
-    /// The machines without the axes that the user enables.
+    /// The machines without the axes enabled by the user.
     plain: BTreeMap<Option<PathBuf>, LoadedMachine>,
     loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
-    /// The nearest configuration of each folder that was asked for.
+    /// The nearest configuration of each folder looked up so far.
     nearest: BTreeMap<PathBuf, Option<PathBuf>>,
 }
 
 impl Machines {
-    /// No machine yet. The files that are read are noted in the ledger.
+    /// Creates a finder without machines. The files that it reads are noted in the registry.
     pub fn new(options: MachineOptions, registry: &FileRegistry) -> Self {
         Self {
             options,
@@ -167,19 +167,19 @@ impl Machines {
         }
     }
 
-    /// The same, with a watcher of the programs that run on the machines.
+    /// Sets a watcher of the programs that run on the machines.
     pub fn watched_by(mut self, watcher: Arc<dyn Watcher>) -> Self {
         self.watch = Arc::new(Watch::by(watcher));
         self
     }
 
-    /// The same, read from another disk than that of the system.
+    /// Sets a disk other than the system's.
     pub fn on_disk(self, disk: &Disk) -> Self {
         let disk = disk.clone();
         Self { disk, ..self }
     }
 
-    /// The machine of a program in a folder.
+    /// Returns the machine of a program in a folder.
     ///
     /// # Errors
     /// The configuration or the start-up list cannot be used, or an axis is unknown.
@@ -192,7 +192,7 @@ impl Machines {
         let options = &self.options;
         let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
         let assumed = assume_axes(&options.enable, onto, self.ahead.as_ref())?;
-        // What is assumed need not be found missing.
+        // What is assumed need not be reported as missing.
         loaded.diagnostics.retain(|said| {
             let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
             !(is_missing && said.axis.as_deref().is_some_and(|it| assumed.contains(&it)))
@@ -206,7 +206,7 @@ impl Machines {
         Ok(loaded)
     }
 
-    /// The configuration that counts for the programs of a folder.
+    /// Returns the configuration that applies to the programs of a folder.
     pub(super) fn configuration(&mut self, folder: &Path) -> Option<PathBuf> {
         match &self.options.configuration {
             ConfigurationChoice::File(path) => Some(path.clone()),
@@ -220,12 +220,12 @@ impl Machines {
         &self.options.configuration
     }
 
-    /// The disk that configurations and lists are read from.
+    /// Returns the disk that configurations and lists are read from.
     pub(super) fn disk(&self) -> &Disk {
         &self.disk
     }
 
-    /// The folders in which the programs of the machines, and what they call, may lie.
+    /// Returns the folders in which the programs of the machines, and what they call, may lie.
     pub fn folders(&self) -> impl Iterator<Item = &Path> {
         self.loaded().flat_map(|loaded| {
             let project = loaded
@@ -237,17 +237,17 @@ impl Machines {
         })
     }
 
-    /// The files that were read for machines and programs so far.
+    /// Returns the files read so far for machines and programs.
     pub(super) fn files_read(&self) -> Vec<PathBuf> {
         self.registry.files()
     }
 
-    /// Has a configuration count for the programs of a folder, unless the user chose another one.
+    /// Applies a configuration to the programs of a folder, unless the user chose another one.
     pub(super) fn settle(&mut self, folder: &Path, configuration: Option<PathBuf>) {
         self.nearest.insert(folder.to_owned(), configuration);
     }
 
-    /// The machine of a configuration without the axes that the user enables.
+    /// Returns the machine of a configuration without the axes enabled by the user.
     pub(super) fn plain(&mut self, config: Option<&Path>) -> Result<&LoadedMachine, HostError> {
         let key = config.map(Path::to_owned);
         if !self.plain.contains_key(&key) {
@@ -257,7 +257,7 @@ impl Machines {
         Ok(&self.plain[&key])
     }
 
-    /// The programs are known: compensation is assumed on axes that they, or their machines, have
+    /// Takes the programs: compensation is assumed on axes that they, or their machines, have
     /// (R17.7).
     pub fn look_ahead(&mut self, inputs: &[Input]) {
         self.watch.expect(inputs.len());
@@ -274,7 +274,7 @@ impl Machines {
                     undescribed.push(input);
                 }
                 Ok(loaded) => axes.describe(&loaded.machine),
-                // Why it cannot be used is said where a program needs it.
+                // A configuration that cannot be used is reported where a program needs it.
                 Err(_) => {}
             }
         }
@@ -283,20 +283,20 @@ impl Machines {
         self.loaded.clear();
     }
 
-    /// Programs of other runs name the usual axes, and those that an earlier run left.
+    /// Allows for programs of other runs, which name the usual axes and those that an earlier run left.
     pub fn expect_more(&mut self, left: Vec<String>) {
         if let Some(ahead) = &mut self.ahead {
             ahead.expect_more(left);
         }
     }
 
-    /// The extensions of programs below a folder, where its configuration names them.
+    /// Returns the extensions of programs below a folder, where its configuration names them.
     pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
         let config = self.configuration(folder);
         self.plain(config.as_deref()).ok()?.extensions.clone()
     }
 
-    /// Reads the configuration and applies what differs from it.
+    /// Reads the configuration and applies the options that differ from it.
     fn load(&self, config: Option<&Path>) -> Result<LoadedMachine, HostError> {
         let options = &self.options;
         let mut loaded = match config {
@@ -379,21 +379,21 @@ impl Machines {
         found
     }
 
-    /// Every machine that was asked for, in the order of its configuration's path.
+    /// Returns every machine used so far, in the order of its configuration's path.
     pub fn loaded(&self) -> impl Iterator<Item = &LoadedMachine> {
         self.loaded.values().map(Arc::as_ref)
     }
 }
 
 impl MachineOptions {
-    /// The folders whose lists are shown: the current one, that of a file and those of programs.
+    /// Returns the folders whose lists are shown: the current one, that of a file and those of programs.
     fn allowed_roots(&self, path: &Path, search_path: &SearchPath, disk: &Disk) -> AllowedRoots {
         let search_path = SearchPath {
             outside_policy: self.outside_policy,
             ..search_path.clone()
         };
         let allowed_roots = search_path.allowed_roots(disk).with(Path::new(""));
-        // A file that the user names lies where it lies; one that was found may be a link.
+        // A file that the user names is where its name says; one that was found may be a link.
         match (&self.configuration, disk.real(path)) {
             (ConfigurationChoice::File(_), Ok(real)) => {
                 allowed_roots.with(real.parent().unwrap_or(&real))
@@ -403,7 +403,7 @@ impl MachineOptions {
     }
 }
 
-/// The nearest configuration from a folder upwards, as a path from the current folder.
+/// Returns the nearest configuration from a folder upwards, as a path from the current folder.
 pub fn nearest_config(folder: &Path, disk: &Disk) -> Option<PathBuf> {
     let found = disk
         .absolute(folder)?

@@ -16,18 +16,18 @@ use super::shared_map::SharedMap;
 use crate::decode::decode;
 use frictcomp::text::{LineSource, TextLines};
 
-/// More bytes than a list or a configuration has.
+/// More bytes than any list or configuration has.
 const MOST_LIST: u64 = 64 << 20;
 
-/// The disk that a host reads from. By default it is that of the system. Names of files are looked up
-/// without regard to case in what a folder held when it was first listed; copies share these listings.
+/// The disk that a host reads from. By default it is that of the system. File names are looked up
+/// without regard to case in a listing that is made once per folder; copies share these listings.
 #[derive(Debug, Clone)]
 pub struct Disk {
     kind: Kind,
     listings: Arc<Mutex<BTreeMap<PathBuf, Arc<FolderListing>>>>,
 }
 
-/// The names in a folder, by themselves in lower case.
+/// The names in a folder, keyed by their lower-case form.
 pub(super) type FolderListing = BTreeMap<String, Vec<OsString>>;
 
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ enum Kind {
     System(SharedMap<PathBuf, Arc<String>>),
     /// The disk of the system, with some of its files as they were in a revision.
     Revision(Arc<RevisedFiles>),
-    /// Texts and nothing else.
+    /// Only texts in memory.
     Memory(Arc<MemoryDisk>),
 }
 
@@ -64,7 +64,7 @@ impl Default for Disk {
 }
 
 impl Disk {
-    /// The disk of the system, with texts in place of files, whatever name finds them: what an editor
+    /// Returns the disk of the system with texts in place of files, whatever name finds them: what an editor
     /// has open and may not have saved.
     pub fn with_open(texts: impl IntoIterator<Item = OpenText>) -> Self {
         let system = Self::default();
@@ -73,12 +73,12 @@ impl Disk {
         Kind::System(texts.collect()).into()
     }
 
-    /// The same with texts that are found by the [places](Self::place) of their files already.
+    /// Returns the disk of the system with texts that are already keyed by the [places](Self::place) of their files.
     pub fn with_placed(texts: SharedMap<PathBuf, Arc<String>>) -> Self {
         Kind::System(texts).into()
     }
 
-    /// The disk of the system with the texts that some files had in a revision, and without the files
+    /// Returns the disk of the system with the texts that some files had in a revision, and without the files
     /// that it does not have.
     pub fn of_revision(
         texts: impl IntoIterator<Item = OpenText>,
@@ -99,13 +99,13 @@ impl Disk {
         Kind::Revision(Arc::new(revised)).into()
     }
 
-    /// A path of the system as it is seen from the current folder.
+    /// Returns a path of the system relative to the current folder.
     pub fn named(path: &Path) -> PathBuf {
         let here = Self::place(Path::new("."));
         relative(&Self::place(path), &here)
     }
 
-    /// Whether a revision does not have a file of the system.
+    /// Whether a file of the system is missing in a revision.
     fn is_absent(&self, path: &Path) -> bool {
         match &self.kind {
             Kind::Revision(revised) => revised.absent.contains(&self.place_of(path)),
@@ -113,18 +113,18 @@ impl Disk {
         }
     }
 
-    /// The one path that all names of a file of the system lead to.
+    /// Returns the one path to which all names of a file of the system lead.
     pub fn place(path: &Path) -> PathBuf {
         Self::default().place_of(path)
     }
 
-    /// A disk in memory with these texts and the folders of their paths, for hosts that have no other.
+    /// Returns a disk in memory with these texts and the folders of their paths, for hosts that have no other.
     /// Relative paths begin at its root.
     pub fn in_memory(texts: impl IntoIterator<Item = OpenText>) -> Self {
         Kind::Memory(Arc::new(MemoryDisk::new(texts))).into()
     }
 
-    /// The text that stands in for a file; `None` for a file of the system's own.
+    /// Returns the text that stands in for a file; `None` for a file of the system itself.
     pub fn text(&self, path: &Path) -> Option<&Arc<String>> {
         match &self.kind {
             Kind::System(open) if open.is_empty() => None,
@@ -134,8 +134,8 @@ impl Disk {
         }
     }
 
-    /// The lines of a program that was run, by its name in records. `None` for what can be read only
-    /// once, a pipe.
+    /// Returns the lines of a program that was run, by its name in records. `None` for a pipe, which can be read
+    /// only once.
     pub fn lines(&self, name: &str) -> Option<Box<dyn LineSource + '_>> {
         match (self.text(Path::new(name)), &self.kind) {
             (Some(text), _) => Some(Box::new(TextLines::new(text))),
@@ -153,7 +153,7 @@ impl Disk {
             return Err(io::ErrorKind::NotFound.into());
         }
         match std::fs::metadata(path) {
-            // What is open and was never saved lies where its name says.
+            // A file that is open and was never saved is where its name says.
             Err(_) if self.text(path).is_some() => Ok(FolderEntry::File),
             Err(error) => Err(error),
             Ok(metadata) if metadata.is_file() => Ok(FolderEntry::File),
@@ -168,7 +168,7 @@ impl Disk {
             .is_ok_and(|entry| entry == FolderEntry::File)
     }
 
-    /// The one path of what is there, all links resolved; an empty path is the current folder.
+    /// Returns the one path of an existing entry, all links resolved; an empty path is the current folder.
     pub(super) fn real(&self, path: &Path) -> io::Result<PathBuf> {
         match &self.kind {
             Kind::Memory(disk) => disk.real(path),
@@ -180,7 +180,7 @@ impl Disk {
         }
     }
 
-    /// The path from the root on, without `.` and with `..` resolved by name; an empty path is the
+    /// Returns the path from the root on, without `.` and with `..` resolved by name; an empty path is the
     /// current folder.
     pub fn absolute(&self, path: &Path) -> Option<PathBuf> {
         match &self.kind {
@@ -191,7 +191,7 @@ impl Disk {
         }
     }
 
-    /// The names in a folder, listed once: calls of a program that is missing would list it each time.
+    /// Returns the names in a folder, listed once: calls of a missing program would list it each time.
     pub(super) fn listing(&self, folder: &Path) -> Arc<FolderListing> {
         let mut known = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
         let listing = known.entry(folder.to_owned()).or_insert_with(|| {
@@ -206,7 +206,7 @@ impl Disk {
         Arc::clone(listing)
     }
 
-    /// The names in a folder, sorted; an empty path is the current one.
+    /// Returns the names in a folder, sorted; an empty path is the current one.
     pub(super) fn names(&self, folder: &Path) -> Vec<OsString> {
         if let Kind::Memory(disk) = &self.kind {
             return disk.names(folder);
@@ -223,10 +223,10 @@ impl Disk {
         names
     }
 
-    /// The text of a regular file.
+    /// Reads the text of a regular file.
     ///
     /// # Errors
-    /// It does not exist, cannot be read, is no regular file, or is too big to be kept.
+    /// It does not exist, cannot be read, is not a regular file, or is too big to be kept.
     pub(super) fn read(&self, path: &Path) -> io::Result<String> {
         match (self.text(path), &self.kind) {
             (Some(text), _) => Ok(text.to_string()),
@@ -239,10 +239,10 @@ impl Disk {
         }
     }
 
-    /// The text of a list or a configuration.
+    /// Reads the text of a list or a configuration.
     ///
     /// # Errors
-    /// As [`read`](Self::read); it is also refused where it is larger than any list (R9.94).
+    /// As [`read`](Self::read); also if it is larger than any list (R9.94).
     pub(super) fn read_list(&self, path: &Path) -> io::Result<String> {
         let length = std::fs::metadata(path).map_or(0, |found| found.len());
         if self.text(path).is_none() && length > MOST_LIST {
@@ -252,8 +252,8 @@ impl Disk {
         self.read(path)
     }
 
-    /// The one path of a file of the system that all its names lead to; that of a file which is not
-    /// there goes by its folder.
+    /// Returns the one path to which all names of a file of the system lead; for a file that does not exist it
+    /// is derived from its folder.
     fn place_of(&self, path: &Path) -> PathBuf {
         let there = || path.canonicalize().ok();
         let beside = || Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?));

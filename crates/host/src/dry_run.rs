@@ -1,4 +1,4 @@
-//! Programs on their way through a session.
+//! Running programs in a session.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -43,7 +43,7 @@ impl<'a> RunContext<'a> {
         }
     }
 
-    /// The same; what is called whenever a pipe may have to wait for more of a program.
+    /// Sets what is called whenever a pipe may have to wait for more of a program.
     pub fn before_waiting(self, before_waiting: &'a dyn Fn()) -> Self {
         Self {
             before_waiting,
@@ -96,11 +96,11 @@ pub fn run_program(
     })
 }
 
-/// A session that goes on where a saved state ended, or begins at the start of the control, and what
-/// the control says about lists that changed since the state was saved (P-ERR-110641).
+/// Opens a session that continues from a saved state, or begins at the start of the control; also returns
+/// the messages of the control about lists that changed since the state was saved (P-ERR-110641).
 ///
 /// # Errors
-/// The state cannot be read, is damaged, or is that of another machine.
+/// The state cannot be read, is damaged, or belongs to another machine.
 pub fn open_session(
     loaded: &LoadedMachine,
     options: SessionOptions,
@@ -115,7 +115,7 @@ pub fn open_session(
     Ok((Session::new(machine, options), Vec::new()))
 }
 
-/// Lists from the start the axes that a look over the programs finds, where no machine is described
+/// Lists from the start the axes found by a look through the programs, where no machine is described
 /// (R9.74).
 pub fn expect_axes(session: &mut Session, loaded: &LoadedMachine, inputs: &[Input]) {
     if loaded.machine.axis_set == AxisSet::AsTheyOccur {
@@ -169,7 +169,7 @@ pub fn run_programs(
     Ok(RunSummary { flow, unrun })
 }
 
-/// Run of a program in a session of its own.
+/// Setup for a program that runs in a separate session.
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SingleRun {
     /// Options of the session.
@@ -184,13 +184,13 @@ pub struct SingleRun {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Axes {
-    /// Those that a look over the program finds (R9.74).
+    /// Those found by a look through the program (R9.74).
     Ahead,
     /// They are not listed.
     AsTheyOccur,
 }
 
-/// Runs one program in a session of its own, from the start of the control to the summary, and
+/// Runs one program in a separate session, from the start of the control to the summary, and
 /// returns the session.
 ///
 /// # Errors
@@ -220,7 +220,7 @@ pub fn run_alone(
     Ok(session)
 }
 
-/// Says what the session starts with, and what keeps the control from taking its lists.
+/// Reports what the session starts with, and why the control does not accept its lists.
 pub(super) fn begin(
     session: &mut Session,
     loaded: &LoadedMachine,

@@ -1,4 +1,4 @@
-//! A text with the bytes that it was decoded from, so that a change touches nothing else.
+//! A text with the bytes from which it was decoded, so that a change leaves all others as they are.
 
 use std::ops::Range;
 
@@ -11,11 +11,11 @@ use super::decode::{decode, utf8_line, wide};
 pub struct EncodedText {
     bytes: Vec<u8>,
     text: String,
-    /// Lines of one code page, in their order; there is one at least.
+    /// Lines of one code page, in their order; there is at least one entry.
     stretches: Vec<EncodedLines>,
 }
 
-/// A replacement that the code page of the file cannot write.
+/// A replacement that cannot be written in the code page of the file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the code page of the file has no way to write `{0}`")]
 pub struct NotEncodable(pub String);
@@ -31,7 +31,7 @@ struct EncodedLines {
 }
 
 impl EncodedText {
-    /// The text of a file.
+    /// Creates the text of a file.
     pub fn new(bytes: Vec<u8>) -> Self {
         Self {
             text: decode(bytes.clone()),
@@ -40,16 +40,16 @@ impl EncodedText {
         }
     }
 
-    /// The text, without a byte order mark.
+    /// Returns the text, without a byte order mark.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The bytes of the file after replacements, which name ranges of the text from its start to its
+    /// Returns the bytes of the file after replacements, which name ranges of the text from its start to its
     /// end and do not overlap. All other bytes stay as they are.
     ///
     /// # Errors
-    /// The code page of the file cannot write a replacement.
+    /// A replacement cannot be written in the code page of the file.
     pub fn replaced<'a>(
         &self,
         replacements: impl IntoIterator<Item = (Range<usize>, &'a str)>,
@@ -67,7 +67,7 @@ impl EncodedText {
         Ok(result)
     }
 
-    /// The offset in the bytes that belongs to one in the text, and the code page there.
+    /// Returns the offset in the bytes that corresponds to one in the text, and the code page there.
     fn offset(&self, at: usize) -> (usize, &'static Encoding) {
         let after = self.stretches.partition_point(|it| it.text <= at);
         let stretch = self.stretches[after.saturating_sub(1)];
@@ -94,7 +94,7 @@ fn stretches(bytes: &[u8]) -> Vec<EncodedLines> {
         return vec![stretch(UTF_8, 0, mark)];
     }
     let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
-    // A mark before a line of an old system is no mark.
+    // A byte order mark before a line of an old system does not count.
     let first = bytes.split(is_end).next().unwrap_or_default();
     let mark = std::str::from_utf8(first).map_or(0, |_| mark);
     let mut found = vec![stretch(UTF_8, 0, mark)];
@@ -107,7 +107,7 @@ fn stretches(bytes: &[u8]) -> Vec<EncodedLines> {
                 WINDOWS_1252.decode_without_bom_handling(line).0.len(),
             ),
         };
-        // A line in ASCII is one of either; what becomes of it is what the lines above are.
+        // A line in ASCII fits either code page; a replacement in it takes that of the lines above.
         let page = if legacy { WINDOWS_1252 } else { page };
         if found.last().is_none_or(|last| last.page != page) {
             found.push(stretch(page, text, offset));
@@ -140,7 +140,7 @@ mod tests {
 
     fn changed(bytes: &[u8], found: &str, text: &str) -> Result<Vec<u8>, NotEncodable> {
         let encoded = EncodedText::new(bytes.to_vec());
-        let start = encoded.text().find(found).expect("it stands there");
+        let start = encoded.text().find(found).expect("it is there");
         let range = start..start + found.len();
         let mut expected = encoded.text().to_owned();
         expected.replace_range(range.clone(), text);
@@ -158,7 +158,7 @@ mod tests {
                 b"\xef\xbb\xbf(\xc3\x9c) on\r",
                 b"\xef\xbb\xbf(\xc3\x9c) ON\r",
             ),
-            // The first line is UTF-8, the others are of an old system.
+            // The first line is UTF-8, the others come from an old system.
             (
                 b"(\xc3\x9c)\n(\xdc) X\r\n(\xc3\x9c) on \x81\xa0",
                 b"(\xc3\x9c)\n(\xdc) X\r\n(\xc3\x9c) ON \x81\xa0",

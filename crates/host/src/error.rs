@@ -1,4 +1,4 @@
-//! Why the work with files could not be done.
+//! Why work with files failed.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,11 +11,11 @@ use frictcomp::diagnostic::{Diagnostic, UnknownName};
 use frictcomp::text::shown_path;
 use frictcomp_physics::simulation::UnknownPreset;
 
-/// Why the work with files could not be done: one sentence in lower case.
+/// Why work with files failed: one sentence in lower case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum HostError {
-    /// A file that is not there, or that may not be read.
+    /// A file that does not exist, or that may not be read.
     #[error("{}", reading(.path, .reason))]
     Read {
         /// The file as it was named.
@@ -31,7 +31,7 @@ pub enum HostError {
         /// Reason given by the system.
         reason: io::Error,
     },
-    /// A change that the code page of a file cannot write.
+    /// A change that cannot be written in the code page of a file.
     #[error("`{}` cannot be changed: {reason}", shown_path(.path))]
     Unwritable {
         /// Path of the file.
@@ -39,18 +39,18 @@ pub enum HostError {
         /// The reason, in words.
         reason: String,
     },
-    /// A file that was changed from outside while it was worked on.
+    /// A file that was changed by another program meanwhile.
     #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
     ChangedMeanwhile(PathBuf),
-    /// A file that cannot take its place after others have taken theirs.
+    /// A file that cannot be put in place after others were.
     #[error("{failed}; {} in place already", are(.written))]
     PartlyWritten {
-        /// The file, and what the system says.
+        /// The file, and the error of the system.
         failed: Box<HostError>,
         /// The others.
         written: Vec<PathBuf>,
     },
-    /// Files that took their place on a disk that may lose them again.
+    /// Files that are in place on a disk that may lose them again.
     #[error("{} in place, but the disk did not confirm it: {reason}", are(.files))]
     Unsettled {
         /// The files.
@@ -67,7 +67,7 @@ pub enum HostError {
     /// A folder where a list is expected.
     #[error("`{}` is a folder, not a list", shown_path(.0))]
     FolderAsList(PathBuf),
-    /// A folder of which a part may not be read.
+    /// A folder of which some parts may not be read.
     #[error("`{}` cannot be searched completely: {reason}", shown_path(.folder))]
     Search {
         /// The folder that is searched.
@@ -75,12 +75,12 @@ pub enum HostError {
         /// Reason given by the system.
         reason: String,
     },
-    /// A folder of texts.
+    /// A folder without programs.
     #[error("there is no program below `{}`", shown_path(.folder))]
     NoPrograms {
         /// The folder that was searched.
         folder: PathBuf,
-        /// The extensions that programs have there.
+        /// The extensions of programs there.
         extensions: Vec<String>,
     },
     /// A `frictcomp.toml` with a mistake.
@@ -88,7 +88,7 @@ pub enum HostError {
     Configuration {
         /// Path of the file.
         path: PathBuf,
-        /// The lines that are the reason.
+        /// The lines at fault.
         diagnostics: Vec<Diagnostic>,
     },
     /// An axis list where a start-up list is expected.
@@ -96,13 +96,13 @@ pub enum HostError {
     NotAStartupList {
         /// Path of the file.
         path: PathBuf,
-        /// Kind of the file in its place.
+        /// The kind of file that was found.
         message: String,
     },
-    /// No command `git`.
+    /// A missing `git` command.
     #[error("the revisions need the command `git`, which is not installed")]
     NoGit,
-    /// A folder in no repository, or in one that git does not trust.
+    /// A folder outside any repository, or in one that git does not trust.
     #[error("`{}` is in no git repository that can be read: {reason}", shown_path(.folder))]
     NoRepository {
         /// Path of the folder.
@@ -110,26 +110,26 @@ pub enum HostError {
         /// Reason given by git.
         reason: String,
     },
-    /// A name of no revision.
+    /// A name that is not a revision.
     #[error("there is no revision `{0}` in the git repository")]
     NoRevision(String),
-    /// The action that git could not perform.
+    /// A git command that failed, with its message.
     #[error("git could not say what differs: {0}")]
     Git(String),
-    /// A folder that is not there.
+    /// A folder that does not exist.
     #[error("there is no folder `{}`", shown_path(.0))]
     NoFolder(PathBuf),
-    /// A file that is there already and stays as it is.
+    /// A file that already exists and stays as it is.
     #[error("`{}` already exists and is not changed", shown_path(.0))]
     AlreadyThere(PathBuf),
-    /// Several start-up lists, without a choice of the one that the machine has.
+    /// Several start-up lists, and no choice between them.
     #[error("there are several start-up lists: {}", listed(.0))]
     SeveralStartupLists(Vec<PathBuf>),
-    /// A link to a file that was not handed over.
+    /// A link to a file outside the given folders.
     #[error("`{}` is a link that leads out of the given folders", shown_path(.0))]
     LeadsOut(PathBuf),
-    /// A program without a place beside it.
-    #[error("standard input has no `.{0}` file beside it")]
+    /// A program that has no folder for such a file.
+    #[error("standard input has no folder for a `.{0}` file")]
     NothingBeside(&'static str),
     /// `X[` where the name of an axis is expected.
     #[error("`{0}` is not an axis name")]
@@ -148,7 +148,7 @@ pub enum HostError {
         /// The other one.
         other: String,
     },
-    /// An output that is an input.
+    /// An output that would overwrite an input.
     #[error("`{output}` would overwrite the {what} `{}`", shown_path(.input))]
     Overwrites {
         /// The output.
@@ -168,7 +168,7 @@ pub enum HostError {
         /// Path of the file.
         target: PathBuf,
     },
-    /// An output in the place of a file that users write.
+    /// An output that would replace a file that users write.
     #[error("`{output}` would take the place of a {what}")]
     ReplacesSource {
         /// The output.
@@ -182,7 +182,7 @@ pub enum HostError {
     /// A state that another run has locked.
     #[error("another run uses the state file `{}`", shown_path(.0))]
     StateInUse(PathBuf),
-    /// A state that is damaged, or of another machine.
+    /// A state that is damaged, or belongs to another machine.
     #[error("the state file `{}` cannot be used: {reason}", shown_path(.path))]
     State {
         /// Path of the file.
@@ -190,14 +190,14 @@ pub enum HostError {
         /// What is wrong, in words.
         reason: String,
     },
-    /// A value list that the control would not take.
+    /// A value list that the control would reject.
     #[error("the value list `{}` cannot be used: {reason}", shown_path(.path))]
     ValueList {
         /// Path of the file.
         path: PathBuf,
         /// The fault.
         reason: &'static str,
-        /// The lines that are the reason.
+        /// The lines at fault.
         diagnostics: Vec<Diagnostic>,
     },
     /// A plant that is neither a preset nor a file.
@@ -208,13 +208,13 @@ pub enum HostError {
     Plant {
         /// Path of the file.
         path: PathBuf,
-        /// The lines that are the reason.
+        /// The lines at fault.
         diagnostics: Vec<Diagnostic>,
     },
     /// A recorded trace that cannot be read.
     #[error(transparent)]
     Trace(#[from] TraceError),
-    /// A limit of memory that is too low for a simulation.
+    /// A memory limit that is too low for a simulation.
     #[error("not enough memory: a simulation needs {mebibytes} MiB")]
     Memory {
         /// Required memory.
@@ -223,7 +223,7 @@ pub enum HostError {
 }
 
 impl HostError {
-    /// A file that cannot be read.
+    /// Creates the error for a file that cannot be read.
     pub fn read(path: &Path, reason: io::Error) -> Self {
         if reason.kind() == io::ErrorKind::IsADirectory {
             return Self::FolderAsProgram(path.to_owned());
@@ -232,13 +232,13 @@ impl HostError {
         Self::Read { path, reason }
     }
 
-    /// A file that cannot be written.
+    /// Creates the error for a file that cannot be written.
     pub fn write(path: &Path, reason: io::Error) -> Self {
         let (path, reason) = (path.to_owned(), told(reason));
         Self::Write { path, reason }
     }
 
-    /// The lines of a file of the user that are the reason.
+    /// Returns the lines of a user's file that are at fault.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Configuration { diagnostics, .. }
@@ -248,7 +248,7 @@ impl HostError {
         }
     }
 
-    /// Returns the advice, where it does not depend on the calling program.
+    /// Returns the advice, unless it depends on the calling program.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::Read { reason, .. } => match reason.kind() {
@@ -262,7 +262,7 @@ impl HostError {
                 io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
                 io::ErrorKind::IsADirectory => "name a file in it",
                 io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
-                    "name a folder that is there, or a new one"
+                    "name an existing folder, or a new one"
                 }
                 kind => return to_write(kind).map(str::to_owned),
             },
@@ -317,13 +317,13 @@ fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
             "raise the limit of the shell (`ulimit -f`), or write less, then try again"
         }
         io::ErrorKind::ReadOnlyFilesystem => "name a file on another disk",
-        // Reasons of the tool's own say what is wrong, not what failed.
+        // Reasons given by the tool itself say what is wrong, not what failed.
         io::ErrorKind::Other | io::ErrorKind::InvalidInput => return None,
         _ => "check the disk or the network drive, then try again",
     })
 }
 
-/// Files, and the verb after them.
+/// Returns files with the verb that follows them.
 fn are(files: &[PathBuf]) -> String {
     const MOST_NAMES: usize = 20;
     match files {
@@ -373,7 +373,7 @@ fn writing(path: &Path, reason: &io::Error) -> String {
             format!("`{shown}` cannot be written: another program has it open")
         }
         io::ErrorKind::IsADirectory => format!("`{shown}` cannot be written: it is a folder"),
-        // A folder was to be made there.
+        // A folder was to be created there.
         io::ErrorKind::AlreadyExists => format!("`{shown}` is a file, not a folder"),
         io::ErrorKind::NotADirectory => {
             format!("`{shown}` cannot be written: a part of its path is a file, not a folder")

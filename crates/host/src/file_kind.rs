@@ -18,7 +18,7 @@ pub(super) enum FileKind {
 }
 
 impl FileKind {
-    /// The kind of a file by its name.
+    /// Returns the kind of a file, judged by its name.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let name = path.file_name()?;
         if name.eq_ignore_ascii_case(CONFIG_NAME) {
@@ -42,7 +42,7 @@ impl FileKind {
     }
 }
 
-/// Whether a file of a folder is a program by its name; `extensions` are those that the configuration of
+/// Whether a file of a folder is a program, judged by its name; `extensions` are those that the configuration of
 /// the folder names.
 pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
     match extensions {
@@ -51,12 +51,12 @@ pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
     }
 }
 
-/// Whether a file is one that users write: a program, a list or a configuration, by its name.
+/// Whether a file is one that users write: a program, a list or a configuration, judged by its name.
 pub fn is_source(path: &Path, extensions: Option<&[String]>) -> bool {
     FileKind::of(path).is_some() || is_program(path, extensions)
 }
 
-/// Whether a file is a list of the control by its name.
+/// Whether a file is a list of the control, judged by its name.
 pub(super) fn is_list(path: &Path) -> bool {
     has_extension(path, &["lis"])
 }

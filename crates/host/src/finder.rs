@@ -1,4 +1,4 @@
-//! Finds the programs that programs call, and nothing else on the disk (R2.13, R2.16).
+//! Finds the programs that programs call, and no other files (R2.13, R2.16).
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -19,16 +19,16 @@ use frictcomp::text::SourceFile;
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct SearchPath {
-    /// The folders of `program_dirs`, which are searched in this order.
+    /// The folders of `program_dirs`, searched in this order.
     pub program_dirs: Vec<PathBuf>,
-    /// The folder of the configuration; empty, the current one, without.
+    /// The folder of the configuration; empty, meaning the current one, without a configuration.
     pub project: PathBuf,
     /// Treatment of programs outside them.
     pub outside_policy: OutsidePolicy,
 }
 
 impl SearchPath {
-    /// The project, the configured folders and everything below them.
+    /// Returns the project, the configured folders and everything below them.
     pub fn allowed_roots(&self, disk: &Disk) -> AllowedRoots {
         let allowed_roots = AllowedRoots::on(disk, self.outside_policy).with(&self.project);
         self.program_dirs
@@ -39,7 +39,7 @@ impl SearchPath {
     }
 }
 
-/// Finds called programs beside the caller and in the configured folders.
+/// Finds called programs in the caller's folder and in the configured folders.
 pub struct ProgramFinder {
     folders: Vec<PathBuf>,
     allowed_roots: AllowedRoots,
@@ -54,7 +54,7 @@ pub struct ProgramFinder {
 }
 
 impl ProgramFinder {
-    /// A finder for the programs that `main` calls.
+    /// Creates a finder for the programs that `main` calls.
     pub fn new(main: &Input, search_path: &SearchPath, naming: Naming, disk: &Disk) -> Self {
         let mut known = HashMap::new();
         let mut names = HashMap::new();
@@ -74,7 +74,7 @@ impl ProgramFinder {
         }
     }
 
-    /// The same, which notes what it reads.
+    /// Sets the registry that notes the files read.
     pub fn noting(self, registry: &FileRegistry) -> Self {
         let registry = registry.clone();
         Self { registry, ..self }
@@ -90,10 +90,10 @@ impl ProgramFinder {
         self.locate_from(name, beside)
     }
 
-    /// The file that a program in a folder means by a name. It is not read.
+    /// Returns the file that a program in a folder refers to by a name. It is not read.
     pub(super) fn place(&mut self, name: &str, folder: &Path) -> Result<PathBuf, NoProgram> {
         let path = self.locate_from(name, folder.to_owned())?;
-        // Going by the name alone, `..` after a link leads to a different file.
+        // Judged by the name alone, `..` after a link leads to a different file.
         let real = self.disk.real(&path);
         let plain = normal(&path);
         let is_same = real.is_ok_and(|real| self.disk.real(&plain).is_ok_and(|it| it == real));
@@ -101,7 +101,7 @@ impl ProgramFinder {
     }
 
     fn locate_from(&mut self, name: &str, beside: PathBuf) -> Result<PathBuf, NoProgram> {
-        // A path of the control's own disk means nothing here, its last part does.
+        // A path on the control's own disk means nothing here, but its last part does.
         let slashed = name.replace('\\', "/");
         let last = slashed.rsplit('/').next().unwrap_or(&slashed);
         let folders: Vec<PathBuf> = std::iter::once(beside)
@@ -121,7 +121,7 @@ impl ProgramFinder {
         Err(refused.or_else(near).unwrap_or(NoProgram::Absent))
     }
 
-    /// A file that differs only in its extension, which the control expects in the call.
+    /// Returns a file that differs only in its extension, which the control expects in the call.
     fn with_extension(&mut self, folders: &[PathBuf], name: &str) -> Option<NoProgram> {
         let stem = format!("{}.", name.to_lowercase());
         for folder in folders {
@@ -140,7 +140,7 @@ impl ProgramFinder {
         None
     }
 
-    /// A file of that name in a folder, when it may be called.
+    /// Returns a file of that name in a folder, if it may be called.
     fn usable(&mut self, folder: &Path, name: &str) -> Result<PathBuf, NoProgram> {
         if name.is_empty() {
             return Err(NoProgram::Absent);
@@ -161,13 +161,13 @@ impl ProgramFinder {
         }
     }
 
-    /// The path of that name below a folder; the control's disk does not distinguish upper from lower
+    /// Returns the path of that name below a folder; the control's disk does not distinguish upper from lower
     /// case.
     fn existing(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let exact = folder.join(name);
         match self.disk.entry(&exact) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            // A folder of that name may stand beside a file that is meant.
+            // A folder of that name may exist next to the file that is meant.
             Ok(FolderEntry::Folder | FolderEntry::Special) => {
                 return Some(self.spelled(folder, name).unwrap_or(exact));
             }
@@ -179,7 +179,7 @@ impl ProgramFinder {
         self.spelled(folder, name)
     }
 
-    /// The same, whatever the case of each part.
+    /// Returns the path of that name below a folder, whatever the case of each part.
     fn spelled(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let mut path = folder.to_owned();
         let mut parts = name.split('/').filter(|part| !part.is_empty()).peekable();
@@ -207,14 +207,14 @@ impl ProgramFinder {
         Some(path)
     }
 
-    /// The name of a file in records: its own, and no other file's.
+    /// Returns the name of a file in records, which no other file has.
     fn name(&mut self, path: &Path) -> String {
         let real = self.disk.real(path);
         let real = real.unwrap_or_else(|_| path.to_owned());
         if let Some(name) = self.names.get(&real) {
             return name.clone();
         }
-        // Going by the name alone, `..` after a link leads to a different file.
+        // Judged by the name alone, `..` after a link leads to a different file.
         let shown = Some(normal(path))
             .filter(|shown| self.disk.real(shown).is_ok_and(|shown| shown == real));
         let mut shown = shown.unwrap_or_else(|| path.to_owned());
@@ -243,7 +243,7 @@ impl Finder for ProgramFinder {
     }
 }
 
-/// A name with a drive begins at a root on every system, `C:/CNC/sub.nc`.
+/// Returns a name in the system's form; one with a drive, `C:/CNC/sub.nc`, begins at a root on every system.
 fn native(name: &str) -> Cow<'_, str> {
     let drive = name.as_bytes().get(1) == Some(&b':');
     if drive && !cfg!(windows) {

@@ -1,4 +1,4 @@
-//! The knowledge of a folder about the machine of its programs, before it has a configuration
+//! What a folder shows about the machine of its programs, before it has a configuration
 //! (R9.73).
 
 use std::collections::BTreeSet;
@@ -25,11 +25,11 @@ use frictcomp::text::shown_path;
 /// Depth below the folder at which a start-up list is looked for.
 const DEPTH: usize = 4;
 
-/// What a folder says about its machine: the start-up list that is given or lies there, otherwise
+/// Returns what a folder shows about its machine: the given or found start-up list, otherwise
 /// the axes of the programs.
 ///
 /// # Errors
-/// There is no such folder, several start-up lists lie there, or the given list is not a start-up list.
+/// The folder does not exist, contains several start-up lists, or the given list is not a start-up list.
 pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, HostError> {
     if !folder.is_dir() {
         return Err(HostError::NoFolder(folder.to_owned()));
@@ -45,10 +45,10 @@ pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, Host
     Ok(Outline::Startup(shown_path(&seen_from(folder, &path)?)))
 }
 
-/// Creates a file as a whole; one that is there stays.
+/// Creates a file as a whole; an existing one stays.
 ///
 /// # Errors
-/// There is such a file, or it cannot be written.
+/// The file already exists, or cannot be written.
 pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
     let mut placed = Placed::default();
     let written = AtomicFile::begin(target).and_then(|mut file| {
@@ -65,7 +65,7 @@ pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
     placed.settle()
 }
 
-/// The start-up list below a folder, recognised by its content.
+/// Returns the start-up list below a folder, recognised by its content.
 fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
     let disk = Disk::default();
     let mut found: Vec<PathBuf> = Vec::new();
@@ -88,7 +88,7 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
     Ok(found.pop())
 }
 
-/// Says what is there instead of a start-up list.
+/// Returns an error that names the kind of file found instead of a start-up list.
 fn check_startup(path: &Path) -> Result<(), HostError> {
     let disk = Disk::default();
     let list = read_list(path, &disk)?;
@@ -106,7 +106,7 @@ fn check_startup(path: &Path) -> Result<(), HostError> {
     }
 }
 
-/// A path as a configuration in the folder writes it.
+/// Returns a path as a configuration in the folder writes it.
 fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, HostError> {
     let absolute = |path: &Path| {
         let found = std::path::absolute(path).map(|path| normal(&path));
@@ -115,7 +115,7 @@ fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, HostError> {
     Ok(relative(&absolute(path)?, &absolute(folder)?))
 }
 
-/// The texts of the programs below a folder. What cannot be read is no program to learn from.
+/// Returns the texts of the programs below a folder. Programs that cannot be read are skipped.
 fn programs(folder: &Path) -> impl Iterator<Item = String> {
     let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
     inputs.into_iter().filter_map(|input| match input {

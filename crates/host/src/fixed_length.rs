@@ -1,22 +1,22 @@
-//! A file that must stay as long as it was when it was opened.
+//! A file that must keep the length that it had when it was opened.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// Reads a file up to the end that it had, and fails where that is not its end. A program of which
-/// a part is missing, or to which one was added, would leave a state that its whole would not leave.
+/// Reads a file up to its original end, and fails if the file does not end there. A program with a missing
+/// or an added part would leave a state other than that of the whole program.
 #[derive(Debug)]
 pub(super) struct FixedLengthReader {
     file: File,
-    /// The length that it had, where it has one.
+    /// The original length, if the file has one.
     length: Option<u64>,
     /// Number of bytes read.
     at: u64,
 }
 
 impl FixedLengthReader {
-    /// An open file with what is known of it. Pipes have no length, and files that the system
-    /// makes up while they are read say 0.
+    /// Takes an open file with its metadata. Pipes have no length, and files that the system generates
+    /// while they are read report 0.
     pub(super) fn new(mut file: File, metadata: &Metadata) -> Self {
         let has_length = metadata.is_file() && metadata.len() > 0;
         let at = file.stream_position().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The differences between the files of a folder and a revision of its git repository, by the
+//! The differences between the files of a folder and a revision of its git repository, from the
 //! command `git` (R17.4).
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +12,7 @@ use super::decode::decode;
 use super::error::HostError;
 use super::read::{MOST_KEPT, too_big};
 
-/// The beginning of what stands in a revision for a file that Git LFS keeps elsewhere.
+/// The start of a revision's content for a file that Git LFS stores elsewhere.
 const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
 
 /// A revision of the git repository in which a folder lies.
@@ -20,7 +20,7 @@ const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
 pub struct Revision {
     /// The top folder of the work tree.
     top: PathBuf,
-    /// The name of the commit, or of the empty tree.
+    /// The hash of the commit, or of the empty tree.
     commit: String,
 }
 
@@ -28,7 +28,7 @@ pub struct Revision {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ChangedFile {
-    /// The file in the work tree, from the root on; `None` where it is gone.
+    /// The file in the work tree, from the root on; `None` where it was deleted.
     pub new: Option<PathBuf>,
     /// The file in the revision; `None` where it is new.
     pub old: Option<OldFile>,
@@ -39,12 +39,12 @@ pub struct ChangedFile {
 pub struct OldFile {
     /// Path in the work tree, from the root on.
     pub path: PathBuf,
-    /// The name of its content.
+    /// The hash of its content.
     blob: String,
 }
 
 impl ChangedFile {
-    /// A file that was saved, or that is gone now.
+    /// Creates the change of a file that was saved, or that does not exist any more.
     pub fn saved(path: PathBuf) -> Self {
         if path.exists() {
             return Self {
@@ -61,10 +61,10 @@ impl ChangedFile {
 }
 
 impl Revision {
-    /// A revision by its name, in the repository of a folder. Before the first commit `HEAD` has no files.
+    /// Looks up a revision by its name, in the repository of a folder. Before the first commit `HEAD` has no files.
     ///
     /// # Errors
-    /// There is no command `git`, the folder is in no repository, or there is no such revision.
+    /// The command `git` is missing, the folder is not in a repository, or there is no such revision.
     pub fn new(folder: &Path, name: &str) -> Result<Self, HostError> {
         let top = git(folder, &["rev-parse", "--show-toplevel"])?;
         if !top.status.success() {
@@ -86,7 +86,7 @@ impl Revision {
             if !is_unborn {
                 return Err(HostError::NoRevision(name.to_owned()));
             }
-            // Nothing on the standard input is the tree without files.
+            // Empty standard input gives the tree without files.
             found = git(folder, &["hash-object", "-t", "tree", "--stdin"])?;
         }
         Ok(Self {
@@ -95,7 +95,7 @@ impl Revision {
         })
     }
 
-    /// The files that differ from those of the work tree, untracked ones included; links and
+    /// Returns the files that differ from those of the work tree, untracked ones included; links and
     /// submodules are left out.
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl Revision {
         Ok(changes)
     }
 
-    /// The files of the work tree that git follows.
+    /// Returns the files of the work tree that git tracks.
     ///
     /// # Errors
     /// The command `git` fails.
@@ -138,7 +138,7 @@ impl Revision {
         Ok(paths.map(|path| self.top.join(os(path))).collect())
     }
 
-    /// The rows of `git diff --raw -z`.
+    /// Parses the rows of `git diff --raw -z`.
     fn parsed(&self, listed: &[u8]) -> Vec<ChangedFile> {
         let mut fields = listed.split(|byte| *byte == 0);
         let mut changes = Vec::new();
@@ -158,7 +158,7 @@ impl Revision {
                 blob: blob.to_owned(),
             });
             let new = is_file(new_mode).then(|| path(second.unwrap_or(first)));
-            // A copy leaves the file that it was made of as it was.
+            // A copy does not change its source file.
             let old = old.filter(|_| !status.starts_with('C'));
             if old.is_some() || new.is_some() {
                 changes.push(ChangedFile { new, old });
@@ -167,7 +167,7 @@ impl Revision {
         changes
     }
 
-    /// The texts that files have in the revision, by their paths.
+    /// Returns the texts that files have in the revision, by their paths.
     ///
     /// # Errors
     /// The command `git` fails, or a file is too big to be kept.
@@ -188,7 +188,7 @@ impl Revision {
             .spawn()
             .map_err(|error| no_git(&error))?;
         let read = self.read_all(&mut child, &files, &mut texts);
-        // Its pipes are closed; what it says has been read.
+        // Its pipes are closed, and its output has been read.
         let _ = child.wait();
         read?;
         Ok(texts)
@@ -201,10 +201,10 @@ impl Revision {
         texts: &mut BTreeMap<PathBuf, String>,
     ) -> Result<(), HostError> {
         let (Some(mut names), Some(contents)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(HostError::Git("git cannot be talked to".to_owned()));
+            return Err(HostError::Git("the connection to git failed".to_owned()));
         };
         thread::scope(|scope| {
-            // Closed where the reading ends early, so that git does, too.
+            // Closed where the reading ends early, so that git ends, too.
             let mut contents = BufReader::new(contents);
             // Both pipes may be full: names are written while contents are read.
             scope.spawn(move || {
@@ -228,7 +228,7 @@ impl Revision {
         })
     }
 
-    /// Returns a file as the filters of the repository make it.
+    /// Returns a file as the filters of the repository produce it.
     fn smudged(&self, file: &OldFile) -> Result<Vec<u8>, HostError> {
         let path = file.path.strip_prefix(&self.top).unwrap_or(&file.path);
         let mut option = std::ffi::OsString::from("--path=");
@@ -251,7 +251,7 @@ impl Revision {
     }
 }
 
-/// The next content of `git cat-file --batch`.
+/// Reads the next content from `git cat-file --batch`.
 fn next_content(contents: &mut impl BufRead) -> io::Result<Vec<u8>> {
     let mut header = String::new();
     contents.read_line(&mut header)?;
@@ -274,7 +274,7 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
     if !folder.as_os_str().is_empty() {
         command.current_dir(folder);
     }
-    // It looks and changes nothing, and speaks so that it is understood.
+    // git only reads, and answers in English.
     command.env("GIT_OPTIONAL_LOCKS", "0").env("LC_ALL", "C");
     command.args(arguments).stdin(Stdio::null());
     command
@@ -301,14 +301,14 @@ fn no_git(error: &io::Error) -> HostError {
     }
 }
 
-/// The first line that git says on stderr, without its `fatal: `.
+/// Returns the first line of git's stderr, without its `fatal: `.
 fn said(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stderr);
     let line = text.lines().next().unwrap_or("git failed");
     line.strip_prefix("fatal: ").unwrap_or(line).to_owned()
 }
 
-/// The one line of an output.
+/// Returns the only line of an output.
 fn line(output: &[u8]) -> &[u8] {
     let line = output.strip_suffix(b"\n").unwrap_or(output);
     line.strip_suffix(b"\r").unwrap_or(line)
@@ -319,7 +319,7 @@ fn os(bytes: &[u8]) -> &OsStr {
     std::os::unix::ffi::OsStrExt::from_bytes(bytes)
 }
 
-/// git speaks UTF-8 elsewhere.
+/// Reads bytes as UTF-8, which git uses on other systems.
 #[cfg(not(unix))]
 fn os(bytes: &[u8]) -> &OsStr {
     OsStr::new(std::str::from_utf8(bytes).unwrap_or_default())

@@ -1,4 +1,4 @@
-//! Results of programs that were agreed on, each in a file beside its program.
+//! Agreed results of programs, each in a file next to its program.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -11,48 +11,48 @@ use super::outputs::OutputFiles;
 use super::read::read_bytes;
 use super::registry::{FileRegistry, Replaces, folder};
 
-/// A kind of result that is agreed on.
+/// A kind of agreed result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GoldenKind {
     /// Extension after the name of the program, `timeline`.
     pub extension: &'static str,
-    /// Name of the writer of the files in errors.
+    /// Name of the writer of the files, used in errors.
     pub writer: &'static str,
 }
 
-/// The results of one kind, in the folders that the user handed over.
+/// The results of one kind, in the folders given by the user.
 #[derive(Debug, Clone)]
 pub struct GoldenResults {
     kind: GoldenKind,
     trees: Vec<PathBuf>,
 }
 
-/// A program with the file that holds what was agreed on.
+/// A program with the file of its agreed result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GoldenFile {
-    /// The program whose result was agreed on.
+    /// The program with an agreed result.
     pub program: Input,
-    /// The file beside it.
+    /// The file next to it.
     pub path: PathBuf,
 }
 
-/// A result against the one that was agreed on.
+/// Comparison of a result with the agreed one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GoldenDrift {
     /// They are the same.
     AsAgreed,
-    /// Nothing has been agreed on yet.
+    /// There is no agreed result yet.
     Missing {
-        /// The result of today.
+        /// The current result.
         now: String,
     },
     /// They differ.
     Drifted {
-        /// The result that was agreed on.
+        /// The agreed result.
         before: String,
-        /// The result of today.
+        /// The current result.
         now: String,
     },
 }
@@ -72,7 +72,7 @@ pub struct UpdatedFolder<'a, E> {
 }
 
 impl GoldenResults {
-    /// The results beside programs, and in folders of programs.
+    /// Returns the results next to programs, and in folders of programs.
     pub fn of(kind: GoldenKind, paths: &[PathBuf]) -> Self {
         let tree = |path: &PathBuf| {
             let tree = if path.is_dir() { path } else { folder(path) };
@@ -84,11 +84,11 @@ impl GoldenResults {
         }
     }
 
-    /// The file beside a program: `a.nc.timeline` beside `a.nc`, so that `a.nc` and `a.spf` do not
-    /// meet.
+    /// Returns the file next to a program: `a.nc.timeline` for `a.nc`, so that `a.nc` and `a.spf` do not
+    /// collide.
     ///
     /// # Errors
-    /// The program is standard input, which has no file beside it.
+    /// The program is standard input, which has no folder.
     pub fn beside(&self, program: &Input) -> Result<GoldenFile, HostError> {
         let (Input::File(path) | Input::Open(OpenText { path, .. })) = program else {
             return Err(HostError::NothingBeside(self.kind.extension));
@@ -102,12 +102,12 @@ impl GoldenResults {
         })
     }
 
-    /// Compares the result of today with the one that was agreed on. `now` gives the result of
-    /// today, and is given what was agreed on.
+    /// Compares the current result with the agreed one. `now` returns the current result, and is given
+    /// the agreed one.
     ///
     /// # Errors
-    /// The file cannot be read, or is a link that leads out of the folders (R9.77); or there is no
-    /// result of today.
+    /// The file cannot be read, or is a link that leads out of the folders (R9.77); or the current result
+    /// is not available.
     pub fn compare<E: From<HostError>>(
         &self,
         agreed: &GoldenFile,
@@ -123,11 +123,11 @@ impl GoldenResults {
         })
     }
 
-    /// Writes the files that drifted, folder by folder as the iterator is asked: all of a folder or
-    /// none (R9.77). `now` gives the result of a program, and is given what was agreed on.
+    /// Writes the files that drifted, folder by folder as the iterator advances: all of a folder or
+    /// none (R9.77). `now` returns the result of a program, and is given the agreed one.
     ///
     /// # Errors
-    /// A file is one that the work reads.
+    /// A file is one of the inputs.
     pub fn update<'a, E: From<HostError>>(
         &'a self,
         files: &'a [GoldenFile],
@@ -164,7 +164,7 @@ impl GoldenResults {
         }))
     }
 
-    /// Writes one file where it drifted.
+    /// Writes one file if it drifted.
     fn write(
         &self,
         file: &GoldenFile,
@@ -180,7 +180,7 @@ impl GoldenResults {
         output.sync()
     }
 
-    /// A link may not lead to a file that the user did not hand over: it would be shown in a
+    /// Refuses a link to a file that the user did not name: it would be shown in a
     /// difference, or overwritten.
     fn stay_inside(&self, agreed: &Path) -> Result<(), HostError> {
         let is_link = std::fs::symlink_metadata(agreed).is_ok_and(|it| it.is_symlink());
@@ -192,7 +192,7 @@ impl GoldenResults {
     }
 }
 
-/// The agreed result; `None` where nothing was agreed on yet. Line ends may be those of any system.
+/// Returns the agreed result; `None` where there is none yet. Line ends may be those of any system.
 fn read_agreed(path: &Path) -> Result<Option<String>, HostError> {
     match read_bytes(path) {
         Ok(bytes) => {

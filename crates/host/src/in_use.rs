@@ -1,4 +1,4 @@
-//! Why Windows alone refuses a file: another program keeps it open, so that it cannot be replaced, or its
+//! Why Windows alone refuses a file: another program has it open, so that it cannot be replaced, or its
 //! name belongs to a device.
 
 use std::io;
@@ -6,8 +6,8 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Time for which a file may be in use: virus scanners and the search of Windows open new files for
-/// moments, spreadsheets keep them.
+/// Time for which a file may be in use: virus scanners and the Windows search open new files for
+/// moments, spreadsheets for longer.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Time between attempts.
@@ -16,10 +16,10 @@ const PAUSE: Duration = Duration::from_millis(20);
 /// Another program has the file open without sharing it, or has locked a part of it.
 const IN_USE: [i32; 2] = [32, 33];
 
-/// So says the system, too, where a file is to be replaced that another program has open.
+/// Also reported when a file is to be replaced that another program has open.
 const ACCESS_DENIED: i32 = 5;
 
-/// Replaces or moves a file; what another program is in the way of is tried again for some time.
+/// Replaces or moves a file; where another program blocks this, tries again for some time.
 pub(super) fn patiently<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
     let may_pass = |code| cfg!(windows) && (IN_USE.contains(&code) || code == ACCESS_DENIED);
     repeated(attempt, may_pass, PATIENCE)
@@ -46,13 +46,13 @@ fn repeated<T>(
     }
 }
 
-/// Checks beforehand, as far as possible, that a file can be replaced: on Windows a program that has it
+/// Checks beforehand, to the extent possible, that a file can be replaced: on Windows a program that has it
 /// open may prevent that.
 #[cfg(windows)]
 pub(super) fn check_replaceable(path: &Path) -> io::Result<()> {
     use std::os::windows::fs::OpenOptionsExt;
 
-    /// The right to replace a file, which must be granted by all who have it open.
+    /// The right to replace a file, which all who have it open must grant.
     const DELETE: u32 = 0x0001_0000;
     let open = || std::fs::File::options().access_mode(DELETE).open(path);
     match patiently(open) {
@@ -70,7 +70,7 @@ pub(super) fn check_replaceable(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The same error, with a kind of its own where another program has the file open.
+/// Returns the error, with a separate kind where another program has the file open.
 pub(super) fn told(error: io::Error) -> io::Error {
     let code = error.raw_os_error();
     if cfg!(windows) && code.is_some_and(|code| IN_USE.contains(&code)) {
@@ -79,8 +79,8 @@ pub(super) fn told(error: io::Error) -> io::Error {
     error
 }
 
-/// The same for a file beside which a new one could be written: that alone is denied by whoever has
-/// it open.
+/// Returns the error for a file that cannot be replaced although a new one could be written next to it: then
+/// another program has it open.
 pub(super) fn told_of_replacing(error: io::Error) -> io::Error {
     if cfg!(windows) && error.raw_os_error() == Some(ACCESS_DENIED) {
         return io::ErrorKind::ResourceBusy.into();
@@ -88,8 +88,8 @@ pub(super) fn told_of_replacing(error: io::Error) -> io::Error {
     told(error)
 }
 
-/// The device that a path means on Windows, whatever its folder and its extension: `aux.nc` is none
-/// that could be written.
+/// Returns the device that a path means on Windows, whatever its folder and its extension: `aux.nc` cannot
+/// be written.
 pub(super) fn device(path: &Path) -> Option<&'static str> {
     const DEVICES: [&str; 26] = [
         "CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$", "COM0", "COM1", "COM2", "COM3", "COM4",

@@ -29,7 +29,7 @@ pub enum Naming {
 }
 
 impl Naming {
-    /// The name of a file.
+    /// Returns the name of a file.
     pub fn name(self, path: &Path) -> String {
         match (self, path.file_name()) {
             (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
@@ -51,13 +51,13 @@ pub enum Input {
 
 /// A program that is ready to run.
 pub(super) enum Opened<'a> {
-    /// A file without flow, or what can be read only once: the lines come one after another.
+    /// A file without flow, or one that can be read only once: line by line.
     Lines(LineReader<Box<dyn Read + 'a>>),
     /// A program with flow.
     Whole(SourceFile),
 }
 
-/// A reader that may have to wait for more, and says so before it does.
+/// A reader that may have to wait for more, and reports this before it waits.
 struct Waiting<'a, R> {
     reader: R,
     before: &'a dyn Fn(),
@@ -71,7 +71,7 @@ impl<R: Read> Read for Waiting<'_, R> {
 }
 
 impl Input {
-    /// Creates the input that an argument of the user means.
+    /// Creates the input that a user's argument means.
     pub fn new(argument: &Path) -> Self {
         if argument == Path::new("-") {
             Self::Stdin
@@ -80,7 +80,7 @@ impl Input {
         }
     }
 
-    /// Its name in records and diagnostics.
+    /// Returns its name in records and diagnostics.
     pub fn name(&self, naming: Naming) -> String {
         match self {
             Self::File(path) | Self::Open(OpenText { path, .. }) => naming.name(path),
@@ -88,7 +88,7 @@ impl Input {
         }
     }
 
-    /// The folder in which the search for a configuration begins.
+    /// Returns the folder in which the search for a configuration begins.
     pub fn folder(&self) -> &Path {
         match self {
             Self::File(path) | Self::Open(OpenText { path, .. }) => path.parent().unwrap_or(path),
@@ -96,7 +96,7 @@ impl Input {
         }
     }
 
-    /// Says why the program cannot be run, as far as that is known before it runs.
+    /// Checks whether the program can be run, to the extent that this is known before.
     ///
     /// # Errors
     /// It does not exist, cannot be read, or is a folder.
@@ -148,8 +148,8 @@ impl Input {
     }
 }
 
-/// The lines of a program that was run, by its name in records. `None` for what can be read only
-/// once, a pipe.
+/// Returns the lines of a program that was run, by its name in records. `None` for a pipe, which can be read
+/// only once.
 pub fn reopen(name: &str) -> Option<Box<dyn LineSource>> {
     let path = Path::new(name);
     if !path.is_file() {
@@ -163,7 +163,7 @@ pub fn reopen(name: &str) -> Option<Box<dyn LineSource>> {
     Some(Box::new(lines))
 }
 
-/// Standard input, where it is a file and no pipe.
+/// Returns standard input, if it is a file and not a pipe.
 fn standard_input() -> Option<(File, Metadata)> {
     let file = input_file().ok()?;
     let metadata = file.metadata().ok()?;
@@ -210,7 +210,7 @@ fn open_file<'a>(
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
-/// The lines of a text without flow, or the whole text.
+/// Returns the lines of a text without flow, or the whole text.
 fn open_text<'a>(open: &OpenText, name: String) -> Opened<'a> {
     let mut scan = FlowScan::default();
     scan.feed(open.text.as_bytes());
@@ -222,7 +222,7 @@ fn open_text<'a>(open: &OpenText, name: String) -> Opened<'a> {
     Opened::Lines(LineReader::of_length(Box::new(bytes), length))
 }
 
-/// The bytes of a text that others hold, too.
+/// The bytes of a shared text.
 struct Shared(Arc<String>);
 
 impl AsRef<[u8]> for Shared {
@@ -231,7 +231,7 @@ impl AsRef<[u8]> for Shared {
     }
 }
 
-/// Lines that are given out as they arrive.
+/// Returns lines that are passed on as they arrive.
 fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
     Opened::Lines(LineReader::new(Box::new(Waiting { reader, before }) as Box<dyn Read>).narrow())
 }

@@ -1,20 +1,20 @@
-//! What happens when a run is stopped from outside: its unfinished files go first (R9.31).
+//! Clean-up when a run is stopped from outside: its unfinished files are removed first (R9.31).
 //!
-//! Signals belong to the process. A host that has a use of its own for them leaves them alone, and a
-//! later run takes the files away.
+//! Signals belong to the process. A host that uses them itself leaves them alone, and a
+//! later run removes the files.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
 
-/// The files that are not whole yet. A handler of signals reaches nothing else.
+/// The unfinished files. A signal handler can reach only these.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// The exit status of a process that is stopped, where the host has its files taken away.
+/// The exit status of a process that is stopped, where the host has its files removed.
 static STATUS: OnceLock<u8> = OnceLock::new();
 
-/// Takes the unfinished files away when the process is stopped, which then ends as it would have.
-/// `status` is the exit status on systems that know no signals.
+/// Removes the unfinished files when the process is stopped, which then ends as it would have.
+/// `status` is the exit status on systems without signals.
 pub fn clean_up_when_stopped(status: u8) {
     let _ = STATUS.set(status);
 }
@@ -36,12 +36,12 @@ impl Unfinished {
         Self(UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// A file that goes when the run is stopped.
+    /// Adds a file to be removed when the run is stopped.
     pub(super) fn add(&mut self, path: &Path) {
         self.0.insert(path.to_owned());
     }
 
-    /// A file that is whole, or gone.
+    /// Forgets a file that is complete, or deleted.
     pub(super) fn forget(&mut self, path: &Path) {
         self.0.remove(path);
     }
@@ -49,13 +49,13 @@ impl Unfinished {
     #[cfg(any(unix, windows))]
     fn take_away(&mut self) {
         while let Some(path) = self.0.pop_first() {
-            // What cannot be removed now, the next run takes away.
+            // What cannot be removed now is removed by the next run.
             let _ = std::fs::remove_file(path);
         }
     }
 }
 
-/// Makes a limit of the size of files an error of the write that meets it, not the end of the run.
+/// Turns exceeding the file size limit into a write error, instead of the end of the run.
 pub fn survive_file_size_limit() {
     system::survive_file_size_limit();
 }
@@ -75,11 +75,11 @@ mod system {
     const STOPS: [i32; 4] = [SIGINT, SIGTERM, SIGHUP, SIGQUIT];
 
     pub(super) fn survive_file_size_limit() {
-        // Who is told nothing loses nothing: the write itself fails.
+        // Ignoring the signal loses nothing: the write itself fails.
         let _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
     }
 
-    /// Waits for signals in a thread. Where there can be none, a stopped run leaves its files to the
+    /// Waits for signals in a thread. Without one, a stopped run leaves its files to the
     /// next one.
     pub(super) fn watch(_: u8) {
         let (ready, waits) = mpsc::channel();
@@ -89,7 +89,7 @@ mod system {
             };
             let _ = ready.send(());
             for signal in signals.forever() {
-                // Held until the process ends, so that no file comes after this.
+                // Held until the process ends, so that no file is created after this.
                 let mut unfinished = Unfinished::guard();
                 unfinished.take_away();
                 let _ = emulate_default_handler(signal);
@@ -100,8 +100,8 @@ mod system {
         }
     }
 
-    /// The signals that stop the run. What a parent has set to be ignored, as `nohup` does, stays so;
-    /// Linux tells.
+    /// Returns the signals that stop the run. Those that a parent has set to be ignored, as `nohup` does, stay
+    /// ignored; Linux reports them.
     fn heeded() -> Vec<i32> {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let ignored = status

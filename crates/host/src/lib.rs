@@ -1,19 +1,19 @@
-//! Everything that touches files or threads and is no command line: for the command line, an editor,
+//! Everything that needs files or threads but not the command line: for the command line, an editor,
 //! Python, and other hosts that run programs from a disk.
 //!
 //! [`Machines`] finds the machine of a program from `frictcomp.toml` or the control's lists;
 //! [`find_programs`] walks folders, an [`Input`] is one program, [`run_alone`] and [`run_program`]
-//! run it with everything that it calls. [`StateFile`] holds what one run leaves for the next,
-//! [`OutputFiles`] take their place all at once, [`read_commanded`] and [`read_circles`] read what was
-//! recorded on a machine, and [`compare`] and [`tune`] simulate on all processors.
+//! run it with everything that it calls. [`StateFile`] holds the state that one run leaves for the next,
+//! [`OutputFiles`] are put in place all at once, [`read_commanded`] and [`read_circles`] read recordings
+//! of a machine, and [`compare`] and [`tune`] simulate on all processors.
 //!
-//! Nothing here prints or knows an option: long work is followed by a [`Watcher`], and what cannot
-//! be done is a [`HostError`].
+//! Nothing here prints or depends on options: long work reports to a [`Watcher`], and failures
+//! are [`HostError`]s.
 //!
 //! ```
 //! use frictcomp_host::{EncodedText, decode};
 //!
-//! // An umlaut of an old system.
+//! // An umlaut in the code page of an old system.
 //! assert_eq!(decode(b"N10 M30 (f\xfcr X)\n".to_vec()), "N10 M30 (für X)\n");
 //! let file = EncodedText::new(b"N10 M30 (f\xfcr X)\n".to_vec());
 //! assert_eq!(file.replaced([(4..7, "M2")])?, b"N10 M2 (f\xfcr X)\n");

@@ -1,4 +1,4 @@
-//! The lines of a file of any size, in a buffer of one size.
+//! The lines of a file of any size, in a buffer of fixed size.
 
 use std::io::{self, Read, Seek};
 use std::ops::Range;
@@ -8,7 +8,7 @@ use crate::decode::{decode_lines, wide};
 use frictcomp::syntax::{FlowScan, MAX_LINE};
 use frictcomp::text::{LineSource, PhysicalLine, line_end};
 
-/// Bytes that are read at once.
+/// Number of bytes read at once.
 const BUFFER: usize = 128 * 1024;
 
 /// Number of bytes with at least one character more than the longest line.
@@ -16,15 +16,15 @@ const KEPT: usize = 4 * (MAX_LINE + 1);
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Number of bytes that show UTF-16 without a byte order mark: a zero among them.
+/// Number of bytes that show UTF-16 without a byte order mark: one of them is zero.
 const TELLING: usize = 4;
 
 /// Form of line ends.
 #[derive(Debug, Clone, Copy)]
 enum LineEnds {
-    /// In LF, CRLF or CR.
+    /// LF, CRLF or CR.
     Any,
-    /// In LF; one byte is found faster than two.
+    /// LF only; one byte is found faster than two.
     Lf,
 }
 
@@ -35,15 +35,15 @@ enum LineEnds {
 pub(super) struct LineReader<R> {
     reader: R,
     buffer: Vec<u8>,
-    /// The bytes that were read and not decoded yet.
+    /// The bytes read but not decoded yet.
     unread: Range<usize>,
     at_end: bool,
     legacy: bool,
     /// Whole lines, decoded.
     text: String,
-    /// The line that was given last, in `text`.
+    /// The last line returned, in `text`.
     line: Range<usize>,
-    /// Whether that line is longer than what is given of it.
+    /// Whether that line was cut.
     cut: bool,
     /// Offset of the next line in `text`.
     next: usize,
@@ -55,14 +55,14 @@ pub(super) struct LineReader<R> {
 }
 
 impl<R: Read> LineReader<R> {
-    /// The lines of a reader; a byte order mark at its start is passed over.
+    /// Reads the lines of a reader; a byte order mark at its start is passed over.
     pub(super) fn new(reader: R) -> Self {
         Self::with_buffer(reader, BUFFER)
     }
 
-    /// The lines of a reader of a number of bytes. A short one gets a small buffer: big ones that
-    /// come and go with each of many files are given back to the system in between, which takes
-    /// longer than to read them.
+    /// Reads the lines of a reader of known length. A short one gets a small buffer: large ones for each of
+    /// many files would be returned to the system in between, which takes longer than reading
+    /// them.
     pub(super) fn of_length(reader: R, length: u64) -> Self {
         let length = usize::try_from(length).unwrap_or(BUFFER);
         Self::with_buffer(reader, length.saturating_add(1).clamp(KEPT, BUFFER))
@@ -103,7 +103,7 @@ impl<R: Read> LineReader<R> {
         wide(&self.buffer[self.unread.clone()]).is_some()
     }
 
-    /// The same lines, of which those of a text that cannot be given out as it comes are an error.
+    /// Turns a text that cannot be passed on as it arrives into an error.
     pub(super) fn narrow(mut self) -> Self {
         if self.is_wide() {
             let reason = "it is UTF-16, which is not read from a pipe; save it as UTF-8";
@@ -114,12 +114,12 @@ impl<R: Read> LineReader<R> {
         self
     }
 
-    /// The reader, wherever it stands.
+    /// Returns the reader at its current position.
     pub(super) fn into_reader(self) -> R {
         self.reader
     }
 
-    /// The same lines, of whatever kind the reader is.
+    /// Boxes the reader, so that all kinds have one type.
     pub(super) fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
     where
         R: 'a,
@@ -140,12 +140,12 @@ impl<R: Read> LineReader<R> {
         }
     }
 
-    /// The error that ended the lines before the end of the file.
+    /// Returns the error that ended the lines before the end of the file.
     pub(super) fn take_failure(&mut self) -> Option<io::Error> {
         self.failure.take()
     }
 
-    /// Reads more after what is there, once; there must be room.
+    /// Reads once more after the unread bytes; there must be room.
     fn fill(&mut self) {
         self.buffer.copy_within(self.unread.clone(), 0);
         self.unread = 0..self.unread.len();
@@ -186,7 +186,7 @@ impl<R: Read> LineReader<R> {
                 return false;
             }
             if self.unread.len() == self.buffer.len() {
-                // The beginning of a line that has no end in sight.
+                // The beginning of a line without an end so far.
                 self.decode(whole_characters(&self.buffer[..KEPT]).len());
                 self.skip_line();
                 return true;
@@ -215,7 +215,7 @@ impl<R: Read> LineReader<R> {
         decode_lines(bytes, &mut self.legacy, &mut self.text);
     }
 
-    /// Passes over the rest of a line and its end.
+    /// Skips the rest of a line and its end.
     fn skip_line(&mut self) {
         loop {
             let bytes = &self.buffer[self.unread.clone()];
@@ -249,7 +249,7 @@ impl<R: Read> LineReader<R> {
 }
 
 impl<R: Read + Seek> LineReader<R> {
-    /// Looks through all lines to come, and comes back. What fits into the buffer is read once.
+    /// Scans all lines to come, and returns to the current position. What fits into the buffer is read once.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -330,7 +330,7 @@ impl<R: Read> LineSource for LineReader<R> {
     }
 }
 
-/// Bytes without a character that was cut at their end.
+/// Returns bytes without a character that was cut at their end.
 fn whole_characters(bytes: &[u8]) -> &[u8] {
     match std::str::from_utf8(bytes) {
         Err(error) if error.error_len().is_none() => &bytes[..error.valid_up_to()],
@@ -345,7 +345,7 @@ mod tests {
     use super::*;
     use frictcomp::text::TextLines;
 
-    /// Gives its bytes in pieces of one size.
+    /// Returns its bytes in pieces of one size.
     struct Pieces<'a>(&'a [u8], usize);
 
     impl Read for Pieces<'_> {
@@ -366,7 +366,7 @@ mod tests {
         found
     }
 
-    /// The same lines, each found in the text that is ahead.
+    /// Returns the lines, each found in the text that is ahead.
     fn lines_ahead(source: &mut dyn LineSource) -> Vec<(String, bool)> {
         let mut found = Vec::new();
         loop {

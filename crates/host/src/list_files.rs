@@ -14,7 +14,7 @@ use frictcomp::text::{SourceFile, shown_path};
 pub struct ListsOnDisk(Disk);
 
 impl ListsOnDisk {
-    /// The lists on this disk.
+    /// Creates the lists on this disk.
     pub fn new(disk: &Disk) -> Self {
         Self(disk.clone())
     }
@@ -32,7 +32,7 @@ impl ListFiles for ListsOnDisk {
         }
     }
 
-    /// By name as far as the name goes, then by `..` up to the root.
+    /// Goes up by name where the path has one, then by `..` up to the root.
     fn above(&self, folder: &str) -> Option<String> {
         let path = Path::new(folder);
         match path.components().next_back() {
@@ -59,7 +59,7 @@ pub fn read_list(path: &Path, disk: &Disk) -> Result<SourceFile, HostError> {
     Ok(SourceFile::new(shown_path(path), text))
 }
 
-/// The path as it is spelt on the disk. The control's disk does not distinguish upper from lower case.
+/// Returns the path as it is spelt on the disk. The control's disk does not distinguish upper from lower case.
 fn as_spelt(path: &Path, disk: &Disk) -> Option<PathBuf> {
     if disk.entry(path).is_ok() {
         let real = disk.real(path).ok().filter(|_| cfg!(windows));

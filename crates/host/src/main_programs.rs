@@ -1,4 +1,4 @@
-//! Selection of the programs that are main programs of their own (R17.2).
+//! Selection of the main programs (R17.2).
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -14,11 +14,11 @@ use frictcomp::interpreter::holds_program_end;
 pub struct ExecutedProgram<'a> {
     /// The program.
     pub input: &'a Input,
-    /// The names of the files that it executed to their end, itself aside.
+    /// The names of the files that it executed to their end, except itself.
     pub executed_to_end: Vec<String>,
 }
 
-/// Which of the programs are main programs of their own: all but those that hold neither M02 nor M30
+/// Returns which of the programs are main programs: all but those that have neither M02 nor M30
 /// and that a main program among them executed to their end. Programs that only call each other are
 /// main programs (R17.2).
 pub fn main_programs(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<bool> {
@@ -53,7 +53,7 @@ pub fn main_programs(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<bool>
     mains
 }
 
-/// The positions of the programs that each one executed to their end.
+/// Returns the positions of the programs that each one executed to their end.
 fn edges(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<Vec<usize>> {
     if programs.iter().all(|it| it.executed_to_end.is_empty()) {
         return vec![Vec::new(); programs.len()];
@@ -77,9 +77,9 @@ fn edges(programs: &[ExecutedProgram<'_>], disk: &Disk) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Programs that call each other together, callers before what they call: the strongly connected
-/// components of Kosaraju's algorithm, without recursion. The crate for graphs, petgraph, brings tables
-/// of a second version with it.
+/// Returns programs that call each other together, callers before what they call: the strongly connected
+/// components of Kosaraju's algorithm, without recursion. The graph crate petgraph would bring in tables
+/// of a second version.
 pub(super) fn callers_first(edges: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut callers = vec![Vec::new(); edges.len()];
     for (caller, called) in edges.iter().enumerate() {
@@ -169,7 +169,7 @@ mod tests {
         // R17.2
         let sub = "X1\nM17\n";
         assert_eq!(mains(&[("a", "M30", &["s"]), ("s", sub, &[])]), "a");
-        // A program that ends itself is one of its own.
+        // A program that ends itself is a main program.
         assert_eq!(mains(&[("a", "M30", &["b"]), ("b", "M30", &[])]), "a b");
         // Those that only call each other are.
         assert_eq!(

@@ -1,21 +1,21 @@
-//! Memory that work needs, asked for before it begins.
+//! Memory that work needs, checked before it begins.
 
 use super::error::HostError;
 
-/// Memory of a circular test besides the program itself, with room to spare.
+/// Memory of a circular test in addition to the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
 
-/// What a thread needs: address space for its stack and for a heap of its own, 128 MiB with glibc.
+/// What a thread needs: address space for its stack and for its own heap, 128 MiB with glibc.
 /// Without the heap each of its allocations takes a page.
 const THREAD: usize = 136 << 20;
 
-/// Whether there is memory for a thread more.
+/// Whether there is memory for one more thread.
 pub(super) fn is_there_for_a_thread() -> bool {
     available(THREAD).is_ok()
 }
 
-/// Asks for the memory that a simulation needs, since the system would end the process in the middle
-/// of one.
+/// Checks the memory that a simulation needs, since the system would otherwise end the process during the
+/// simulation.
 ///
 /// # Errors
 /// There is not enough.

@@ -17,7 +17,7 @@ pub(super) struct MemoryDisk {
 }
 
 impl MemoryDisk {
-    /// These texts. Of two for one path the last one counts.
+    /// Creates a disk with these texts. If two have the same path, the last one counts.
     pub(super) fn new(texts: impl IntoIterator<Item = OpenText>) -> Self {
         let mut disk = Self::default();
         disk.folders.entry(Self::root()).or_default();
@@ -38,12 +38,12 @@ impl MemoryDisk {
         PathBuf::from("/")
     }
 
-    /// The path from the root on; relative ones begin there.
+    /// Returns the path from the root on; relative ones begin there.
     pub(super) fn absolute(path: &Path) -> PathBuf {
         normal(&Self::root().join(path))
     }
 
-    /// The text at a path.
+    /// Returns the text at a path.
     pub(super) fn text(&self, path: &Path) -> Option<&Arc<String>> {
         self.texts.get(&Self::absolute(path))
     }
@@ -60,12 +60,12 @@ impl MemoryDisk {
         }
     }
 
-    /// The path of what is there. There are no links.
+    /// Returns the path of an existing entry. There are no links.
     pub(super) fn real(&self, path: &Path) -> io::Result<PathBuf> {
         self.entry(path).map(|_| Self::absolute(path))
     }
 
-    /// The names in a folder, sorted.
+    /// Returns the names in a folder, sorted.
     pub(super) fn names(&self, folder: &Path) -> Vec<OsString> {
         let names = self.folders.get(&Self::absolute(folder));
         names.into_iter().flatten().cloned().collect()

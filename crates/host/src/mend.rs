@@ -1,4 +1,4 @@
-//! Changes of files that touch nothing else (R9.82).
+//! Changes to files that leave everything else as it is (R9.82).
 
 use std::io::Write;
 use std::ops::Range;
@@ -12,13 +12,13 @@ use crate::encoded_text::EncodedText;
 use frictcomp::diagnostic::{Fix, edits};
 use frictcomp::text::{SourceFile, shown_path};
 
-/// A file and what changes make of it.
+/// A file before and after changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct MendedFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Its text.
+    /// The original text.
     pub before: String,
     /// The text after the changes.
     pub after: String,
@@ -29,10 +29,10 @@ pub struct MendedFile {
 }
 
 impl MendedFile {
-    /// A file with changes, which name ranges of its text from start to end; `None` without any.
+    /// Applies changes, which name ranges of its text from start to end, to a file; `None` without any.
     ///
     /// # Errors
-    /// Its code page has no way to write a change.
+    /// A change cannot be written in its code page.
     pub(super) fn new(
         path: &Path,
         encoded: &EncodedText,
@@ -72,10 +72,10 @@ impl MendedFile {
     }
 }
 
-/// Makes changes of a file, in memory; `None` where its lines are no longer those of the changes.
+/// Applies changes to a file, in memory; `None` if its lines no longer match those of the changes.
 ///
 /// # Errors
-/// The file cannot be read, or its code page has no way to write a change.
+/// The file cannot be read, or a change cannot be written in its code page.
 pub fn mend(path: &Path, fixes: &[Fix]) -> Result<Option<MendedFile>, HostError> {
     let encoded = read_encoded(path)?;
     let source = SourceFile::new(shown_path(path), encoded.text());
@@ -90,12 +90,12 @@ pub(super) fn read_encoded(path: &Path) -> Result<EncodedText, HostError> {
     Ok(EncodedText::new(bytes))
 }
 
-/// Mended files take the places of the old ones, all or none. One that changed since it was read is
+/// Replaces the old files by the mended ones, all or none. One that changed since it was read is
 /// not overwritten.
 ///
 /// # Errors
-/// A file cannot be read or written, or has changed. Where only the last step of one fails, the error
-/// names those that are in their places already.
+/// A file cannot be read or written, or has changed. If only the last step of one fails, the error
+/// names those already in place.
 pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Result<(), HostError> {
     let mut unfinished = Vec::new();
     for mended in files {

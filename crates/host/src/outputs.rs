@@ -1,4 +1,4 @@
-//! The files that a piece of work writes: all take their place at the end, or none (R9.70).
+//! The output files of a piece of work: at the end all are put in place, or none (R9.70).
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -11,20 +11,20 @@ use super::error::HostError;
 use super::registry::{Claim, FileRegistry, Replaces};
 use frictcomp::text::shown_path;
 
-/// The files that a piece of work writes. Dropped before [`finish`](Self::finish), nothing was
+/// The output files of a piece of work. If dropped before [`finish`](Self::finish), nothing is
 /// written.
 #[derive(Debug)]
 pub struct OutputFiles {
     registry: FileRegistry,
     claims: Vec<Claim>,
     open: Vec<OutputFile>,
-    /// The number of inputs that the claims were compared with before.
+    /// The number of inputs with which the claims have been compared.
     compared: usize,
-    /// Folders from which the leavings of killed runs are gone.
+    /// Folders from which the leftovers of killed runs have been removed.
     swept: BTreeSet<PathBuf>,
 }
 
-/// A result that is being written to a file or a device. Its copies are the same file.
+/// A result that is being written to a file or a device. Its copies write to the same file.
 #[derive(Debug, Clone)]
 pub struct OutputFile {
     path: Arc<Path>,
@@ -34,7 +34,7 @@ pub struct OutputFile {
 enum OutputPlace {
     /// A device or a pipe, which cannot be replaced.
     Open(Box<dyn Write + Send>),
-    /// Beside the file whose place it takes.
+    /// Next to the file that it replaces.
     Beside(AtomicFile),
 }
 
@@ -48,7 +48,7 @@ impl fmt::Debug for OutputPlace {
 }
 
 impl OutputFiles {
-    /// No output yet; those to come are compared with the inputs of a ledger.
+    /// Creates an empty set; outputs are compared with the inputs of a registry.
     pub fn new(registry: &FileRegistry) -> Self {
         Self {
             registry: registry.clone(),
@@ -59,7 +59,7 @@ impl OutputFiles {
         }
     }
 
-    /// Some of the outputs of other work, which has compared them with all inputs that are known.
+    /// Creates a part of the outputs of other work, which has compared them with all known inputs.
     pub(super) fn part_of(whole: &Self) -> Self {
         Self {
             compared: whole.registry.count(),
@@ -67,8 +67,8 @@ impl OutputFiles {
         }
     }
 
-    /// Begins an output; `name` says in errors which one it is. A device or a pipe is opened, a file
-    /// is written beside the one whose place it takes.
+    /// Begins an output; `name` identifies it in errors. A device or a pipe is opened, a file
+    /// is written next to the one that it replaces.
     ///
     /// # Errors
     /// It cannot be written.
@@ -87,7 +87,7 @@ impl OutputFiles {
         self.begin(path)
     }
 
-    /// Notes a file that will be written, before it is known with what.
+    /// Notes a file that will be written, before its content is known.
     pub fn claim(&mut self, name: &'static str, path: &Path, replaces: Replaces) {
         self.claims.push(Claim {
             name,
@@ -106,7 +106,7 @@ impl OutputFiles {
         Ok(self.keep(path, OutputPlace::Beside(beside)))
     }
 
-    /// The inputs are known: says which output would destroy one, before anything runs.
+    /// Reports which output would destroy an input, once the inputs are known and before anything runs.
     ///
     /// # Errors
     /// An output is an input or another output.
@@ -114,17 +114,17 @@ impl OutputFiles {
         self.registry.check(&self.claims, self.compared)
     }
 
-    /// Everything is written: every file takes its place, and `placed` is called for each.
+    /// Puts every file in place once everything is written, and calls `placed` for each.
     ///
     /// # Errors
-    /// A file cannot be written, or is an input that became known meanwhile.
+    /// A file cannot be written, or has become an input meanwhile.
     pub fn finish(self, mut placed: impl FnMut(&Path)) -> Result<(), HostError> {
         for file in &self.open {
             file.sync()?;
         }
-        // What the programs called is known now.
+        // The called programs are known now.
         self.registry.check(&self.claims, self.compared)?;
-        // All take their place, or none.
+        // All are put in place, or none.
         for file in &self.open {
             if let OutputPlace::Beside(beside) = &*file.place() {
                 beside
@@ -171,7 +171,7 @@ impl Write for OutputFile {
 }
 
 impl OutputFile {
-    /// A result that goes to an open writer, under the name of a path.
+    /// Creates a result that goes to an open writer, under the name of a path.
     pub fn open(path: &Path, writer: Box<dyn Write + Send>) -> Self {
         Self {
             path: path.into(),
@@ -179,7 +179,7 @@ impl OutputFile {
         }
     }
 
-    /// Nothing more is written: the file lies on the disk and waits for the others.
+    /// Flushes the finished file to the disk, where it waits for the others.
     ///
     /// # Errors
     /// It cannot be written.
@@ -203,7 +203,7 @@ impl OutputFile {
         self.place.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same error with the name of the file.
+    /// Returns the error with the name of the file.
     fn named(&self, error: io::Error) -> io::Error {
         match error.kind() {
             io::ErrorKind::BrokenPipe | io::ErrorKind::Interrupted => error,
@@ -212,7 +212,7 @@ impl OutputFile {
     }
 }
 
-/// Whether a path names what can only be opened, not replaced: a device, a pipe, or an open file of
+/// Whether a path names something that can only be opened, not replaced: a device, a pipe, or an open file of
 /// this process.
 fn is_device(path: &Path) -> bool {
     if cfg!(windows) {

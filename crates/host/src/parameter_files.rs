@@ -1,4 +1,4 @@
-//! Value lists, plants and whole configurations, each from a file that the user names.
+//! Value lists, plants and whole configurations, each read from a file that the user names.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use frictcomp::machine::{ListsReport, check_configuration, check_list};
 use frictcomp::text::{SourceFile, shown_path};
 use frictcomp_physics::simulation::{Plant, Preset};
 
-/// Reads the values that a list by itself would give the control.
+/// Reads the values that a list alone would give the control.
 ///
 /// # Errors
-/// The file cannot be read, or the control would not take it.
+/// The file cannot be read, or the control would reject it.
 pub fn read_value_list(path: &Path, registry: &FileRegistry) -> Result<ReadList, HostError> {
     registry.reads("value list", path);
     let source = SourceFile::new(shown_path(path), read_text(path)?);
@@ -27,7 +27,7 @@ pub fn read_value_list(path: &Path, registry: &FileRegistry) -> Result<ReadList,
     })
 }
 
-/// The plant of a name: a preset, or a TOML file.
+/// Returns the plant of a name: a preset, or a TOML file.
 ///
 /// # Errors
 /// There is no such preset, or the file cannot be used.
@@ -49,14 +49,14 @@ pub fn find_plant(name: &str, registry: &FileRegistry) -> Result<Plant, HostErro
     })
 }
 
-/// Whether a file is a `frictcomp.toml` and no list of the control.
+/// Whether a file is a `frictcomp.toml`, not a list of the control.
 pub fn is_configuration(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
-/// Checks a list under a kernel version, where that is known, or a `frictcomp.toml`, which says its
-/// own; a start-up list and a configuration with every list that they name.
+/// Checks a list under a kernel version, where that is known, or a `frictcomp.toml`, which gives its
+/// own version; a start-up list and a configuration are checked with every list that they name.
 ///
 /// # Errors
 /// The file cannot be read.

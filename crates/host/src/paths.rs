@@ -1,4 +1,4 @@
-//! Paths as they are written, and what they lead to.
+//! Paths as they are written, and the files to which they lead.
 
 use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
@@ -14,7 +14,7 @@ pub(super) enum FolderEntry {
     Special,
 }
 
-/// The current folder has no name of its own.
+/// Returns `.` for the current folder, whose path is empty.
 pub(super) fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() {
         Path::new(".")
@@ -23,7 +23,7 @@ pub(super) fn or_here(folder: &Path) -> &Path {
     }
 }
 
-/// The path without `.` and with `..` resolved by name; what goes up from a relative path's start
+/// Returns the path without `.` and with `..` resolved by name; `..` beyond a relative path's start
 /// stays.
 pub(super) fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
@@ -43,8 +43,8 @@ pub(super) fn normal(path: &Path) -> PathBuf {
     normal
 }
 
-/// The path with the letters that its last parts have on the disk, as its real path shows them: where
-/// a disk does not distinguish upper from lower case, a path is right in any.
+/// Returns the path with its last parts spelt as on the disk, as its real path shows them: where
+/// a disk does not distinguish upper from lower case, any spelling leads to the file.
 pub(super) fn spelt_as(path: &Path, real: &Path) -> PathBuf {
     let mut parts: Vec<&OsStr> = path.iter().collect();
     let lower = |part: &OsStr| part.to_string_lossy().to_lowercase();
@@ -57,7 +57,7 @@ pub(super) fn spelt_as(path: &Path, real: &Path) -> PathBuf {
     parts.iter().collect()
 }
 
-/// A path seen from a folder, so that no output holds an absolute path (R9.16).
+/// Returns a path relative to a folder, so that no output contains an absolute path (R9.16).
 pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
     let shared = path
         .components()

@@ -2,10 +2,10 @@
 
 use std::io::{self, Read};
 
-/// Bytes that are looked at together.
+/// Number of bytes examined together.
 const PIECE: usize = 256 * 1024;
 
-/// Hands over all of a text, in pieces that end where a line does. A line that fills a piece is cut.
+/// Passes on all of a text, in pieces that end with a line. A line that fills a piece is cut.
 ///
 /// # Errors
 /// The text cannot be read.
@@ -20,7 +20,7 @@ pub(super) fn whole_lines(mut text: impl Read, mut look: impl FnMut(&[u8])) -> i
         let bytes = &piece[..kept + count];
         let whole = match memchr::memrchr2(b'\n', b'\r', bytes) {
             Some(at) if count > 0 => at + 1,
-            // A line that is cut is looked at with the next piece, unless it fills this one.
+            // A line that is cut is examined with the next piece, unless it fills this one.
             _ if count > 0 && bytes.len() < PIECE => 0,
             _ => bytes.len(),
         };

@@ -7,15 +7,15 @@ use std::path::Path;
 use super::error::HostError;
 use crate::decode::decode;
 
-/// More bytes than that are not kept in memory.
+/// Larger files are not kept in memory.
 pub(super) const MOST_KEPT: usize = 1 << 30;
 
-/// Opens what is a file and nothing else: a pipe would be waited for, a device has no end.
+/// Opens a regular file only: a pipe would block, a device has no end.
 ///
 /// # Errors
 /// It does not exist, cannot be read, or is not a regular file.
 pub(super) fn open_regular(path: &Path) -> io::Result<(File, Metadata)> {
-    // Asked before it is opened: opening a pipe waits for its other end.
+    // Checked before it is opened: opening a pipe waits for its other end.
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
@@ -47,7 +47,7 @@ pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     read_whole(file, metadata.len())
 }
 
-/// Reads a file of a length that is kept in memory.
+/// Reads a file whose length fits in memory.
 pub(super) fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
     let most = u64::try_from(MOST_KEPT).expect("1 GiB is below 2^64");
     if length > most {
@@ -61,7 +61,7 @@ pub(super) fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> 
     Ok(bytes)
 }
 
-/// The error for a text that is too big to be kept in memory.
+/// Returns the error for a text that is too big to be kept in memory.
 pub(super) fn too_big() -> io::Error {
     let reason = "it is larger than 1 GiB, which is too much to keep in memory";
     io::Error::new(io::ErrorKind::FileTooLarge, reason)

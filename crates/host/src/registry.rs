@@ -1,4 +1,4 @@
-//! What is read and what is written, so that no output destroys an input (R9.70), nor a program, a
+//! The files read and written, so that no output destroys an input (R9.70), or a program, a
 //! list or a configuration that this call does not read (R9.93).
 
 use std::collections::hash_map::{Entry, HashMap};
@@ -11,14 +11,14 @@ use super::error::HostError;
 use super::file_kind::FileKind;
 use frictcomp::text::shown_path;
 
-/// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
-/// while others run already.
+/// The files that a piece of work reads. Its copies are the same registry: called programs become known only
+/// while others already run.
 #[derive(Debug, Clone, Default)]
 pub struct FileRegistry(Arc<Mutex<Inputs>>);
 
 #[derive(Debug, Default)]
 struct Inputs {
-    /// Each file, and as what it is read.
+    /// Each file with its role.
     files: BTreeMap<Arc<Path>, &'static str>,
     /// The files in the order in which they became known.
     order: Vec<Arc<Path>>,
@@ -29,7 +29,7 @@ struct Inputs {
 /// Kind of a program in the registry.
 pub(super) const PROGRAM: &str = "program";
 
-/// A file that is written, and what it is called in errors.
+/// A file to be written, with its name in errors.
 #[derive(Debug, Clone)]
 pub(super) struct Claim {
     /// Name used in errors.
@@ -47,9 +47,9 @@ pub enum Replaces {
     /// Another result.
     #[default]
     Results,
-    /// Another result or a value list: the output is one.
+    /// Another result or a value list, since the output is one.
     Lists,
-    /// Whatever is no input of the same call.
+    /// Any file that is not an input of the same call.
     Anything,
 }
 
@@ -58,7 +58,7 @@ impl Claim {
         format!("{} {}", self.name, shown_path(&self.path))
     }
 
-    /// Whether the output may be written where its name leads (R9.93).
+    /// Checks that the output may be written where its name leads (R9.93).
     fn check_place(&self) -> Result<(), HostError> {
         let leads_to = std::fs::symlink_metadata(&self.path)
             .is_ok_and(|found| found.is_symlink())
@@ -93,7 +93,7 @@ impl Claim {
 }
 
 impl FileRegistry {
-    /// Notes a file that is read, and as what.
+    /// Notes a file that is read, with its role.
     pub fn reads(&self, what: &'static str, path: &Path) {
         let mut inputs = self.inputs();
         if !inputs.files.contains_key(path) {
@@ -103,16 +103,16 @@ impl FileRegistry {
         }
     }
 
-    /// The number of files that are known.
+    /// Returns the number of known files.
     pub(super) fn count(&self) -> usize {
         self.inputs().order.len()
     }
 
-    /// Says which output is a file that is read, or another output; links, hard links and other
-    /// spellings included. The outputs were compared with the first `compared` files before.
+    /// Reports which output is a file that is read, or another output, including links, hard links and other
+    /// spellings. The outputs have already been compared with the first `compared` files.
     ///
     /// # Errors
-    /// One is.
+    /// An output is such a file.
     pub(super) fn check(&self, outputs: &[Claim], compared: usize) -> Result<(), HostError> {
         self.compare(outputs, compared)?;
         outputs.iter().try_for_each(Claim::check_place)
@@ -153,20 +153,20 @@ impl FileRegistry {
         Ok(())
     }
 
-    /// The programs that were read.
+    /// Returns the programs that were read.
     pub fn programs(&self) -> Vec<PathBuf> {
         let inputs = self.inputs();
         let programs = inputs.files.iter().filter(|(_, what)| **what == PROGRAM);
         programs.map(|(path, _)| path.to_path_buf()).collect()
     }
 
-    /// All files that were read.
+    /// Returns all files that were read.
     pub fn files(&self) -> Vec<PathBuf> {
         let inputs = self.inputs();
         inputs.files.keys().map(|path| path.to_path_buf()).collect()
     }
 
-    /// Whether a program came from where it cannot be read again.
+    /// Whether a program came from a source that cannot be read again.
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
         inputs.order.iter().any(|path| !path.is_file())
@@ -180,7 +180,7 @@ impl FileRegistry {
         }
     }
 
-    /// The names of called programs that were not found.
+    /// Returns the names of called programs that were not found.
     pub fn missed(&self) -> Vec<String> {
         self.inputs().missed.iter().cloned().collect()
     }
@@ -193,9 +193,9 @@ impl FileRegistry {
 /// Identity of the file at a path.
 #[derive(Debug, PartialEq, Eq, Hash)]
 enum Identity {
-    /// A file that is there.
+    /// An existing file.
     File(FileKey),
-    /// The place of a file that is not there yet: its folder and its name.
+    /// The place of a file that does not exist yet: its folder and its name.
     Place(FileKey, OsString),
 }
 
@@ -221,7 +221,7 @@ impl Identity {
             return Some(identity);
         }
         let name = path.file_name()?;
-        // Where a folder does not tell upper from lower case, neither may this.
+        // If a folder ignores case, so must this.
         let name = if cfg!(any(windows, target_os = "macos")) {
             name.to_ascii_lowercase()
         } else {
@@ -252,7 +252,7 @@ fn key(path: &Path) -> Option<FileKey> {
     path.canonicalize().ok()
 }
 
-/// The folder of a file, `.` for a bare name.
+/// Returns the folder of a file, `.` for a bare name.
 pub(crate) fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -1,4 +1,4 @@
-//! A map that many read while it changes.
+//! A map that many can read while it changes.
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use fnv::FnvHasher;
 
-/// Parts that a change copies one of.
+/// Number of parts, of which a change copies one.
 const PARTS: usize = 256;
 
-/// The entries whose keys have one remainder.
+/// The entries whose keys have the same remainder.
 type Shard<K, V> = Arc<BTreeMap<K, V>>;
 
-/// A map whose copies share all that did not change, and stay as they are (R12.16).
+/// A map whose copies share all that did not change, and keep their content (R12.16).
 #[derive(Debug)]
 pub struct SharedMap<K, V> {
     parts: Arc<[Shard<K, V>; PARTS]>,
@@ -40,19 +40,19 @@ impl<K, V> Clone for SharedMap<K, V> {
 }
 
 impl<K, V> SharedMap<K, V> {
-    /// Whether there is no entry.
+    /// Whether the map is empty.
     pub(crate) fn is_empty(&self) -> bool {
         self.length == 0
     }
 
-    /// All entries, in no order that means anything, but always in the same.
+    /// Returns all entries, in an arbitrary but fixed order.
     pub fn iter(&self) -> impl Iterator<Item = (&K, &V)> {
         self.parts.iter().flat_map(|part| part.iter())
     }
 }
 
 impl<K: Ord + Hash + Clone, V: Clone> SharedMap<K, V> {
-    /// The value of a key.
+    /// Returns the value of a key.
     pub fn get<Q: Ord + Hash + ?Sized>(&self, key: &Q) -> Option<&V>
     where
         K: Borrow<Q>,
@@ -60,7 +60,7 @@ impl<K: Ord + Hash + Clone, V: Clone> SharedMap<K, V> {
         self.parts[part_of(key)].get(key)
     }
 
-    /// The same to be changed.
+    /// Returns the value of a key for modification.
     pub fn get_mut<Q: Ord + Hash + ?Sized>(&mut self, key: &Q) -> Option<&mut V>
     where
         K: Borrow<Q>,
@@ -104,7 +104,7 @@ impl<K: Ord + Hash + Clone, V: Clone> FromIterator<(K, V)> for SharedMap<K, V> {
 fn part_of<Q: Hash + ?Sized>(key: &Q) -> usize {
     let mut hasher = FnvHasher::default();
     key.hash(&mut hasher);
-    // Below the number of parts.
+    // Less than the number of parts.
     usize::try_from(hasher.finish() % PARTS as u64).unwrap_or(0)
 }
 

@@ -1,4 +1,4 @@
-//! The programs that a recording carries by their signatures (R16.1).
+//! The programs in a recording, identified by their signatures (R16.1).
 
 use std::path::Path;
 
@@ -21,12 +21,12 @@ pub struct SignedAt {
     pub end_s: f64,
 }
 
-/// The signatures in the motion of an axis, whose channels are its position or its velocity; rows without
-/// times are `cycle_s` apart. None where the recording has no such channel. A position without a unit is
-/// looked at in 0.1 µm and in mm.
+/// Returns the signatures in the motion of an axis, whose channels are its position or its velocity; rows without
+/// times are `cycle_s` apart. None if the recording has no such channel. A position without a unit is
+/// tried in 0.1 µm and in mm.
 ///
 /// # Errors
-/// The file cannot be read, or is no recording.
+/// The file cannot be read, or is not a recording.
 pub fn signatures_of(
     path: &Path,
     selection: &ChannelSelection,

@@ -1,4 +1,4 @@
-//! Simulations with their runs on all processors.
+//! Simulations that run on all processors.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -42,7 +42,7 @@ pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
     )
 }
 
-/// The list of the next round of an axis that learns; `None` where it has no round yet.
+/// Returns the list for the next round of an axis that learns; `None` where it has no round yet.
 ///
 /// # Errors
 /// A circle that cannot be simulated, or a plant that is unstable on it.
@@ -59,12 +59,12 @@ pub fn learn(
     learner.propose(rounds, &simulations)
 }
 
-/// The simulations of a tuning, which goes on until nothing gets better.
+/// The simulations of a tuning, which continues until nothing improves.
 struct Tuning<'a> {
     runs: SimulationRuns<'a>,
-    /// Those that were made in earlier steps.
+    /// Those made in earlier steps.
     done: AtomicUsize,
-    /// As many as there will be, about.
+    /// The approximate total.
     all: usize,
 }
 
@@ -87,7 +87,7 @@ impl SimulationRuns<'_> {
         self.after(pieces, (0, pieces.len()), work)
     }
 
-    /// Pieces of work after `before` others, of `all`.
+    /// Does pieces of work after `before` others, of `all`, and returns their results.
     fn after<T: Sync, R: Send>(
         &self,
         pieces: &[T],

@@ -1,4 +1,4 @@
-//! The state file: what one run leaves and the next one starts with (9.4).
+//! The state file: the state that one run leaves and the next one starts with (9.4).
 
 use std::fmt::Display;
 use std::fs::{File, TryLockError};
@@ -35,18 +35,18 @@ struct Schema {
     schema: u32,
 }
 
-/// A state file that no other run touches until this is dropped.
+/// A state file that is locked against other runs until this is dropped.
 #[derive(Debug)]
 pub struct StateFile {
     path: PathBuf,
     /// Holds the lock.
     _lock: File,
-    /// The file of the lock, where this run made it.
+    /// The lock file, if this run created it.
     made: Option<PathBuf>,
 }
 
 impl Drop for StateFile {
-    /// Leaves no lock where there is no state.
+    /// Removes a lock without a state.
     fn drop(&mut self) {
         if !self.path.exists() {
             self.take_away_lock();
@@ -55,7 +55,7 @@ impl Drop for StateFile {
 }
 
 impl StateFile {
-    /// The file that is locked in place of a state file, which is replaced while it is in use.
+    /// Returns the file that is locked in place of a state file, which is replaced while it is in use.
     pub fn lock_path(path: &Path) -> PathBuf {
         suffixed(path, ".lock")
     }
@@ -64,7 +64,7 @@ impl StateFile {
     /// locked it.
     ///
     /// # Errors
-    /// Another run has it, or it cannot be written.
+    /// Another run has locked it, or it cannot be written.
     pub fn lock(path: &Path) -> Result<Self, HostError> {
         Self::lock_within(path, PATIENCE)
     }
@@ -89,7 +89,7 @@ impl StateFile {
                 .open(&beside)
                 .map_err(|error| HostError::write(&beside, error))?;
             match lock.try_lock() {
-                // The run that had it may have taken it away.
+                // The run that had it may have removed it.
                 Ok(()) if !is_at(&lock, &beside) && start.elapsed() < patience => {}
                 Ok(()) => {
                     return Ok(Self {
@@ -112,14 +112,14 @@ impl StateFile {
         }
     }
 
-    /// The axes that the last run left; none where the file cannot be read, which is reported when it
+    /// Returns the axes that the last run left; none where the file cannot be read, which is reported when it
     /// is loaded.
     pub fn axes(path: &Path) -> Vec<String> {
         let axes = Self::read(path).map_or_else(|_| Vec::new(), |saved| saved.axes);
         axes.into_iter().map(|axis| axis.axis).collect()
     }
 
-    /// What the last run left; `None` before the first.
+    /// Returns the state that the last run left; `None` before the first.
     ///
     /// # Errors
     /// It cannot be read, is damaged, or comes from a later version.
@@ -132,14 +132,14 @@ impl StateFile {
         }
     }
 
-    /// The state in a file, which is not locked: it is replaced in one step, so it is always whole.
+    /// Reads the state in a file, which is not locked: it is replaced in one step, so it is always complete.
     ///
     /// # Errors
     /// It cannot be read, is damaged, or comes from a later version.
     pub fn read(path: &Path) -> Result<SavedState, HostError> {
         let text = read_bytes(path).map_err(|error| HostError::read(path, error))?;
         let damaged = |error: &dyn Display| unusable(path, &format!("it is damaged ({error})"));
-        // A later version may have keys that this one does not know: its number comes first.
+        // A later version may have unknown keys: its number is read first.
         let Schema { schema } = serde_json::from_slice(&text).map_err(|error| damaged(&error))?;
         if schema > STATE_SCHEMA {
             let later = StateError::Schema { found: schema };
@@ -153,28 +153,28 @@ impl StateFile {
         serde_json::from_slice(&content).map_err(|error| damaged(&error))
     }
 
-    /// The error for a state that the session does not take. The file stays as it is.
+    /// Returns the error for a state that the session rejects. The file stays as it is.
     pub fn refused(&self, error: &StateError) -> HostError {
         self.take_away_lock();
         unusable(&self.path, &error.to_string())
     }
 
-    /// Leaves no lock that this run made (R9.94). A run that waits for it makes another one.
+    /// Removes a lock that this run created (R9.94). A run that waits for it creates another one.
     fn take_away_lock(&self) {
         if let Some(made) = &self.made {
             let _ = std::fs::remove_file(made);
         }
     }
 
-    /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or
-    /// the new file is there, whole.
+    /// Replaces the state when the outputs are put in place. Whenever the tool is killed, the old or
+    /// the new file is there, complete.
     ///
     /// # Errors
     /// It cannot be written.
     pub fn save(&self, state: &SavedState, outputs: &mut OutputFiles) -> Result<(), HostError> {
         let text = serde_json::to_string_pretty(state)
             .map_err(|error| HostError::write(&self.path, error.into()))?;
-        // A reader of the file sees what it holds (R9.76).
+        // A reader of the file sees what it contains (R9.76).
         let text = shown_json(&text);
         let content = text.strip_suffix("\n}").unwrap_or(&text);
         outputs.begin(&self.path)?.bytes(&seal(content.as_bytes()))
@@ -190,14 +190,14 @@ fn is_at(file: &File, path: &Path) -> bool {
     open.is_ok_and(|open| std::fs::metadata(path).is_ok_and(|there| number(there) == open))
 }
 
-/// A file that is open keeps its place.
+/// Whether there is a file at the path: an open one cannot be moved.
 #[cfg(not(unix))]
 fn is_at(_: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// The text of a state file: its content without the closing brace, then the checksum of that, an
-/// FNV-1a hash of 64 bits, which differs for any two contents that differ in one byte (R9.92).
+/// Returns the text of a state file: its content without the closing brace, then its checksum, a 64-bit
+/// FNV-1a hash, which differs for any two contents that differ in one byte (R9.92).
 fn seal(content: &[u8]) -> Vec<u8> {
     let mut hasher = FnvHasher::default();
     hasher.write(content);
@@ -205,7 +205,7 @@ fn seal(content: &[u8]) -> Vec<u8> {
     [content, SEAL, checksum.as_bytes()].concat()
 }
 
-/// The content before the checksum, where there is one.
+/// Returns the content before the checksum, if there is one.
 fn split_seal(text: &[u8]) -> Option<&[u8]> {
     memchr::memmem::rfind(text, SEAL).and_then(|at| text.get(..at))
 }

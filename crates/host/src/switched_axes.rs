@@ -1,5 +1,5 @@
-//! Which axes programs switch, before they run: what is proposed where no machine is described
-//! (R1.37). A look over the text is enough for a proposal.
+//! The axes that programs switch, found before they run: proposed where no machine is described
+//! (R1.37). A look through the text is enough for a proposal.
 
 use std::fs::File;
 
@@ -7,8 +7,8 @@ use super::input::Input;
 use super::pieces::whole_lines;
 use frictcomp::syntax::{Scan, SwitchedAxes};
 
-/// The axes whose friction compensation the programs switch, sorted. What cannot be read is reported
-/// when it is run; of what comes through a pipe nothing is known yet.
+/// Returns the axes whose friction compensation the programs switch, sorted. What cannot be read is reported
+/// when it is run; the content of a pipe is not known yet.
 pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
     let mut found = Vec::new();
     for input in inputs {

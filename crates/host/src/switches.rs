@@ -1,4 +1,4 @@
-//! When a recording says that friction compensation was on (R16.9).
+//! The times at which friction compensation was on in a recording (R16.9).
 
 use std::path::Path;
 
@@ -8,11 +8,11 @@ use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::state_channel;
 use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, Pick, TimeSource};
 
-/// The times in s at which the channel of the compensation of an axis changes, with its state from there on, the
+/// Returns the times in s at which the channel of the compensation of an axis changes, with its state from then on, the
 /// first sample included; empty where the recording has none. Rows without times are `cycle_s` apart.
 ///
 /// # Errors
-/// The file cannot be read, or is no recording.
+/// The file cannot be read, or is not a recording.
 pub fn switches_of(
     path: &Path,
     selection: &ChannelSelection,

@@ -13,7 +13,7 @@ use frictcomp_recordings::trace::{NotAligned, SelectError, TraceProblem};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// A file that is no trace, or not the expected one.
+    /// A file that is not a trace, or not the expected one.
     #[error("{}", said(.path, .problem))]
     Problem {
         /// Path of the file.
@@ -21,7 +21,7 @@ pub enum TraceError {
         /// The fault.
         problem: TraceProblem,
     },
-    /// A project of TwinCAT Scope, whose form is not public.
+    /// A project of TwinCAT Scope, whose format is not public.
     #[error("`{}` is a file of TwinCAT Scope that only Scope reads", shown_path(.0))]
     Closed(PathBuf),
     /// Channels that cannot be brought to one clock.
@@ -47,7 +47,7 @@ pub enum TraceError {
     #[error("the trace `{}` has no times", shown_path(.0))]
     NoTimes(PathBuf),
     /// A state that is neither 0 nor 1.
-    #[error("the trace `{}`: channel `{channel}` holds {value}, which is no state", shown_path(.path))]
+    #[error("the trace `{}`: channel `{channel}` holds {value}, which is not a state", shown_path(.path))]
     NoState {
         /// Path of the file.
         path: PathBuf,
@@ -56,7 +56,7 @@ pub enum TraceError {
         /// Value at that place.
         value: f64,
     },
-    /// Points that make no circle.
+    /// Points that do not form a circle.
     #[error("`{}`: {reason}", shown_path(.path))]
     Circle {
         /// Path of the file.
@@ -82,14 +82,14 @@ impl TraceError {
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
             Self::NoTimes(_) => "name the channel of the times",
             Self::NoState { .. } => "a state is 1 where friction compensation is active, else 0",
-            // What helps is said where the option has its name.
+            // The advice is given where the option is known by its name.
             Self::Cycles { .. } | Self::SeveralClocks(_) => return None,
         };
         Some(help.to_owned())
     }
 }
 
-/// A problem with the place that it has.
+/// Returns a problem with its place.
 fn said(path: &Path, problem: &TraceProblem) -> String {
     let path = shown_path(path);
     match (problem, problem.line()) {

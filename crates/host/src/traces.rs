@@ -1,5 +1,5 @@
-//! Recorded traces in files: which channels of them are which column of a circle or of a commanded
-//! trace. How a file is laid out is known to `trace`.
+//! Recorded traces in files: which of their channels are which columns of a circle or of a commanded
+//! trace. The module `trace` handles the file layouts.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -20,22 +20,22 @@ use frictcomp_recordings::trace::{
     TimeSource, TraceProblem, TraceReader, TraceRecording,
 };
 
-/// Rows of a recorded circle at most; they are kept in memory until the circle is evaluated.
+/// Largest number of rows of a recorded circle; they are kept in memory until the circle is evaluated.
 const MAX_POINTS: usize = 4_000_000;
 
-/// Rows of a trace at most: eleven hours of cycles of 1 ms.
+/// Largest number of rows of a trace: eleven hours of cycles of 1 ms.
 const MAX_ROWS: usize = 40_000_000;
 
-/// Bytes that are read at a time.
+/// Number of bytes read at a time.
 const PIECE: usize = 1 << 18;
 
-/// Kinds of files that Scope writes and that are not read.
+/// Kinds of files that Scope writes and that cannot be read.
 const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
 
-/// Reads those channels of a trace that `choose` selects.
+/// Reads the channels of a trace that `choose` selects.
 ///
 /// # Errors
-/// The file cannot be read, is no trace, or not one with the requested channels.
+/// The file cannot be read, is not a trace, or lacks the requested channels.
 pub fn read_trace(
     path: &Path,
     choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
@@ -73,11 +73,11 @@ fn read(
 }
 
 /// Reads a commanded trace: positions in 0.1 µm or 0.0001°, or velocities in µm/s or 0.001°/s, or
-/// both; times in s and a column `comp` with `on` and `off` where they are there. Without times, a
+/// both; optionally times in s and a column `comp` with `on` and `off`. Without times, a
 /// row is a CNC cycle.
 ///
 /// # Errors
-/// The file cannot be read, holds something else, or its rows are not CNC cycles and are not
+/// The file cannot be read, has other content, or its rows are not CNC cycles and are not
 /// resampled.
 pub fn read_commanded(
     path: &Path,
@@ -153,7 +153,7 @@ impl CommandedChannels<'_> {
         clocks.all(|clock| Some(clock) == first)
     }
 
-    /// The columns of channels that were sampled together.
+    /// Returns the columns of channels that were sampled together.
     fn columns(&self) -> Result<TraceColumns, TraceError> {
         let column = |pick: Option<Pick>| {
             pick.map(|pick| numbers(self.path, self.recording, &pick))
@@ -181,7 +181,7 @@ impl CommandedChannels<'_> {
         })
     }
 
-    /// The columns of channels that were sampled at different times, brought to those of the
+    /// Returns the columns of channels that were sampled at different times, aligned with those of the
     /// fastest, and what was done for it.
     fn aligned(&self, cycle_s: Option<f64>) -> Result<(TraceColumns, Vec<String>), TraceError> {
         let picks: Vec<Pick> = self.motion.into_iter().flatten().collect();
@@ -193,7 +193,7 @@ impl CommandedChannels<'_> {
         let states = self.states()?.unwrap_or_default();
         let times = self.switch.and_then(|it| self.recording.times_s(it));
         let times = times.unwrap_or_default();
-        // It holds from its row on.
+        // It applies from its row on.
         let switched = |time: &f64| {
             let after = times.partition_point(|it| it <= time);
             match states.get(after.saturating_sub(1)) {
@@ -213,7 +213,7 @@ impl CommandedChannels<'_> {
         Ok((columns, aligned.remarks))
     }
 
-    /// The samples of the switch.
+    /// Returns the samples of the switch.
     fn states(&self) -> Result<Option<&[f64]>, TraceError> {
         self.switch
             .map(|channel| numbers_of(self.path, self.recording, channel))
@@ -222,11 +222,11 @@ impl CommandedChannels<'_> {
 }
 
 /// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of
-/// actual positions in mm, or with their unit, `x_um`, `X [mm]`; `t` in s where it is there. G(b)
-/// and H are about `centre`.
+/// actual positions in mm, or with their unit, `x_um`, `X [mm]`; optionally `t` in s. G(b)
+/// and H refer to `centre`.
 ///
 /// # Errors
-/// A file cannot be read, or holds no circle.
+/// A file cannot be read, or does not contain a circle.
 pub fn read_circles(
     paths: &[PathBuf],
     channels: &CircleChannels,
@@ -241,11 +241,11 @@ pub fn read_circles(
     Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
 }
 
-/// Reads the circles of a recording, one for each direction in which it has a full turn; F and D are against the
-/// commanded radius, where it is known.
+/// Reads the circles of a recording, one for each direction in which it has a full turn; F and D refer to the
+/// commanded radius, if it is known.
 ///
 /// # Errors
-/// The file cannot be read, or is no recorded circle.
+/// The file cannot be read, or is not a recorded circle.
 pub fn read_turns(
     path: &Path,
     channels: &CircleChannels,
@@ -262,7 +262,7 @@ pub fn read_turns(
 /// Reads motion and torque of one axis.
 ///
 /// # Errors
-/// The file cannot be read, lacks the requested channels, or has none that belong together.
+/// The file cannot be read, lacks the requested channels, or has no matching ones.
 pub fn read_axis(
     path: &Path,
     selection: &ChannelSelection,
@@ -318,8 +318,8 @@ pub struct CircleChannels {
     pub selection: ChannelSelection,
 }
 
-/// The actual positions of two axes, in the order of the rows. Times that are no seconds are as
-/// good as none.
+/// Returns the actual positions of two axes, in the order of the rows. Times that are not in seconds are
+/// ignored.
 fn read_positions(path: &Path, wanted: &CircleChannels) -> Result<RecordedTrace, HostError> {
     let timed = read_points(path, wanted, Times::Read);
     match timed {
@@ -404,7 +404,7 @@ fn read_points(
     })
 }
 
-/// Positions of a circle in mm; without a unit they are in mm already.
+/// Converts positions of a circle to mm; without a unit they are already in mm.
 fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
     const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
     let is_named = wanted.names.iter().any(Option::is_some);
@@ -416,13 +416,13 @@ fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
     pick
 }
 
-/// The samples of a channel in the requested unit, each of them a number.
+/// Returns the samples of a channel in the requested unit, all of them numbers.
 fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f64>, TraceError> {
     let values = numbers_of(path, recording, pick.channel)?.iter();
     Ok(values.map(|value| value * pick.unit.factor).collect())
 }
 
-/// The samples of a channel as the file has them, each of them a number.
+/// Returns the samples of a channel as in the file, all of them numbers.
 pub(super) fn numbers_of<'a>(
     path: &Path,
     recording: &'a TraceRecording,
@@ -442,7 +442,7 @@ pub(super) fn numbers_of<'a>(
     Ok(recording.values(channel))
 }
 
-/// The column `pos_<axis>`, in mm or degrees unless it names another unit.
+/// Returns the column `pos_<axis>`, in mm or degrees unless it names another unit.
 pub(super) fn position_column(
     selection: &ChannelSelection,
     axis: &str,

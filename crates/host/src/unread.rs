@@ -1,4 +1,4 @@
-//! The variables that are set and read by no program (R9.74).
+//! The variables that are set but not read by any program (R9.74).
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -12,14 +12,14 @@ use frictcomp::syntax::code_words;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UnreadVariable {
-    /// The name as it was given.
+    /// The name as given.
     pub name: String,
-    /// The variable of a program that is probably meant.
+    /// The program variable that is probably meant.
     pub near: Option<String>,
 }
 
-/// Finds the variables that stand in no program that was read. Programs from a pipe cannot be read
-/// again: then there are none.
+/// Finds the variables that occur in no program that was read. Programs from a pipe cannot be read
+/// again: then the result is empty.
 pub fn unread_variables<'a>(
     names: impl IntoIterator<Item = &'a str>,
     registry: &FileRegistry,
@@ -42,7 +42,7 @@ pub fn unread_variables<'a>(
     unread.into_iter().map(variable).collect()
 }
 
-/// Looks for the names in a program, and gathers those that it has.
+/// Looks for the names in a program, and collects its variables.
 fn look(path: &Path, unread: &mut BTreeSet<&str>, variables: &mut BTreeSet<String>) {
     let Ok(bytes) = read_bytes(path) else {
         return;

@@ -15,14 +15,14 @@ use super::input::Input;
 pub struct FoundPrograms {
     /// The programs in a fixed order: files as the user named them, folders walked by name.
     pub inputs: Vec<Input>,
-    /// The paths that gave nothing (R9.77).
+    /// The errors for paths that yielded nothing (R9.77).
     pub failures: Vec<HostError>,
     /// Files of folders whose extension is not that of a program.
     pub passed_over: u64,
 }
 
 /// Finds the programs. What a repository ignores is passed over; a file that is named counts whatever
-/// its extension. `extensions` gives those of the programs in a folder.
+/// its extension. `extensions` returns those of the programs in a folder.
 pub fn find_programs(
     paths: &[PathBuf],
     mut extensions: impl FnMut(&Path) -> Option<Vec<String>>,
@@ -81,7 +81,7 @@ impl FoundPrograms {
     }
 }
 
-/// `./a.nc` is `a.nc`.
+/// Shortens `./a.nc` to `a.nc`.
 fn shown(path: &Path) -> PathBuf {
     path.strip_prefix(".").unwrap_or(path).to_owned()
 }

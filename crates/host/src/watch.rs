@@ -1,4 +1,4 @@
-//! The progress of long work, for a watcher (R9.75).
+//! Progress reports of long work, for a watcher (R9.75).
 
 use std::fmt;
 use std::fs::File;
@@ -9,18 +9,18 @@ use std::sync::{Arc, Mutex};
 
 use frictcomp::timeline::{Record, Row, Sink};
 
-/// Blocks between two looks at the clock.
+/// Number of blocks between two looks at the clock.
 const STEP: u64 = 1 << 14;
 
 /// Watcher of long work.
 pub trait Watcher: fmt::Debug + Send + Sync {
-    /// Whether it is time to report how far the work is. Asked often, and by several threads.
+    /// Whether a progress report is due. Called often, and by several threads.
     fn is_due(&self) -> bool;
 
-    /// Hears how far the work is.
+    /// Receives the progress of the work.
     fn show(&self, progress: &Progress);
 
-    /// Whether the work is to stop. It then ends early, and its result is worth nothing.
+    /// Whether the work is to stop. It then ends early, and its result is not usable.
     fn is_stopped(&self) -> bool {
         false
     }
@@ -34,7 +34,7 @@ pub struct Progress {
     pub done: Done,
     /// The program that runs, counted from 1, and how many there are, where there are several.
     pub program: Option<(u64, u64)>,
-    /// The line at which the program stands.
+    /// The current line of the program.
     pub line: Option<u32>,
     /// The lines of the program, where control goes through them once.
     pub lines: Option<u64>,
@@ -52,14 +52,14 @@ pub enum Done {
     MachineTime {
         /// Machine time covered.
         seconds: u64,
-        /// That of the whole program.
+        /// Machine time of the whole program.
         all: u64,
     },
     /// Runs of a simulation.
     Runs {
         /// Subject of the simulation.
         of: &'static str,
-        /// The runs that are over.
+        /// The completed runs.
         done: usize,
         /// All runs of this step.
         all: usize,
@@ -117,7 +117,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Progress is reported to a watcher.
+    /// Creates a watch that reports to a watcher.
     pub fn by(watcher: Arc<dyn Watcher>) -> Self {
         Self {
             watcher: Some(watcher),
@@ -131,7 +131,7 @@ impl Watch {
         self.programs.store(programs, Ordering::Relaxed);
     }
 
-    /// A program has run.
+    /// Counts a program that has run.
     pub fn program_done(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
@@ -146,20 +146,20 @@ impl Watch {
         self.watcher.as_ref().is_some_and(|it| it.is_stopped())
     }
 
-    /// Shows how far work is that runs no program.
+    /// Shows the progress of work that does not run programs.
     pub fn show(&self, done: impl FnOnce() -> Done) {
         if let Some(watcher) = self.watcher.as_ref().filter(|it| it.is_due()) {
             watcher.show(&done().into());
         }
     }
 
-    /// Shows how far a program is: what was done of it, and at which line it stands.
+    /// Shows the progress of a program: the work done, and its current line.
     pub fn show_program(&self, done: Done, reached: Reached<'_>, passes: Passes) {
         let Some(watcher) = self.watcher.as_ref().filter(|it| it.is_due()) else {
             return;
         };
         let Reached { file, line } = reached;
-        // Who comes while another program shows itself need not wait.
+        // If another program is being shown, this one need not wait.
         let Ok(mut known) = self.lines.try_lock() else {
             return;
         };
@@ -188,18 +188,18 @@ pub struct Reached<'a> {
     pub line: u32,
 }
 
-/// Number of passes of the control through a program.
+/// How often control flow passes through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Passes {
-    /// From its first line to its last.
+    /// Once, from its first line to its last.
     #[default]
     Once,
-    /// It comes back: it is not known how often.
+    /// It jumps back: the number of passes is unknown.
     Repeated,
 }
 
-/// Whether control goes through the lines of a program once.
+/// Tracks whether control flow passes through the lines of a program once.
 #[derive(Debug, Default)]
 pub struct LineTracker {
     line: u32,
@@ -207,7 +207,7 @@ pub struct LineTracker {
 }
 
 impl LineTracker {
-    /// Control reaches a line.
+    /// Notes that control flow has reached a line.
     pub fn reach(&mut self, line: u32) -> Passes {
         if line < self.line {
             self.passes = Passes::Repeated;
@@ -217,7 +217,7 @@ impl LineTracker {
     }
 }
 
-/// The lines of a program; 0 where it cannot be read again.
+/// Returns the number of lines of a program; 0 where it cannot be read again.
 fn count_lines(file: &str) -> u64 {
     let path = std::path::Path::new(file);
     if !path.is_file() {
@@ -237,7 +237,7 @@ fn count_lines(file: &str) -> u64 {
     u64::try_from(lines).unwrap_or(u64::MAX)
 }
 
-/// Lets a watch see the records on their way to a sink.
+/// Reports records to a watch on their way to a sink.
 pub(super) struct Watched<'a> {
     sink: &'a mut dyn Sink,
     watch: &'a Watch,
@@ -246,7 +246,7 @@ pub(super) struct Watched<'a> {
 }
 
 impl<'a> Watched<'a> {
-    /// The records of one program.
+    /// Watches the records of one program.
     pub(super) fn new(sink: &'a mut dyn Sink, watch: &'a Watch) -> Self {
         Self {
             sink,

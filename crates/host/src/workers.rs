@@ -1,4 +1,4 @@
-//! Work on many things at once, with the results in the order of the things.
+//! Parallel work on many items, with the results in the order of the items.
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
@@ -8,19 +8,19 @@ use std::sync::{Mutex, PoisonError};
 
 use super::memory::is_there_for_a_thread;
 
-/// Results that may wait for their turn, for each worker.
+/// Number of results that may wait for their turn, for each worker.
 const AHEAD: usize = 16;
 
-/// Something to work on, and where its result goes.
+/// An item, and the channel for its result.
 type WorkItem<T, R> = (T, SyncSender<R>);
 
-/// As many workers as there are processors for this process.
+/// Returns the number of processors available to this process, for as many workers.
 pub fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Does each piece of work once, on all processors. Which of them does it makes no difference to the
-/// results. `done` is called with the number of results so far.
+/// Does each piece of work once, on all processors. The result does not depend on which of them does
+/// it. `done` is called with the number of results so far.
 pub(super) fn map<T: Sync, R: Send>(
     pieces: &[T],
     work: impl Fn(&T) -> R + Sync,
@@ -36,9 +36,9 @@ pub(super) fn map<T: Sync, R: Send>(
     results
 }
 
-/// Gives each item to one of `workers` threads and the results to `take`, in the order of the items.
-/// The items are drawn by this thread, and never so fast that more than a bounded number of results
-/// wait. `Break` ends the work. Where the system starts fewer threads, those do the work; without
+/// Passes each item to one of `workers` threads and the results to `take`, in the order of the items.
+/// This thread draws the items, never so fast that more than a bounded number of results
+/// wait. `Break` ends the work. If the system starts fewer threads, those do the work; without
 /// any, this thread does it.
 pub fn in_order<T: Send, R: Send>(
     items: impl Iterator<Item = T>,
@@ -47,7 +47,7 @@ pub fn in_order<T: Send, R: Send>(
     mut take: impl FnMut(R) -> ControlFlow<()>,
 ) {
     if workers.get() == 1 {
-        // A thread of its own would only cost: memory, too, where there is little address space.
+        // A separate thread would only cost time and, where address space is scarce, memory.
         let _ = items.map(work).try_for_each(take);
         return;
     }
@@ -60,7 +60,7 @@ pub fn in_order<T: Send, R: Send>(
             .map_while(|_| {
                 let worker = move || {
                     while let Some((item, result)) = next(queue) {
-                        // Its receiver is gone after a `Break`.
+                        // Its receiver no longer exists after a `Break`.
                         let _ = result.send(work(item));
                     }
                 };
@@ -102,7 +102,7 @@ pub fn in_order<T: Send, R: Send>(
     });
 }
 
-/// The next job; `None` when there will be none.
+/// Returns the next job; `None` when there are no more.
 fn next<T, R>(queue: &Mutex<Receiver<WorkItem<T, R>>>) -> Option<WorkItem<T, R>> {
     let queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
     queue.recv().ok()

@@ -1,4 +1,4 @@
-//! The recordings of the demo: made by the tool's own plant, and what is found in them.
+//! The recordings of the demo: made by the tool's own plant, and what the tool finds in them.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -28,10 +28,10 @@ const FRICTION: &str = concat!(
 /// The time between two rows in s.
 const ROW_S: f64 = 0.004;
 
-/// Speeds in mm/s, each back and forth, upwards, then downwards.
+/// Speeds in mm/s, each back and forth, increasing, then decreasing.
 const SPEEDS: [f64; 7] = [0.2, 0.6, 1.8, 5.0, 15.0, 45.0, 120.0];
 
-/// What the control commands, in m/s every 250 µs.
+/// Returns the commanded velocities, in m/s every 250 µs.
 fn commanded() -> Vec<f64> {
     const ACCELERATION: f64 = 1.0;
     const STEADY_S: f64 = 1.2;
@@ -52,7 +52,7 @@ fn commanded() -> Vec<f64> {
     velocities
 }
 
-/// The recording as TwinCAT Scope exports it.
+/// Returns the recording as TwinCAT Scope exports it.
 fn recording() -> String {
     let plant = Preset::Stiff.plant();
     let drive = &plant.x;
@@ -148,7 +148,7 @@ fn a_unit_that_nobody_names_is_said() {
         let findings = axis.findings.into_iter();
         findings.map(|it| (it.code, it.message)).collect::<Vec<_>>()
     };
-    // With the unit that is assumed the axis hardly moves, which is said, too (R6.21).
+    // With the assumed unit the axis hardly moves, which is reported, too (R6.21).
     let codes: Vec<Code> = said(&selection).iter().map(|(code, _)| *code).collect();
     assert_eq!(codes, [Code::Fc524, Code::Fc519, Code::Fc519]);
     for (name, unit) in [("Speed", "mm/s"), ("Current", "%")] {
@@ -156,7 +156,7 @@ fn a_unit_that_nobody_names_is_said() {
         selection.units.push((name.to_owned(), unit));
     }
     assert_eq!(said(&selection), []);
-    // An ampere is no drive unit.
+    // An ampere is not a drive unit.
     let ampere = Unit::parse("A").expect("a unit");
     selection.units.push(("Current".to_owned(), ampere));
     assert_eq!(said(&selection).len(), 1);

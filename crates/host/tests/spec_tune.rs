@@ -1,6 +1,6 @@
 //! Chapter 5.3: tuned value lists (R5.25).
 
-#![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
+#![allow(clippy::float_cmp)] // Exact comparisons are intended.
 
 #[path = "spec_tune/deviating.rs"]
 mod deviating;
@@ -34,7 +34,7 @@ fn task(plant: Plant, feeds: &[f64]) -> Task {
     }
 }
 
-/// The largest glitch of a whole circle with what was found for its axes.
+/// Returns the largest glitch of a whole circle with the lists found for its axes.
 fn left(task: &Task, feed: f64, axes: &[TunedAxis; 2]) -> f64 {
     let test = CircularTest {
         circle: Circle {
@@ -55,14 +55,14 @@ fn left(task: &Task, feed: f64, axes: &[TunedAxis; 2]) -> f64 {
     glitch.expect("a glitch")
 }
 
-/// The output at standstill of a tuned list.
+/// Returns the output of a tuned list at standstill.
 fn first_output(axis: &TunedAxis) -> f64 {
     axis.list().expect("a list").table[0].output
 }
 
 #[test]
 fn axes_with_other_friction_get_lists_of_their_own() {
-    // R5.25: X and Y know nothing of each other.
+    // R5.25: X and Y are independent of each other.
     let text = "[y]\nFc = 900\nFs = 1100\nsigma0 = 4e8\n";
     let plant = Plant::from_toml(SourceFile::new("p.toml", text)).expect("a plant");
     let task = task(plant, &[9000.0]);
@@ -134,7 +134,7 @@ fn what_counts_is_the_acceleration() {
 
 #[test]
 fn what_is_said_of_a_list_holds_between_its_circles() {
-    // R5.29: between the two accelerations, whole circles of both axes leave no more than what the check says.
+    // R5.29: between the two accelerations, whole circles of both axes leave no more than the check predicts.
     let circle = |acceleration: f64| {
         // A radius of 100 mm.
         Circle::default().with_acceleration(acceleration)
@@ -163,7 +163,7 @@ fn what_is_said_of_a_list_holds_between_its_circles() {
         let left = comparison.on.figures.glitch_max_um().expect("a glitch");
         assert!(left <= 1.05 * said, "{left} at {acceleration}, {said} said");
     }
-    // Machines that deviate are shown beside it, and do not steer.
+    // Deviating machines are shown as well, and do not affect the tuning.
     let row = tuned.check[12];
     assert!(
         row.glitch_half_stiff_um > 0.0 && row.glitch_double_stiff_um > 0.0,

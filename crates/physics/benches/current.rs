@@ -1,9 +1,9 @@
-//! The additive current and the commanded trace, in cycles a second.
+//! The additive current and the commanded trace, in cycles per second.
 //!
 //! Each line is a ratio to a plain sum over the same cycles, taken in the same run, with the
-//! absolute speed and the goal beside it. `FRICTCOMP_BENCH_RUNS` sets how often each is taken.
+//! absolute speed and the goal. `FRICTCOMP_BENCH_RUNS` sets how often each is taken.
 
-#![allow(clippy::print_stdout)] // The table is what it is for.
+#![allow(clippy::print_stdout)] // The table is its purpose.
 
 #[path = "../../cli/benches/measure/mod.rs"]
 mod measure;
@@ -37,7 +37,7 @@ fn main() {
     jobs.motion("short blocks", &polyline(200_000));
 }
 
-/// A commanded trace that swings.
+/// A commanded trace that oscillates.
 struct Trace {
     positions: Vec<f64>,
     velocities: Vec<f64>,
@@ -59,14 +59,14 @@ struct Jobs {
 }
 
 impl Jobs {
-    /// The median time of a piece of work, which says how many cycles it did.
+    /// The median time of a piece of work, which returns its number of cycles.
     fn median(&self, mut work: impl FnMut() -> u64) -> (u64, Duration) {
         let mut cycles = 0;
         let times = self.bench.times(|| cycles = black_box(work()));
         (cycles, median(times))
     }
 
-    /// Seconds of a cycle of the baseline: a sum over the trace.
+    /// Seconds per cycle of the baseline: a sum over the trace.
     fn baseline(&self) -> f64 {
         let Trace {
             positions,

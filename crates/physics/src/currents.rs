@@ -1,4 +1,4 @@
-//! The question for currents that most hosts ask, in one call.
+//! The computation of currents that most hosts need, in one call.
 
 use std::ops::ControlFlow;
 
@@ -8,7 +8,7 @@ use frictcomp::text::SourceFile;
 
 use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents, axes_to_follow};
 
-/// Runs a program from the start of the control and gives the additive currents of some axes to
+/// Runs a program from the start of the control and passes the additive currents of some axes to
 /// `sink`, CNC cycle by CNC cycle, until it breaks.
 ///
 /// # Errors

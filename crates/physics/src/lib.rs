@@ -1,10 +1,10 @@
-//! What a CNC program makes the axes do, in numbers.
+//! The motion of the axes in a CNC program, in numbers.
 //!
-//! In go the records of a [session](frictcomp::Session), the parameters of a machine, and a plant. A
+//! The inputs are the records of a [session](frictcomp::Session), the parameters of a machine, and a plant. A
 //! [`motion::TrajectoryPlanner`] turns records into commanded traces, and a [`current::AdditiveCurrent`]
 //! traces into the currents that friction compensation adds; [`currents`] does both. On feed drives with
 //! friction ([`simulation`]), [`circle`] simulates and judges circular tests, and [`contour`] drives a
-//! program. [`compare`] lays two versions of a program side by side, and [`stiction`] has the formulas of
+//! program. [`compare`] compares two versions of a program, and [`stiction`] has the formulas of
 //! Heidenhain's stiction compensation.
 //!
 //! ```

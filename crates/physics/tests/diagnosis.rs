@@ -1,5 +1,5 @@
-//! Faults of machines in recorded circles, and what is said of each (R5.28): alone, in pairs, with
-//! noise. The table stands in docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
+//! Faults of machines in recorded circles, and the findings on each (R5.28): alone, in pairs, with
+//! noise. The table is in docs/circular-test.md; `UPDATE_DOCS=1` writes it again.
 
 #![allow(dead_code, reason = "the recorder serves other tests, too")]
 
@@ -38,7 +38,7 @@ fn after(direction: Direction, angle: f64) -> f64 {
 
 const NOTHING: (&str, Deviation, &[Finding]) = ("nothing", |_, _| 0.0, &[]);
 
-/// Faults with what is to be said of them.
+/// Faults with their expected findings.
 const FAULTS: [(&str, Deviation, &[Finding]); 11] = [
     (
         "backlash of 8 and 2 µm",
@@ -102,7 +102,7 @@ const FAULTS: [(&str, Deviation, &[Finding]); 11] = [
     ),
 ];
 
-/// What is recorded in each direction.
+/// The recording of each direction.
 #[derive(Clone, Copy)]
 struct Turns {
     count: f64,
@@ -150,7 +150,7 @@ fn figures(faults: &[Deviation], noise_um: f64, turns: Turns) -> Figures {
     recording.expect("both directions").side.figures
 }
 
-/// What is said, each once.
+/// The findings, each once.
 fn said(faults: &[Deviation], noise_um: f64, turns: Turns) -> Vec<Finding> {
     let figures = figures(faults, noise_um, turns);
     let mut found: Vec<Finding> = diagnose(&figures, None)
@@ -175,7 +175,7 @@ fn names(findings: &[Finding]) -> String {
     named.join(", ")
 }
 
-/// A row of the table: the faults, what is to be said, and them.
+/// A row of the table: the faults, the expected and the actual findings.
 struct Row {
     name: String,
     turns: Turns,

@@ -1,4 +1,4 @@
-//! The glitch of R11.26 by an own simulation and an own window, against that of the circular test.
+//! The glitch of R11.26 by a separate simulation and window, compared with that of the circular test.
 
 #![allow(
     clippy::cast_possible_truncation,

@@ -20,7 +20,7 @@ use machine::Machine;
 
 const FEEDS: [f64; 4] = [500.0, 800.0, 2000.0, 5000.0];
 
-/// What is known before: the reference, with the friction that `identify` finds, to 2 %.
+/// The prior knowledge: the reference, with the friction that `identify` finds, to 2 %.
 fn known(machine: &Machine, axis: PlaneAxis) -> DriveParameters {
     let plant = machine.reference.plant();
     let (reference, own) = match axis {
@@ -71,7 +71,7 @@ fn fitted(machine: &Machine, axis: PlaneAxis, feeds: &[f64]) -> FittedDrive {
 }
 
 /// R16.3: contact, Kp and friction of a machine are found from circles off and on at four feeds over a decade, each
-/// within its range, with fewer than 1000 simulated reversals; the delay is never better known than to 0.5 ms.
+/// within its range, with fewer than 1000 simulated reversals; the best accuracy of the delay is 0.5 ms.
 #[test]
 fn the_plant_is_found_from_recorded_circles() {
     let machine = Machine {
@@ -107,8 +107,8 @@ fn the_plant_is_found_from_recorded_circles() {
 
 /// R16.3: the table of docs/commissioning.md.
 #[test]
-#[ignore = "seconds a machine"]
-#[allow(clippy::print_stdout, reason = "the table is what it is for")]
+#[ignore = "seconds per machine"]
+#[allow(clippy::print_stdout, reason = "the table is its purpose")]
 fn parameters_found_against_true() {
     for machine in Machine::all() {
         for axis in PlaneAxis::ALL {

@@ -1,5 +1,5 @@
-//! Chapter 5.3: what is told from the shapes of simulated circles. A plant without backlash never
-//! shows any, one with backlash always, and axes that do not match are no friction.
+//! Chapter 5.3: the findings from the shapes of simulated circles. A plant without backlash never
+//! shows any, one with backlash always does, and axes that do not match are not friction.
 
 use frictcomp::text::SourceFile;
 use frictcomp_physics::circle::{
@@ -27,7 +27,7 @@ fn test(plant: Plant, radius_mm: f64, feed_mm_per_min: f64) -> CircularTest {
     }
 }
 
-/// What is said without and with compensation.
+/// The findings without and with compensation.
 fn advice(test: &CircularTest) -> [Vec<Diagnosis>; 2] {
     let comparison = test.compare().expect("a circle");
     let off = diagnose(&comparison.off.figures, Some(Switched::Off));
@@ -118,7 +118,7 @@ fn shows_none(plant: &Plant, radii: &[f64], feeds: &[f64]) {
 
 #[test]
 fn steep_friction_is_no_mismatch() {
-    // R5.24: peaks that still bend the path where the ellipse is looked for.
+    // R5.24: peaks that still bend the path where the ellipse is evaluated.
     let plant = plant("Fs = 1500\nvs = 0.0005\n[y]\nFc = 1000\nFs = 1200\nm = 3000\n");
     for radius in [5.0, 9.0] {
         for advice in advice(&test(plant.clone(), radius, 250.0)) {
@@ -196,7 +196,7 @@ fn no_plant_without_backlash_shows_any_at_any_circle() {
 
 #[test]
 fn a_dead_zone_between_motor_and_load_is_backlash() {
-    // R5.24 R5.27: beside friction, each axis its own.
+    // R5.24 R5.27: in addition to friction, each axis its own.
     let plant = plant("[x]\nbacklash_um = 8\n[y]\nbacklash_um = 2.5\n");
     let test = test(plant, 60.0, 3000.0);
     for advice in advice(&test) {

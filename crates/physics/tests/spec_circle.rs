@@ -61,7 +61,7 @@ fn glitch(figures: &Figures) -> f64 {
     figures.glitch_max_um().expect("a glitch at each crossing")
 }
 
-/// What a path does at its crossings.
+/// The shape of a path at its crossings.
 fn shape(path: Option<&PathFigures>) -> &PathShape {
     path.and_then(|path| path.shape.as_ref()).expect("a shape")
 }
@@ -71,7 +71,7 @@ fn within(found: f64, expected: f64, part: f64) {
     assert!(error <= part, "{found} is not {expected} within {part}");
 }
 
-/// Drives one axis with setpoints of the position loop and gives its positions.
+/// Drives one axis with setpoints of the position loop and returns its positions.
 fn follow(drive: &mut Drive, setpoints: impl IntoIterator<Item = Setpoint>) -> Vec<f64> {
     let mut positions = Vec::new();
     for setpoint in setpoints {
@@ -148,8 +148,8 @@ fn a_sliding_contact_of_any_model_has_the_static_friction() {
 
 #[test]
 fn standstill_holds() {
-    // R5.10 R5.11 R5.12: a force below the breakaway friction moves the axis only as far as its
-    // contact bends.
+    // R5.10 R5.11 R5.12: a force below the breakaway friction moves the axis only by the bend of its
+    // contact.
     for (model, bend) in [
         (FrictionModel::Stribeck, 0.0),
         // 300 N on 1e9 N/m, and a little for the oscillation of the beginning.
@@ -191,7 +191,7 @@ fn pure_coulomb_friction_brakes_evenly() {
         ..Setpoint::default()
     };
     let mut drive = Drive::settled(&parameters, FrictionModel::Stribeck, start);
-    // The motor lets go: what the integral part holds against friction is taken back.
+    // The motor lets go: the force that the integral part holds against friction is taken back.
     let released = Setpoint {
         added_units: -100.0,
         ..Setpoint::default()
@@ -277,7 +277,7 @@ fn the_wrong_sign_makes_it_worse() {
         list.scaling_factor = -1000;
     }
     within(glitch(&figures(&test, Switched::On)), 24.8, 0.05);
-    // R5.24: it is told from a compensation that is too weak.
+    // R5.24: it is distinguished from a compensation that is too weak.
     let laps = [Switched::Off, Switched::On];
     let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
     let advice = diagnose_comparison(&Comparison::of(laps));
@@ -382,7 +382,7 @@ fn circles_beyond_all_bounds_are_refused() {
         check(1.0, 50_000.0, 0.001),
         Err(CircleError::TooFast { .. })
     ));
-    // A loop that does not settle is said so.
+    // A loop that does not settle is reported as such.
     let mut test = circular_test(5000.0);
     test.plant.x.position_gain_per_s = 1900.0;
     let limited = test.run(LapRun::ALL[0]).expect("held by the largest force");
@@ -412,7 +412,7 @@ fn a_plant_file_overrides_what_it_names() {
         (read.x.friction.coulomb_n, read.y.friction.coulomb_n),
         (500.0, 300.0)
     );
-    // What follows from the mass follows from the new one.
+    // Values that follow from the mass follow from the new one.
     within(read.x.speed_gain_n_s_per_m, 800.0 * TAU * 45.0, 1e-12);
     within(
         read.x.friction.damping_n_s_per_m,
@@ -473,7 +473,7 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
     assert_eq!(tune(&task).expect("a circle"), tuned, "the same again");
     let free = Ranges::default().free(FreeParameter::PositionDelay);
     assert_eq!(free.position_delay, 0..=2000);
-    // What is written leaves what is said.
+    // The written list leaves the reported glitch.
     let mut test = circular_test(4000.0);
     test.compensation = [x, y].map(|axis| axis.compensation.clone());
     let left = glitch(&figures(&test, Switched::On));

@@ -28,7 +28,7 @@ fn list() -> FrictionList {
     }
 }
 
-/// Positions in 0.1 µm of velocities in µm/s at 1 ms: 10 µm/s make 0.1 units a cycle.
+/// Positions in 0.1 µm of velocities in µm/s at 1 ms: 10 µm/s make 0.1 units per cycle.
 fn positions(velocities: &[f64]) -> Vec<f64> {
     let mut x = 0.0;
     velocities
@@ -105,7 +105,7 @@ fn the_current_decays_over_the_cycles_before_a_reversal() {
     let v = [
         1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 0.0, -1000.0, -1000.0,
     ];
-    // Cycle 5 stands still, its weight is 0; cycle 1 lies 5 cycles before: not yet weighted.
+    // Cycle 5 is at standstill, its weight is 0; cycle 1 is 5 cycles before: not yet weighted.
     close(
         &currents(&list, Reading::default(), &v),
         &[10.0, 10.0, 7.5, 5.0, 2.5, 0.0, -10.0, -10.0],
@@ -131,7 +131,7 @@ fn slowing_down_without_a_reversal_is_not_weighted() {
 
 #[test]
 fn the_current_builds_up_over_the_distance_after_a_reversal() {
-    // R4.3: 1000 µm/s are 10 units of 0.1 µm a cycle; 40 units take four cycles.
+    // R4.3: 1000 µm/s are 10 units of 0.1 µm per cycle; 40 units take four cycles.
     let list = FrictionList {
         position_delay: 40,
         ..list()
@@ -224,7 +224,7 @@ fn the_drive_gets_whole_numbers_of_16_bit() {
     assert_eq!(outputs(10, [0.0, 3722.0]), (37, -37, 0));
 }
 
-/// A reversal at a constant speed: cycles back and forth, and what each cycle yields.
+/// A reversal at a constant speed: cycles back and forth, and the result of each cycle.
 struct Reversal {
     /// µm/s.
     speed: f64,
@@ -381,7 +381,7 @@ fn every_start_builds_up_where_the_documents_are_read_so() {
         position_delay: 20,
         ..list()
     };
-    // 10 units a cycle: half of the build-up, all of it; a stop, and on in the same direction.
+    // 10 units per cycle: half of the build-up, all of it; a stop, and on in the same direction.
     let v = [1000.0, 1000.0, 1000.0, 0.0, 0.0, 1000.0, 1000.0, -1000.0];
     let every: Reading = "start=every".parse().expect("a reading");
     assert_eq!(every.start, Start::Every);
@@ -390,13 +390,13 @@ fn every_start_builds_up_where_the_documents_are_read_so() {
     let again = [0.0, 5.0, 10.0, standing, standing, 5.0, 10.0, -5.0];
     close(&currents(&list, Reading::default(), &v), &first);
     close(&currents(&list, every, &v), &again);
-    // A change of the speed is no start.
+    // A change of the speed is not a start.
     let slower = [1000.0, 1000.0, 1000.0, 1.0, 1000.0];
     let held = currents(&list, every, &slower);
     close(&held, &[0.0, 5.0, 10.0, 12.0, 10.0]);
 }
 
-/// Columns with times in ms and positions of 1 unit a ms.
+/// Columns with times in ms and positions of 1 unit per ms.
 fn columns(times_ms: &[f64]) -> TraceColumns {
     TraceColumns {
         times_s: Some(times_ms.iter().map(|time| time / 1000.0).collect()),
@@ -406,7 +406,7 @@ fn columns(times_ms: &[f64]) -> TraceColumns {
     }
 }
 
-/// What is wrong with times in ms, and at which row.
+/// The fault of times in ms, and its row.
 fn refused(times_ms: &[f64], cycle_ms: Option<f64>) -> Option<String> {
     let options = TraceOptions::default().with_cycle_s(cycle_ms.map(|cycle| cycle / 1000.0));
     let trace = CommandedTrace::new(columns(times_ms), options);
@@ -465,7 +465,7 @@ fn rows_are_cnc_cycles_within_a_hundredth() {
     assert!(matches!(error, Err(CyclesError::Cycle(_))));
 }
 
-/// Times in ms and positions of a trace that is resampled to cycles of 1 ms, and what is said.
+/// Times in ms and positions of a trace that is resampled to cycles of 1 ms, and the remarks.
 fn resampled(columns: TraceColumns) -> (Vec<[f64; 3]>, Vec<String>) {
     let options = TraceOptions::default()
         .with_cycle_s(Some(0.001))
@@ -479,7 +479,7 @@ fn resampled(columns: TraceColumns) -> (Vec<[f64; 3]>, Vec<String>) {
 
 #[test]
 fn resampling_makes_cycles_of_any_rows() {
-    // R4.5: 4 ms to 1 ms, on straight lines; 1 unit a ms are 100 µm/s.
+    // R4.5: 4 ms to 1 ms, on straight lines; 1 unit per ms is 100 µm/s.
     let (rows, said) = resampled(columns(&[0.0, 4.0, 8.0]));
     let expected: Vec<[f64; 3]> = (0..9)
         .map(|at| {
@@ -492,7 +492,7 @@ fn resampling_makes_cycles_of_any_rows() {
         .collect();
     assert_eq!(rows, expected);
     assert_eq!(said, ["3 rows are resampled to 9 cycles of 1 ms"]);
-    // A gap, a row again and a jump back.
+    // A gap, a repeated row and a jump back.
     let (rows, said) = resampled(columns(&[0.0, 1.0, 2.0, 2.0, 1.5, 3.0, 7.0, 8.0]));
     assert_eq!(rows, expected);
     assert_eq!(
@@ -503,7 +503,7 @@ fn resampling_makes_cycles_of_any_rows() {
             "a gap of 4 ms before row 7 is bridged by a straight line",
         ]
     );
-    // What were cycles stay what they were, to the last bit.
+    // Rows that were cycles do not change, to the last bit.
     let times: Vec<f64> = (0..5000).map(|at| f64::from(at) * 1.0).collect();
     let mut own = columns(&times);
     own.positions = Some(times.iter().map(|time| (time * 0.37).sin()).collect());
@@ -522,7 +522,7 @@ fn resampling_makes_cycles_of_any_rows() {
     let states: Vec<Switched> = trace.rows().map(|row| row.switched).collect();
     let (on, off) = (Switched::On, Switched::Off);
     assert_eq!(states, [on, on, off, off, on]);
-    // Nobody wants more cycles than a day has.
+    // No trace needs more cycles than a day has.
     let options = TraceOptions::default()
         .with_cycle_s(Some(0.001))
         .with_resampling(Resampling::Done);

@@ -1,4 +1,4 @@
-//! Chapter 5.3: circles recorded on a machine, cut to what is circle, their figures and advice.
+//! Chapter 5.3: circles recorded on a machine, cut to the circle itself, their figures and advice.
 
 #![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
 
@@ -68,7 +68,7 @@ fn of_axes(figures: &Figures) -> Vec<(PlaneAxis, Finding)> {
     found.collect()
 }
 
-/// What is found at all crossings, each finding once.
+/// The findings at all crossings, each once.
 fn of_crossings(figures: &Figures) -> Vec<Finding> {
     let advice = diagnose(figures, None).into_iter();
     let mut found: Vec<Finding> = advice
@@ -80,7 +80,7 @@ fn of_crossings(figures: &Figures) -> Vec<Finding> {
     found
 }
 
-/// What is found in the path as a whole.
+/// The findings in the path as a whole.
 fn of_whole(figures: &Figures) -> Vec<Finding> {
     let advice = diagnose(figures, None).into_iter();
     advice
@@ -125,7 +125,7 @@ fn figures_of_known_circles_are_exact() {
 #[test]
 fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
     // R5.21: one bump of 9 µm and 20°. The least-squares centre follows its whole area; the
-    // minimum zone is not wider, and not narrower than the bump less what a shift can take away.
+    // minimum zone is not wider, and not narrower than the bump less what a shift can remove.
     let bump = |angle: f64| {
         let way = (angle - 1.0).abs().min(TAU - (angle - 1.0).abs());
         9.0 * (1.0 - way / (10.0 * PI / 180.0)).max(0.0)
@@ -299,7 +299,7 @@ fn ellipses_are_told_apart() {
 
 #[test]
 fn lead_in_and_lead_out_are_cut_away() {
-    // R5.26: exactly one turn between a way to the circle and one from it, of every form.
+    // R5.26: exactly one turn between a path to the circle and one from it, of every form.
     let peaks = |direction, angle| friction(12.0, 2.0, direction, angle);
     for start_deg in [0.0, 37.0, 180.0, 275.0] {
         for direction in Direction::ALL {
@@ -337,7 +337,7 @@ fn lead_in_and_lead_out_are_cut_away() {
 
 #[test]
 fn noise_and_more_than_a_turn_make_no_difference() {
-    // R5.26: 1.25 turns with 20 nm of noise, a way to the circle and one from it.
+    // R5.26: 1.25 turns with 20 nm of noise, a path to the circle and one from it.
     for turns in [1.0, 1.02, 1.25, 2.0, 3.7] {
         let recorder = Recorder {
             noise: Noise::of_um(0.02),
@@ -361,7 +361,7 @@ fn noise_and_more_than_a_turn_make_no_difference() {
 
 #[test]
 fn repeated_rows_count_once() {
-    // R5.26: every row three times, as a recorder does that is faster than the control.
+    // R5.26: every row three times, as from a recorder that is faster than the control.
     let peaks = |direction, angle| friction(9.0, 2.0, direction, angle);
     let once = Recorder::new(50.0)
         .turns(Direction::Cw, 1.1, &peaks)
@@ -457,7 +457,7 @@ fn a_worse_turn_is_named() {
     }
 }
 
-/// R5.26: one turn, or two of which the ends are an eighth each, are nothing to compare.
+/// R5.26: one turn, or two with ends of an eighth each, cannot be compared.
 #[test]
 fn fewer_turns_are_not_compared() {
     let peaks = |direction, angle| friction(6.0, 2.0, direction, angle);
@@ -533,7 +533,7 @@ fn recordings_that_are_no_circle_are_refused() {
 
 #[test]
 fn what_is_rounder_than_a_square_but_no_circle_is_refused() {
-    // R5.26: with what was found.
+    // R5.26: with the values that were found.
     for deviation_um in [700.0, 3000.0] {
         let egg = synthetic(Direction::Ccw, |angle| deviation_um * (2.0 * angle).cos());
         let refused = circle(egg, None).expect_err("an egg");

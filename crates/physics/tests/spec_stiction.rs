@@ -24,7 +24,7 @@ fn circle(feed_mm_per_min: f64) -> Circle {
     }
 }
 
-/// The largest glitch in µm of the counter-clockwise circle with what the plant itself does.
+/// The largest glitch in µm of the counter-clockwise circle with the plant's own compensation.
 fn glitch(plant: Plant, circle: Circle, compensation: Switched) -> f64 {
     let test = CircularTest {
         circle,
@@ -77,7 +77,7 @@ fn above_mp1513_and_without_feed_forward_nothing_is_added() {
     let same = |[off, on]: [f64; 2]| assert!((off - on).abs() < 1e-9, "{on} {off}");
     same(both("[stiction]\nmp1511 = 10000\nmp1513 = 2.999\n"));
     same(both("k_ff = 0\n[stiction]\nmp1511 = 10000\n"));
-    // MP1511 of 0 switches it off, and a limit of 0 leaves nothing of it.
+    // MP1511 of 0 switches it off, and with a limit of 0 it has no effect.
     same(both("[stiction]\nmp1513 = 3\n"));
     same(both("[stiction]\nmp1511 = 10000\nmp1512 = 0\n"));
 }
@@ -164,7 +164,7 @@ fn mp1511_and_mp1512_are_tuned() {
     );
     let row = tuned.feeds[0];
     assert!(row.glitch_on_um < 0.95 * row.glitch_off_um, "{row:?}");
-    // What was tuned leaves what is said.
+    // The tuned parameters leave the reported glitch.
     let text = format!(
         "[stiction]\nmp1511 = {}\nmp1512 = {}\n",
         best.mp1511_us, best.mp1512

@@ -1,7 +1,7 @@
-//! How fast recorded traces are read: ten minutes at 1 kHz, ten channels, of which three are kept
+//! Reading speed of recorded traces: ten minutes at 1 kHz, ten channels, of which three are kept
 //! (R6.18). `cargo bench --bench trace` prints the time and the memory of the columns.
 
-#![allow(clippy::print_stdout)] // The line is what it is for.
+#![allow(clippy::print_stdout)] // The line is its purpose.
 #![allow(clippy::cast_precision_loss)] // Rows of a file.
 
 use std::fmt::Write as _;
@@ -11,7 +11,7 @@ use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, Tra
 
 const ROWS: usize = 600_000;
 const CHANNELS: usize = 10;
-/// Bytes that come at a time, as from a file.
+/// Bytes read at a time, as from a file.
 const PIECE: usize = 1 << 18;
 /// The goal in s.
 const GOAL_S: f64 = 2.0;

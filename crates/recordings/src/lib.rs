@@ -1,7 +1,7 @@
-//! Recorded traces of machines: what they hold, and the friction that they show.
+//! Recorded traces of machines: their contents, and the friction that they show.
 //!
-//! In go the bytes of a recording from Scope, SINUMERIK or a plain table; a [`trace::TraceReader`] gives
-//! its channels with their times. [`identify`] finds friction curves and value lists in them, and
+//! A [`trace::TraceReader`] takes the bytes of a recording from Scope, SINUMERIK or a plain table and
+//! returns its channels with their times. [`identify`] finds friction curves and value lists in them, and
 //! judges a value list by them. [`commission`] plans the programs that are recorded. [`evidence`] judges the
 //! questions that the documents leave open.
 //!

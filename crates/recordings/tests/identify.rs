@@ -1,4 +1,4 @@
-//! Friction is found again in recordings of a drive whose friction is known.
+//! Friction is recovered from recordings of a drive whose friction is known.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -71,14 +71,14 @@ fn errors(bench: &Bench, found: &Identified) -> [f64; 4] {
     ]
 }
 
-/// A case of the acceptance with what its errors may be.
+/// A case of the acceptance with the permitted errors.
 struct Case {
     name: &'static str,
     bench: Bench,
     limits: [f64; 4],
 }
 
-/// How far the offset may be off, in N.
+/// Permitted error of the offset, in N.
 const OFFSET: f64 = 2.0;
 
 /// No estimate of the offset from the samples of R6.10 is better than its Cramér–Rao bound, whose
@@ -148,13 +148,13 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The 95th of a hundred.
+/// The 95th percentile.
 fn percentile(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() * 95).div_ceil(100) - 1]
 }
 
-/// Runs every case with so many seeds; gives the table.
+/// Runs every case with a number of seeds; returns the table.
 fn accept(seeds: u64) -> String {
     let mut table =
         String::from("case                        rms        max        f(0+)     offset N\n");
@@ -204,7 +204,7 @@ fn friction_is_found_within_the_limits() {
 #[ignore = "forty recordings of every case"]
 fn friction_is_found_within_the_limits_of_the_acceptance() {
     // R6.10 R6.12 R6.15
-    // The table is what it is for.
+    // The table is its purpose.
     #[allow(clippy::print_stdout)]
     {
         println!("{}", accept(40));
@@ -362,7 +362,7 @@ fn what_a_recording_lacks_is_said() {
     });
     assert!(codes(&concave).contains(&Code::Fc517));
     assert!(matches!(concave.curve, FrictionCurve::Lines(_)));
-    // Nothing is said where nothing is odd.
+    // There are no remarks if nothing is odd.
     let good = identified(&Bench {
         ripple_n: 0.0,
         ..Bench::default()

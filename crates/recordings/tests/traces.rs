@@ -1,4 +1,4 @@
-//! Recorded traces: every layout that the rules name is read, and nothing else without a word.
+//! Recorded traces: every layout that the rules name is read, and anything else is reported.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -133,7 +133,7 @@ fn export() -> impl Strategy<Value = Export> {
             decimal: if separator == ',' { '.' } else { decimal },
             header,
             times,
-            // Without times nobody can say which rows are repeated.
+            // Without times the repeated rows cannot be recognised.
             filled: match (times, filled) {
                 (Times::None, Filled::Repeated | Filled::Shifted) => Filled::Blank,
                 _ => filled,
@@ -149,8 +149,8 @@ fn export() -> impl Strategy<Value = Export> {
     })
 }
 
-/// Scope numbers channels of one name; the first channel of a file has a name of its own here, so
-/// that `Name` beside `Name` is no riddle where nothing else stands above the numbers.
+/// Scope numbers channels of one name; the first channel of a file gets a unique name here, so that
+/// `Name` next to `Name` is not ambiguous if nothing else is above the numbers.
 fn number_the_names(export: &mut Export) {
     let signals = export.tasks.iter_mut().flat_map(|task| &mut task.signals);
     for (number, signal) in signals.enumerate() {
@@ -188,7 +188,7 @@ proptest! {
             } else {
                 prop_assert_eq!(&channel.name, &signal.name);
             }
-            // Raw values: the offset and the factor of the drawing are not in them.
+            // Raw values: they do not contain the offset and the factor of the drawing.
             prop_assert_eq!(recording.values(index), &signal.samples[..]);
             if is_full {
                 prop_assert_eq!(channel.object.map(CncObject::axis), Some(signal.axis));
@@ -335,7 +335,7 @@ fn blanks_between_cells_need_names_without_blanks_or_single_channels() {
     assert_eq!(values(&recording, "other"), [2.0, 4.0]);
     let text = "Name test space other\n\n0 1 2\n1 3 4\n";
     assert_eq!(problem(text), TraceProblem::Divided);
-    // Rows without blanks in their cells tell how many channels there are, and name them.
+    // Rows without blanks in their cells show the number of channels, and name them.
     let text = "Name Axis 1 Velo Axis 1 Torque\nData-Type INT32 INT16\n\
                 SymbolName Axes.Velo Axes.Torque\n\n0 1 2\n1 3 4\n";
     let recording = read(text).expect("a recording");
@@ -461,7 +461,7 @@ fn what_is_no_number_is_missing_and_counted() {
         .expect("one clock");
     assert_eq!(aligned.columns[1], [2.0, 4.0]);
     assert!(
-        aligned.remarks[0].contains("1 samples of `A` are no numbers"),
+        aligned.remarks[0].contains("1 samples of `A` are not numbers"),
         "{:?}",
         aligned.remarks
     );

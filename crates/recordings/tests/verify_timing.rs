@@ -71,8 +71,8 @@ fn share_of(timing: &Timing) -> ActingShare {
     }
 }
 
-/// Nobody is told that the list acted, or that nothing did, where a part of it did. What is a quarter
-/// stronger than the list may pass for it in much noise.
+/// Asserts that no verdict claims that the list acted, or that nothing did, if a part of it did. A list that is
+/// a quarter stronger may pass for it in much noise.
 fn assert_no_false_verdict(bench: &Bench, timing: &Timing) {
     let what = format!("{bench:?}: {timing:?}");
     match timing {
@@ -122,7 +122,7 @@ fn the_part_of_a_list_that_acted_is_found() {
 #[test]
 #[ignore = "minutes without optimization"]
 fn the_part_is_within_what_is_said_everywhere() {
-    // R6.22: plants, gains, feeds, noise and shares; where noise allows no 0.03, the interval says so.
+    // R6.22: plants, gains, feeds, noise and shares; if noise does not allow 0.03, the interval shows that.
     let benches = [STIFF, MID, SOFT, FAST, SLOW];
     let (mut all, mut outside) = (0, 0);
     for noise in [(0.0, 0.0), (0.03, 1.0), (0.1, 3.0)] {

@@ -48,13 +48,13 @@ pub(super) fn is_home(axis: &AxisSummary) -> bool {
     axis.end == axis.start_up && axis.others_away.is_empty()
 }
 
-/// Whether every feed move was made with friction compensation, as far as it is configured (R13.12).
+/// Whether every feed move of the axis had friction compensation, if it is configured (R13.12).
 pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
     axis.feed_moves.is_empty()
 }
 
-/// Said where nothing is left to do, every axis is in its start-up state and the machine is described
-/// (R1.37).
+/// Returns the line for a session after which every axis is in its start-up state; it names the codes of
+/// what was assumed, if anything was (R1.37).
 pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>) -> String {
     let home = "very axis is as at the start of the control";
     let codes: Vec<&str> = assumed.iter().map(|code| code.as_str()).collect();

@@ -1,11 +1,11 @@
-//! A `frictcomp.toml` to begin with (R9.73).
+//! A `frictcomp.toml` to start from (R9.73).
 
 use std::fmt::Write as _;
 
 use frictcomp::machine::Outline;
 use frictcomp::syntax::AxisUse;
 
-/// A commented `frictcomp.toml` that says what is known and invents nothing.
+/// A commented `frictcomp.toml` with the known facts and no invented ones.
 pub fn render_configuration(outline: &Outline) -> String {
     let mut text = String::from(
         "# The machine that the programs in this folder and below run on.\n\

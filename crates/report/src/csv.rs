@@ -1,4 +1,4 @@
-//! One row a block, and one where ways meet (R14.2), for spreadsheets (R9.15), quoted as RFC 4180 says.
+//! One row per block, and one where ways meet (R14.2), for spreadsheets (R9.15), quoted according to RFC 4180.
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -14,7 +14,7 @@ use super::visible::{any_byte, is_command, visible, visible_line};
 /// Last column of a row that is not a block.
 const JOIN: &[u8] = b"join";
 
-/// The last row: messages at program end join its codes.
+/// The last row, which also takes the codes of messages at program end.
 #[derive(Debug, Default)]
 struct Held {
     row: Vec<u8>,
@@ -25,7 +25,7 @@ struct Held {
     wanted: bool,
 }
 
-/// Writes one row a block.
+/// Writes one row per block.
 #[derive(Debug)]
 pub struct Csv<W> {
     output: Output<W>,
@@ -35,11 +35,11 @@ pub struct Csv<W> {
     version: Option<u64>,
     changes: String,
     positions: Positions,
-    /// The fields `file` and `line` of the last row, where it is one of some ways only.
+    /// The fields `file` and `line` of the last row, if it belongs to some ways only.
     place: Vec<u8>,
 }
 
-/// Whether the rows say where the axes stand.
+/// Whether the rows have the axis positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Positions {
@@ -66,7 +66,7 @@ impl<W: Write> Csv<W> {
         }
     }
 
-    /// The same with columns of positions, or without.
+    /// Switches the columns of positions on or off.
     pub fn with_positions(self, positions: Positions) -> Self {
         Self { positions, ..self }
     }
@@ -138,8 +138,8 @@ impl<W: Write> Csv<W> {
         self.joined(join.program, join.seq, join.state);
     }
 
-    /// Holds the state that all ways may leave as a row of its own: the row before it may be one of
-    /// some ways only.
+    /// Holds the states possible on all ways as a separate row: the row before it may belong to some ways
+    /// only.
     fn joined(&mut self, program: u32, seq: u64, state: StateView<'_>) {
         self.release();
         self.keep_states(state);

@@ -11,10 +11,10 @@ use frictcomp::text::Place;
 
 use super::visible::{is_command, visible, visible_line};
 
-/// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
+/// The width of text if neither the user nor a terminal nor `COLUMNS` sets one (R9.72).
 pub const FALLBACK_WIDTH: usize = 100;
 
-/// The width of agreed timelines, which is the same for everybody.
+/// The width of agreed timelines, which is the same for every user.
 const AGREED_WIDTH: usize = 80;
 
 /// Whether text output carries colours.
@@ -119,7 +119,7 @@ pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     wrapped
 }
 
-/// Breaks lines that are wider than a width between words; what follows stands further right.
+/// Breaks lines that are wider than a width between words; the continuation is indented.
 pub fn fitted(text: &str, width: usize) -> String {
     let mut out = String::with_capacity(text.len() + 64);
     for line in text.split_inclusive('\n') {
@@ -150,7 +150,7 @@ pub fn fitted(text: &str, width: usize) -> String {
     out
 }
 
-/// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
+/// The part of a place's text that is passed to the renderer: all of it, unless a line is so long
 /// that only the surroundings of the span make sense. Hidden characters have pictures.
 struct ShownText<'a> {
     text: Cow<'a, str>,

@@ -6,8 +6,8 @@ use super::strings::grouped;
 use frictcomp::lists::AxisType;
 use frictcomp::timeline::FeedMoves;
 
-/// The feed moves of an axis without compensation, to stand after its name: ` off during 155 feed
-/// moves, the longest 812 mm` (R13.12). `None` where there are none.
+/// The feed moves of an axis without compensation, as the text after its name: ` off during 155 feed
+/// moves, the longest 812 mm` (R13.12). `None` if there are none.
 pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String> {
     let (without, unknown) = (moves.without(), moves.unknown);
     let counted = |count| {

@@ -11,12 +11,12 @@ use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
 
-/// A recording and what was identified in it.
+/// A recording and the friction identified in it.
 #[derive(Debug, Clone)]
 pub struct IdentifyReport {
     /// The name of the file.
     pub name: String,
-    /// The axis, where it is named.
+    /// The axis, if it is named.
     pub axis: Option<String>,
     /// The recording.
     pub recording: AxisRecording,
@@ -33,7 +33,7 @@ impl IdentifyReport {
             .chain(&self.identified.findings)
     }
 
-    /// Returns the faults of the recording, each a line for the written list (R6.21).
+    /// Returns the faults of the recording, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let faults = self
             .findings()
@@ -52,7 +52,7 @@ impl IdentifyReport {
     }
 }
 
-/// Speeds, curve and points, then what there is to say.
+/// Speeds, curve and points, then the findings.
 pub fn render_text(report: &IdentifyReport) -> String {
     let mut out = String::new();
     let found = &report.identified;
@@ -70,7 +70,7 @@ pub fn render_text(report: &IdentifyReport) -> String {
         found.segments.len()
     );
     if report.findings().next().is_some() {
-        // What is wrong comes before the list (R6.21).
+        // Faults come before the list (R6.21).
         let mut said = String::new();
         write_findings(report.findings(), &mut said);
         out.push_str(said.trim_start());
@@ -127,10 +127,10 @@ fn offset_words(found: &Identified) -> &'static str {
         return "It is too small to be set anywhere.\n";
     }
     if found.offset < 0.0 {
-        "It is no part of the list. `getriebe[i].torque_offset` (P-AXIS-00324) is documented from 0 on, so \
+        "It is not part of the list. `getriebe[i].torque_offset` (P-AXIS-00324) is documented from 0 on, so \
          a negative one cannot be set there.\n"
     } else {
-        "It is no part of the list; it may belong in `getriebe[i].torque_offset` (P-AXIS-00324).\n"
+        "It is not part of the list; it may belong in `getriebe[i].torque_offset` (P-AXIS-00324).\n"
     }
 }
 
@@ -164,7 +164,7 @@ struct IdentifyDocument<'a> {
     diagnostics: Vec<&'a TraceFinding>,
 }
 
-/// A point as a value list has it.
+/// A point in the form of a value list.
 #[derive(Serialize)]
 pub(super) struct PointRecord {
     #[serde(rename = "in")]
@@ -205,7 +205,7 @@ struct SegmentRecord {
     v: f64,
 }
 
-/// The same for machines: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+/// The report as JSON: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
 pub fn render_json(report: &IdentifyReport) -> String {
     to_pretty(&record(report))
 }

@@ -12,7 +12,7 @@ use super::view::View;
 /// Text before the first record.
 pub(super) const OPENING: &[u8] = b"{\"schema\":2,\"records\":[";
 
-/// Writes records as one document, `{"schema":2,"records":[…]}`, a record a line.
+/// Writes records as one document, `{"schema":2,"records":[…]}`, one record per line.
 #[derive(Debug)]
 pub struct Json<W> {
     output: Output<W>,

@@ -15,7 +15,7 @@ use frictcomp_physics::circle::RoundVerdict;
 /// The content of `learning.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LearningFile {
-    /// The form of this file.
+    /// The version of the format of this file.
     pub schema: u32,
     /// The measured friction of X and Y, which bounds all lists.
     pub friction: [MeasuredFriction; 2],
@@ -23,7 +23,7 @@ pub struct LearningFile {
     pub rounds: Vec<LearningRound>,
 }
 
-/// Friction as it was measured.
+/// Measured friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredFriction {
     /// The file that it was read from, and its SHA-256.
@@ -32,14 +32,14 @@ pub struct MeasuredFriction {
     pub list: FrictionList,
 }
 
-/// A round: the lists that were handed out for it, and what was recorded with them.
+/// A round: the lists handed out for it, and the recordings made with them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LearningRound {
     /// The lists of X and Y.
     pub lists: [ValueListUsed; 2],
-    /// What the plant predicted for X and Y.
+    /// The predictions of the plant for X and Y.
     pub predictions: [Option<Prediction>; 2],
-    /// The recordings that the next round rests on; none before.
+    /// The recordings on which the next round rests; none before.
     pub recordings: Vec<RecordedFile>,
 }
 
@@ -64,7 +64,7 @@ pub struct RecordedFile {
 }
 
 impl LearningFile {
-    /// The form that is written.
+    /// The version that is written.
     pub const SCHEMA: u32 = 1;
 }
 
@@ -86,7 +86,7 @@ pub struct LearnedAxis {
     pub best_round: Option<usize>,
     /// The list of that round.
     pub list: Option<String>,
-    /// Whether two rounds in succession gained nothing.
+    /// Whether two rounds in succession brought no gain.
     pub is_over: bool,
 }
 
@@ -102,26 +102,26 @@ pub enum NextStep {
         /// The lists of X and Y.
         lists: [String; 2],
     },
-    /// Nothing more is gained.
+    /// No further gain is possible.
     Done,
 }
 
-/// All that is known of a learning.
+/// All that is known of a learning process.
 #[derive(Debug, Clone, Serialize)]
 pub struct LearnReport {
-    /// The form of this record.
+    /// The version of the format of this record.
     pub schema: u32,
     /// The reference plant.
     pub plant: String,
     /// What its simulation leaves out.
     pub not_modelled: Vec<&'static str>,
-    /// Feeds of the circles in mm/min, as they were recorded.
+    /// Feeds of the circles in mm/min, as recorded.
     pub feeds: Vec<f64>,
     /// X and Y.
     pub axes: [LearnedAxis; 2],
     /// The predictions for the lists of each round, X and Y.
     pub predictions: Vec<[Option<Prediction>; 2]>,
-    /// What comes next.
+    /// The next step.
     pub next: NextStep,
 }
 
@@ -132,7 +132,7 @@ pub fn render_json(report: &LearnReport) -> String {
     text
 }
 
-/// The file of a learning.
+/// The file of a learning process.
 pub fn render_file(file: &LearningFile) -> String {
     let mut text = to_pretty(file);
     text.push('\n');

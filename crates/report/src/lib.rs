@@ -1,7 +1,7 @@
-//! Records, messages and results as bytes: formats, pictures, HTML. Nothing here computes anything.
+//! Records, messages and results as bytes: formats, pictures, HTML. Nothing here computes results.
 //!
 //! Every format of the timeline is a [`Sink`](frictcomp::timeline::Sink) over a generic writer. The first error of the
-//! writer is kept and ends the dry run; a closed pipe is no error for the caller.
+//! writer is kept and ends the dry run; a closed pipe is not an error for the caller.
 //!
 //! ```
 //! use frictcomp::{Machine, SourceFile};

@@ -1,9 +1,9 @@
-//! Limits of axes that are assumed, for people.
+//! Assumed limits of axes, for people.
 
 use frictcomp::lists::AxisType;
 use frictcomp_physics::motion::AssumedLimits;
 
-/// A line for all axes with the same assumed limits: their values, and the keys that give them (R5.2,
+/// One line for all axes with the same assumed limits: their values, and the keys that set them (R5.2,
 /// R11.23).
 pub fn assumed_limits<'a>(axes: impl IntoIterator<Item = &'a AssumedLimits>) -> Vec<String> {
     let mut assumed: Vec<([String; 2], Vec<&str>)> = Vec::new();

@@ -6,11 +6,11 @@ use super::visible::visible_line;
 use frictcomp::lists::{AxisType, Origin, Parameter};
 use frictcomp::machine::AxisReport;
 
-/// Columns that an origin has at least, however wide the others are.
+/// Minimum width of an origin, however wide the other columns are.
 const MIN_ORIGIN: usize = 16;
 
-/// Writes one table an axis, and one of the programs: number, key, value with unit, origin. A
-/// parameter that has no room on a line of `width` columns takes two.
+/// Writes one table per axis, and one of the programs: number, key, value with unit, origin. A
+/// parameter that does not fit on a line of `width` columns takes two.
 ///
 /// # Errors
 /// Only those of `out`.
@@ -103,7 +103,7 @@ pub fn cells(row: &Parameter) -> [String; 4] {
     ]
 }
 
-/// A text that fits into `room` columns; it loses its beginning, the end of a path says more.
+/// A text that fits into `room` columns; it loses its beginning, as the end of a path says more.
 fn shortened(text: &str, room: usize) -> String {
     let length = columns(text);
     if length <= room {

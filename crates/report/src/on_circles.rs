@@ -1,4 +1,4 @@
-//! Friction that was found on circles, as text and JSON.
+//! Friction identified on circles, as text and JSON.
 
 use std::fmt::Write as _;
 
@@ -12,12 +12,12 @@ use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
 
-/// Recorded circles and the friction that was found on them.
+/// Recorded circles and the friction identified on them.
 #[derive(Debug, Clone)]
 pub struct OnCirclesReport {
     /// The names of the files.
     pub names: Vec<String>,
-    /// The axis, where it is named.
+    /// The axis, if it is named.
     pub axis: Option<String>,
     /// The recordings.
     pub recordings: Vec<AxisRecording>,
@@ -35,7 +35,7 @@ impl OnCirclesReport {
         units.into_iter().next().unwrap_or("drive units")
     }
 
-    /// Returns the faults of the recordings, each a line for the written list (R6.21).
+    /// Returns the faults of the recordings, one line each for the written list (R6.21).
     pub fn faults(&self) -> Vec<String> {
         let findings = self.findings().into_iter();
         let faults = findings.filter(|it| it.severity == Severity::Warning);
@@ -106,7 +106,7 @@ struct OnCirclesDocument<'a> {
     diagnostics: Vec<&'a TraceFinding>,
 }
 
-/// The same for machines; speeds in µm/s or 0.001°/s.
+/// The report as JSON; speeds in µm/s or 0.001°/s.
 pub fn render_json(report: &OnCirclesReport) -> String {
     const PER_MM: f64 = 1000.0;
     let points = report

@@ -10,14 +10,14 @@ const CHUNK: usize = 64 * 1024;
 
 /// A timeline format whose output can be ended.
 pub trait Report: Sink {
-    /// Writes what is ready while it is open when the next record comes. Formats that fold or
-    /// hold back records keep those.
+    /// Writes what is complete before the next record. Formats that fold or hold back records keep
+    /// those.
     fn flush(&mut self) -> ControlFlow<()>;
 
     /// Writes what is still held back.
     ///
     /// # Errors
-    /// The first error of the writer; a closed pipe is none.
+    /// The first error of the writer, except a closed pipe.
     fn finish(&mut self) -> io::Result<()>;
 
     /// Whether the reader closed the pipe.
@@ -35,7 +35,7 @@ pub(super) trait Gathered: Sink {
     /// The bytes on their way.
     fn output_mut(&mut self) -> &mut Output<Self::Writer>;
 
-    /// Whether what was gathered may go out before the next record comes.
+    /// Whether the gathered bytes may be written before the next record.
     fn may_go_out(&self) -> bool {
         true
     }
@@ -80,7 +80,7 @@ impl<W: Write> Output<W> {
         }
     }
 
-    /// Writes when a chunk is full.
+    /// Writes if a chunk is full.
     pub(super) fn settle(&mut self) -> ControlFlow<()> {
         if self.bytes.len() >= CHUNK {
             return self.flush();

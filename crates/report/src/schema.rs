@@ -1,4 +1,4 @@
-//! JSON schemas of `frictcomp.toml` and of plant files, so that any editor of TOML completes and checks
+//! JSON schemas of `frictcomp.toml` and of plant files, with which any TOML editor completes and checks
 //! them (R17.6).
 
 use std::fmt::Write as _;
@@ -9,14 +9,14 @@ use frictcomp::diagnostic::{Code, Levels, Severity};
 use frictcomp_physics::simulation::PLANT_FORMS;
 use serde_json::{Map, Value, json};
 
-/// The schema of `frictcomp.toml`, JSON Schema 2020-12, made from the tables of the reader. What a file
-/// says about an axis twice, or about a list, is found by the reader alone.
+/// The schema of `frictcomp.toml`, JSON Schema 2020-12, made from the tables of the reader. Only the
+/// reader finds duplicate entries for an axis or a list.
 pub fn config_schema() -> Value {
     schema(&CONFIG_FORMS, "frictcomp.toml")
 }
 
-/// The schema of plant files, JSON Schema 2020-12, made from the tables of the reader. What values must be
-/// to each other is found by the reader alone.
+/// The schema of plant files, JSON Schema 2020-12, made from the tables of the reader. Only the reader
+/// checks the relations between values.
 pub fn plant_schema() -> Value {
     schema(&PLANT_FORMS, "a plant file of frictcomp")
 }
@@ -133,7 +133,7 @@ fn form(form: Form, tables: &[TableForm]) -> Value {
     }
 }
 
-/// The table of a header; one that there is not may hold anything.
+/// The table of a header; an unknown one may contain anything.
 fn inner(header: &str, tables: &[TableForm]) -> Value {
     let mut found = tables.iter().filter(|table| table.header == header);
     found

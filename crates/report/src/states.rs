@@ -11,22 +11,22 @@ use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::ComparedStates;
 
-/// A spread above which one list does not serve all states.
+/// A spread above which one list does not suit all states.
 const WIDE: f64 = 0.1;
 
 /// Recordings of one axis in several states.
 #[derive(Debug, Clone)]
 pub struct StatesReport {
-    /// The names of the states and what was identified in each.
+    /// The names of the states and the friction identified in each.
     pub states: Vec<(String, IdentifyReport)>,
-    /// The state for which the list is, by its place.
+    /// The index of the state that the list is for.
     pub working: usize,
     /// The states side by side.
     pub compared: ComparedStates,
 }
 
 impl StatesReport {
-    /// The name of the state for which the list is.
+    /// The name of the state that the list is for.
     pub fn working_name(&self) -> &str {
         self.states.get(self.working).map_or("", |it| &it.0)
     }
@@ -58,7 +58,7 @@ impl StatesReport {
     }
 }
 
-/// The states side by side, then the one for which the list is.
+/// The states side by side, then the one that the list is for.
 pub fn render_text(report: &StatesReport) -> String {
     let mut out = String::from("friction in each state, with its standard error\n\n");
     let names = report.states.iter().map(|(name, _)| visible_line(name));
@@ -117,7 +117,7 @@ struct State<'a, T> {
     identified: T,
 }
 
-/// The same for machines; each state as `identify` gives it alone.
+/// The report as JSON; each state as `identify` gives it alone.
 pub fn render_json(report: &StatesReport) -> String {
     let states = report.states.iter().map(|(name, found)| State {
         name,

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use frictcomp_physics::stiction::{FeedEffect, Guideline, Quantity, Solution};
 
-/// The values as a table, what was computed with its formula, and what there is to say about them.
+/// The values as a table, the computed ones with their formula, and remarks on them.
 pub fn render_stiction(solution: &Solution) -> String {
     let mut out = String::new();
     for solved in &solution.values {
@@ -48,7 +48,7 @@ pub fn guideline(guideline: Guideline) -> &'static str {
     }
 }
 
-/// The same as a JSON document.
+/// The values as a JSON document.
 pub fn stiction_document(solution: &Solution) -> Value {
     let values = solution.values.iter().map(|solved| {
         let value = json!({

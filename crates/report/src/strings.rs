@@ -1,4 +1,4 @@
-//! Values as JSON, and numbers, appended to a buffer that is used again and again.
+//! Values as JSON, and numbers, appended to a reused buffer.
 
 use std::borrow::Cow;
 
@@ -7,14 +7,14 @@ use serde::Serialize;
 
 use super::visible::any_byte;
 
-/// Appends a value as JSON on one line, in which nothing hidden stands, whatever JSON itself asks for
+/// Appends a value as JSON on one line without hidden characters, even where JSON itself allows them
 /// (R9.76).
 pub(super) fn append_json(out: &mut Vec<u8>, value: &(impl Serialize + ?Sized)) {
     let start = out.len();
     let written = serde_json::to_writer(&mut *out, value);
     written.expect("memory takes every byte, and numbers and texts are always JSON");
     let is_special = |byte: u8| !(0x20..0x7f).contains(&byte);
-    // Most values are ASCII that can be seen.
+    // Most values are visible ASCII.
     if any_byte(&out[start..], is_special) {
         let text = String::from_utf8_lossy(&out[start..]);
         if let Cow::Owned(shown) = shown_json(&text) {
@@ -24,7 +24,7 @@ pub(super) fn append_json(out: &mut Vec<u8>, value: &(impl Serialize + ?Sized)) 
     }
 }
 
-/// A value as a JSON document in which nothing hidden stands.
+/// A value as a JSON document without hidden characters.
 pub(super) fn to_pretty(value: &impl Serialize) -> String {
     let text = serde_json::to_string_pretty(value).expect("numbers and texts are always JSON");
     shown_json(&text).into_owned()

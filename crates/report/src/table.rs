@@ -4,14 +4,14 @@ use std::fmt::{self, Display};
 
 use unicode_width::UnicodeWidthStr;
 
-/// Whether the cells of a column end or begin below one another.
+/// Whether the cells of a column are aligned at their ends or at their beginnings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Alignment {
     Left,
     Right,
 }
 
-/// A table whose columns are as wide as their widest cell, two blanks apart, without blanks at the end of a line. The
+/// A table whose columns are as wide as their widest cell, two blanks apart, without trailing blanks. The
 /// first line has the headings; a row may have fewer cells than there are columns.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
@@ -21,12 +21,12 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table whose columns have numbers.
+    /// Creates a table whose columns have numbers.
     pub fn of_numbers<const N: usize>(headings: [&str; N]) -> Self {
         headings.into_iter().fold(Self::default(), Self::right)
     }
 
-    /// Adds a column of numbers: they end below one another.
+    /// Adds a column of numbers, right-aligned.
     pub fn right(self, heading: impl Display) -> Self {
         self.column(heading, Alignment::Right)
     }
@@ -47,7 +47,7 @@ impl Table {
         self.cells(cells.iter().map(ToString::to_string).collect());
     }
 
-    /// Adds a row of which only its data say how many cells it has.
+    /// Adds a row whose number of cells depends on the data.
     pub fn cells(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }

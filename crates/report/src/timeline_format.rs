@@ -16,34 +16,34 @@ frictcomp::words! {
         /// For people.
         #[default]
         Text = "text",
-        /// One JSON object a line.
+        /// One JSON object per line.
         Ndjson = "ndjson",
         /// One JSON document.
         Json = "json",
-        /// One row a block.
+        /// One row per block.
         Csv = "csv",
     }
 }
 
-/// How a timeline looks. A format passes over what it does not have: only [`Text`] folds blocks and
+/// The appearance of a timeline. A format ignores what it does not support: only [`Text`] folds blocks and
 /// has colours, only [`Csv`] has columns to add.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TimelineOptions {
-    /// What is shown, and how text looks.
+    /// The shown blocks and kinds, and the look of text.
     pub text: TextOptions,
-    /// Whether rows say where the axes stand.
+    /// Whether rows have the axis positions.
     pub positions: Positions,
 }
 
 impl TimelineOptions {
-    /// The same with another value of [`text`](Self::text).
+    /// Sets [`text`](Self::text).
     pub fn with_text(mut self, text: TextOptions) -> Self {
         self.text = text;
         self
     }
 
-    /// The same with another value of [`positions`](Self::positions).
+    /// Sets [`positions`](Self::positions).
     pub fn with_positions(mut self, positions: Positions) -> Self {
         self.positions = positions;
         self
@@ -51,7 +51,7 @@ impl TimelineOptions {
 }
 
 impl TimelineFormat {
-    /// What it is, in a few words.
+    /// Its description in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Text => "For people",

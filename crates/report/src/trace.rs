@@ -9,7 +9,7 @@ use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
 
-/// A trace as it was read.
+/// A trace as read.
 #[derive(Debug)]
 pub struct TraceReport<'a> {
     /// The name of the file.
@@ -18,7 +18,7 @@ pub struct TraceReport<'a> {
     pub recording: &'a TraceRecording,
 }
 
-/// The channels for people, one a line, then what is odd about them.
+/// The channels for people, one per line, then their oddities.
 pub fn render_text(report: &TraceReport<'_>) -> String {
     let mut out = String::new();
     let recording = report.recording;
@@ -83,7 +83,7 @@ fn push_channel(table: &mut Table, summary: &ChannelSummary<'_>) {
     ]);
 }
 
-/// What is odd about a channel.
+/// The oddities of a channel.
 fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     let mut odd = Vec::new();
     if let Some(clock) = &summary.clock {
@@ -100,7 +100,7 @@ fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
         }
     }
     if summary.missing > 0 {
-        odd.push(format!("{} samples are no numbers", summary.missing));
+        odd.push(format!("{} samples are not numbers", summary.missing));
     }
     if let Some(drawn) = &summary.channel.drawn {
         odd.push(format!(
@@ -116,7 +116,7 @@ fn oddities(summary: &ChannelSummary<'_>) -> Vec<String> {
     odd
 }
 
-/// A number with at most six digits that count.
+/// A number with at most six significant digits.
 fn number(value: f64) -> String {
     let digits = if value == 0.0 {
         0.0
@@ -164,7 +164,7 @@ struct ChannelRecord<'a> {
     times_not_rising: Option<u64>,
 }
 
-/// The channels for machines.
+/// The channels as JSON.
 pub fn render_json(report: &TraceReport<'_>) -> String {
     let recording = report.recording;
     to_pretty(&TraceDocument {

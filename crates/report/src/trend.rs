@@ -12,13 +12,13 @@ use frictcomp_recordings::identify::{FrictionChange, FrictionLevels, FrictionPar
 /// The friction of an axis on some dates.
 #[derive(Debug, Clone)]
 pub struct TrendReport {
-    /// The axis, where it is named.
+    /// The axis, if it is named.
     pub axis: Option<String>,
     /// The unit of the friction.
     pub unit: String,
     /// The recordings in the order of their dates.
     pub dates: Vec<DatedFriction>,
-    /// What changed between them.
+    /// The changes between them.
     pub changes: Vec<FrictionChange>,
     /// Files that give no friction, each with its reason.
     pub left_out: Vec<(String, String)>,
@@ -37,7 +37,7 @@ pub struct DatedFriction {
     pub levels: FrictionLevels,
 }
 
-/// A row for each recording, then the changes, then what was left out.
+/// A row for each recording, then the changes, then the files left out.
 pub fn render_text(report: &TrendReport) -> String {
     let mut out = String::new();
     let axis = report
@@ -145,7 +145,7 @@ struct LeftOutRecord<'a> {
     reason: &'a str,
 }
 
-/// The same for machines; each parameter with its standard error.
+/// The report as JSON; each parameter with its standard error.
 pub fn render_json(report: &TrendReport) -> String {
     let date = |at: usize| report.dates.get(at).map_or("", |it| &it.date);
     let parameters = |it: &DatedFriction| {

@@ -26,17 +26,17 @@ pub struct TuneReport {
     pub reading: String,
     /// What its simulation leaves out.
     pub not_modelled: Vec<&'static str>,
-    /// What was found.
+    /// The result.
     pub tuned: Tuned,
 }
 
-/// A number as it is written in reports: no more digits than mean anything.
+/// Rounds a number for reports: no more digits than are meaningful.
 pub fn round(value: f64) -> f64 {
     // No negative zero.
     (value * 1e6).round() / 1e6 + 0.0
 }
 
-/// For which accelerations lists were tuned, and what they leave there at most.
+/// The accelerations for which lists were tuned, and the largest glitch left there.
 pub(crate) fn tuned_range(tuned: &Tuned) -> String {
     let [least, most] = tuned.accelerations();
     format!(
@@ -46,7 +46,7 @@ pub(crate) fn tuned_range(tuned: &Tuned) -> String {
     )
 }
 
-/// What was checked between the circles, and on machines that deviate from the plant (R5.29).
+/// The checks between the circles, and on machines that deviate from the plant (R5.29).
 fn checked(tuned: &Tuned) -> String {
     let largest = |of: fn(&RemainingGlitch) -> f64| tuned.check.iter().map(of).fold(0.0, f64::max);
     let worst = tuned
@@ -207,7 +207,7 @@ struct PlantRecord<'a> {
     glitch_max: f64,
 }
 
-/// What was found for each axis.
+/// The result for each axis.
 #[derive(Serialize)]
 struct AxisRecords {
     #[serde(rename = "X")]
@@ -218,15 +218,15 @@ struct AxisRecords {
 
 #[derive(Serialize)]
 struct AxisTuningRecord {
-    /// `null` for an axis that nothing compensates.
+    /// `null` for an axis without compensation.
     parameters: Option<TunedParameters>,
     is_shaped: bool,
-    /// Pairs of velocity and output; absent where there is no value list.
+    /// Pairs of velocity and output; absent if there is no value list.
     #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<Vec<[f64; 2]>>,
 }
 
-/// Those of a value list, or of stiction compensation.
+/// Parameters of a value list, or of stiction compensation.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum TunedParameters {
@@ -310,8 +310,8 @@ fn rounded(row: &RemainingGlitch) -> RemainingGlitch {
     }
 }
 
-/// The same for machines; glitches in µm, feeds in mm/min, radii in mm. The first plant stands at
-/// the top, the others under `compared`.
+/// The report as JSON; glitches in µm, feeds in mm/min, radii in mm. The first plant is at the
+/// top, the others are under `compared`.
 pub fn render_json(reports: &[TuneReport]) -> String {
     let Some((first, others)) = reports.split_first() else {
         return String::new();

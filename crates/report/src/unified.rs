@@ -1,4 +1,4 @@
-//! What changes in a text, as `diff -u` shows it.
+//! The changes of a text, in the form of `diff -u`.
 
 use similar::TextDiff;
 
@@ -11,7 +11,7 @@ pub struct TextChange<'a> {
     pub after: (&'a str, &'a str),
 }
 
-/// The lines that a change takes away and brings, with three lines around them.
+/// The lines that a change removes and adds, with three lines of context.
 pub fn render_unified(change: TextChange<'_>) -> String {
     let ((old_name, old), (new_name, new)) = (change.before, change.after);
     let diff = TextDiff::from_lines(old, new);

@@ -1,4 +1,4 @@
-//! Value lists that were found, with remarks on what they were made of.
+//! Generated value lists, with remarks on their origin.
 
 use super::tune::{TuneReport, tuned_range};
 use super::visible::visible_line;
@@ -6,11 +6,11 @@ use frictcomp::comp::CncBuild;
 use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
 use frictcomp_physics::circle::TunedAxis;
 
-/// Said where a list is written for a build that reads fractions.
+/// The remark in a list for a build that reads fractions.
 const FRACTIONS: &str = "Outputs with decimals need the build V3.1.3132.0 or V4.29.0";
 
-/// The tuned value list of an axis of a plant, written for a build; nothing where it has none. The
-/// head gives the number and the name of the axis.
+/// The tuned value list of an axis of a plant, written for a build; nothing if it has none. The head
+/// gives the number and the name of the axis.
 pub fn render_tuned(
     report: &TuneReport,
     axis: &TunedAxis,
@@ -48,16 +48,16 @@ pub fn render_tuned(
     write_value_list(list, points, &head)
 }
 
-/// What an identified value list was made of.
+/// Origin of an identified value list.
 #[derive(Debug, Clone, Copy)]
 pub struct IdentifiedFrom<'a> {
-    /// The axis, by its name or its number, where it is named.
+    /// The axis by name or number, if it is given.
     pub axis: Option<&'a str>,
     /// The recordings.
     pub from: &'a str,
     /// The unit of torque and friction.
     pub unit: &'a str,
-    /// What is wrong with the recordings, each a line.
+    /// The faults of the recordings, one line each.
     pub faults: &'a [String],
 }
 
@@ -83,7 +83,7 @@ pub fn render_identified(
     if points == Points::Real {
         remarks.push(FRACTIONS);
     }
-    // An axis that is no name is a number.
+    // An axis that is not a name is a number.
     let number = made.axis.and_then(|axis| axis.parse().ok());
     let head = ListHead {
         remarks: &remarks,

@@ -11,20 +11,20 @@ use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
 use frictcomp_recordings::identify::{AxisRecording, Timing, TraceFinding, Verified};
 
-/// A recording and how a value list fits it.
+/// A recording, and the fit of a value list to it.
 #[derive(Debug, Clone)]
 pub struct VerifyReport {
     /// The name of the trace.
     pub trace: String,
     /// The name of the value list.
     pub list: String,
-    /// What was recorded.
+    /// The recording.
     pub recording: AxisRecording,
-    /// How the list fits.
+    /// The fit of the list.
     pub verified: Verified,
 }
 
-/// The verdict, then the figures that it comes from.
+/// The verdict, then the figures that it is based on.
 pub fn render_text(report: &VerifyReport) -> String {
     let mut out = String::new();
     let verified = &report.verified;
@@ -110,7 +110,7 @@ struct ReversalRecord {
     predicted: f64,
 }
 
-/// The same for machines; speeds in µm/s or 0.001°/s, times in s.
+/// The report as JSON; speeds in µm/s or 0.001°/s, times in s.
 pub fn render_json(report: &VerifyReport) -> String {
     const PER_MM: f64 = 1000.0;
     let verified = &report.verified;

@@ -1,20 +1,20 @@
-//! Which blocks and kinds a timeline shows.
+//! The blocks and kinds that a timeline shows.
 
 use frictcomp::comp::{Kind, KindSet};
 use frictcomp::timeline::Row;
 
-/// Which blocks are written.
+/// The blocks that are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Blocks {
     /// Every block.
     #[default]
     All,
-    /// Only blocks that changed a state or about which there is something to say.
+    /// Only blocks that changed a state or have a message.
     Changed,
 }
 
-/// What a timeline shows.
+/// The content of a timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct View {
@@ -25,13 +25,13 @@ pub struct View {
 }
 
 impl View {
-    /// The same with another value of [`blocks`](Self::blocks).
+    /// Sets [`blocks`](Self::blocks).
     pub fn with_blocks(mut self, blocks: Blocks) -> Self {
         self.blocks = blocks;
         self
     }
 
-    /// The same with another value of [`kinds`](Self::kinds).
+    /// Sets [`kinds`](Self::kinds).
     pub fn with_kinds(mut self, kinds: KindSet) -> Self {
         self.kinds = kinds;
         self

@@ -1,16 +1,16 @@
-//! What cannot be seen, made visible or escaped (R9.76).
+//! Invisible characters, made visible or escaped (R9.76).
 //!
 //! Programs, lists, file names and messages of the operating system are not ours. A terminal obeys
-//! control characters, a log takes a line end for a new message, and characters that turn the
-//! direction of writing show another text than the control reads. Every place where bytes leave the
-//! tool goes through this file.
+//! control characters, a log takes a line end for a new message, and characters that change the
+//! direction of writing show a different text from the one that the control reads. All bytes that
+//! leave the tool go through this file.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use frictcomp::text::is_hidden;
 
-/// Appends what stands for a hidden character: `␛`, or `⟨U+202E⟩` where there is no picture.
+/// Appends the picture of a hidden character: `␛`, or `⟨U+202E⟩` if it has none.
 pub(super) fn push_picture(out: &mut String, letter: char) {
     match letter {
         '\0'..='\u{1f}' => {
@@ -24,14 +24,14 @@ pub(super) fn push_picture(out: &mut String, letter: char) {
     }
 }
 
-/// The last part of a path, as whatever system writes it: titles and pictures have no room for more,
-/// and are the same in every folder.
+/// The last part of a path of any system: titles and pictures have no room for more, and are the same
+/// in every folder.
 pub(super) fn last_part(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// Whether a text holds a special byte; a blank is none. Most texts hold none, so that sixteen bytes
-/// are looked at without a branch; the last sixteen may overlap those before.
+/// Whether a text holds a special byte; a blank is not one. Most texts hold none, so that sixteen bytes
+/// are checked without a branch; the last sixteen may overlap those before.
 #[inline]
 pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
     let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
@@ -45,7 +45,7 @@ pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
 
 fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     let hidden = |letter: char| is_hidden(letter) && !stays(letter);
-    // Most texts are ASCII that can be seen.
+    // Most texts are visible ASCII.
     let special = |byte: u8| !(0x20..0x7f).contains(&byte) && !stays(char::from(byte));
     if !any_byte(text.as_bytes(), special) || !text.contains(hidden) {
         return Cow::Borrowed(text);
@@ -71,8 +71,8 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     replaced(text, |_| false)
 }
 
-/// A text at the start of a line. Runners of continuous integration take a line that begins with
-/// `::` or `##` for a command; a name that does so is shown as the path that it is.
+/// A text at the start of a line. CI runners take a line that begins with `::` or `##` for a command; a
+/// name that does so is shown as the path that it is.
 pub fn leading(text: &str) -> Cow<'_, str> {
     let shown = visible_line(text);
     if is_command(&shown) {
@@ -81,7 +81,7 @@ pub fn leading(text: &str) -> Cow<'_, str> {
     shown
 }
 
-/// Whether a runner would take a line that begins so for a command.
+/// Whether a CI runner would take a line that begins with this text for a command.
 pub(super) fn is_command(text: &str) -> bool {
     let text = text.trim_start();
     text.starts_with("::") || text.starts_with("##")

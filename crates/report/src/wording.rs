@@ -1,8 +1,8 @@
-//! The words of the command line for advice: which option does it.
+//! The wording of advice on the command line: its options.
 
 use frictcomp::diagnostic::{Advice, Budget, Code};
 
-/// How the command line words advice; `None` where the general words will do.
+/// Words advice for the command line; `None` if the general wording fits.
 pub fn command_line(advice: &Advice) -> Option<String> {
     Some(match advice {
         Advice::RaiseBudget(budget) => raise(*budget).to_owned(),

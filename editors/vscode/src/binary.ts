@@ -1,4 +1,4 @@
-/** Where the `frictcomp` program is: in the setting, beside the extension, or on `PATH`. */
+/** The place of the `frictcomp` program: in the setting, in the extension, or on `PATH`. */
 import * as path from "node:path";
 
 export interface Surroundings {
@@ -19,7 +19,7 @@ export type Found = { kind: "found"; file: string } | { kind: "missing"; looked:
 
 /**
  * The first program of the setting, the `bin` folder of the extension, and the folders of `PATH`. A
- * setting that names no file is not passed over: another program than the one asked for would answer.
+ * setting that names no file is not skipped: a program other than the requested one would answer.
  */
 export function findBinary(around: Surroundings): Found {
   const paths = around.platform === "win32" ? path.win32 : path.posix;

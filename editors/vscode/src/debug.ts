@@ -3,7 +3,7 @@ import * as vscode from "vscode";
 
 const TYPE = "frictcomp";
 
-/** Registers the debugger; `program` gives the program frictcomp, or says what to do where it is missing. */
+/** Registers the debugger; `program` returns the program frictcomp, or says what to do if it is missing. */
 export function registerDebugger(program: () => Promise<string | undefined>): vscode.Disposable[] {
   return [
     vscode.debug.registerDebugConfigurationProvider(TYPE, {

@@ -111,7 +111,7 @@ function commands({ server, reports, contour, program, start }: Parts): vscode.D
     vscode.commands.registerCommand("frictcomp.reportContour", async () => {
       const document = activeProgram();
       const file = document && (await program());
-      // The command line reads the file: what is not saved would not be in the report.
+      // The command line reads the file: unsaved changes would not be in the report.
       if (document && file !== undefined && (await document.save())) {
         const { fsPath } = document.uri;
         const folder = workspaceFolder()?.fsPath ?? path.dirname(fsPath);
@@ -155,7 +155,7 @@ async function chooseFolder(): Promise<vscode.Uri | undefined> {
   return undefined;
 }
 
-/** Radius and feed of a circular test, as options of the command line; nothing where the user stops. */
+/** Radius and feed of a circular test, as options of the command line; nothing if the user cancels. */
 async function askCircle(): Promise<string[] | undefined> {
   const radius = await askNumber("Radius in mm", "100");
   if (radius === undefined) {
@@ -193,7 +193,7 @@ function canRun(file: string): boolean {
   }
 }
 
-/** The one message about a program that cannot be used; it is not told again until something changes. */
+/** The one message about a program that cannot be used; it is not repeated until something changes. */
 class Trouble {
   private isTold = false;
 

@@ -1,6 +1,6 @@
 /**
  * The languages of programs and lists. ISG's extension declares `isg-cnc` and `isg-list`, and its
- * declaration comes after ours; where it is absent, ours hold.
+ * declaration comes after ours; if it is absent, ours apply.
  */
 import * as path from "node:path";
 
@@ -8,7 +8,7 @@ const PROGRAM_LANGUAGES = ["isg-cnc", "frictcomp-nc"];
 const LIST_LANGUAGES = ["isg-list", "frictcomp-list"];
 const PROGRAM_ENDINGS = [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"];
 const CONFIGURATION = "frictcomp.toml";
-/** Texts of a user: files, and what was never saved. Versions from git would tell every problem twice. */
+/** Texts of a user: files and unsaved texts. Versions from git would report every problem twice. */
 const SCHEMES = ["file", "untitled"];
 
 export interface Named {
@@ -22,7 +22,7 @@ export function programLanguages(further: readonly string[]): string[] {
   return [...new Set([...PROGRAM_LANGUAGES, ...further])];
 }
 
-/** What the language server is told of: programs, lists and the configuration. */
+/** The documents that the language server is told about: programs, lists and the configuration. */
 export function selector(further: readonly string[]): { scheme: string; language?: string; pattern?: string }[] {
   const languages = [...programLanguages(further), ...LIST_LANGUAGES];
   return [
@@ -31,7 +31,7 @@ export function selector(further: readonly string[]): { scheme: string; language
   ];
 }
 
-/** Whether the language server is told of a document. */
+/** Whether the language server is told about a document. */
 export function isServed(document: Named, further: readonly string[]): boolean {
   return (
     SCHEMES.includes(document.uri.scheme) &&
@@ -40,7 +40,7 @@ export function isServed(document: Named, further: readonly string[]): boolean {
   );
 }
 
-/** The language of a program that another extension claims by its ending, and that nobody checks then. */
+/** The language of a program whose file ending another extension claims, and that is then not checked. */
 export function foreignLanguage(document: Named, further: readonly string[]): string | undefined {
   const isProgram = PROGRAM_ENDINGS.includes(path.extname(document.fileName).toLowerCase());
   const isFile = document.uri.scheme === "file";

@@ -1,4 +1,4 @@
-/** What is a program here: by the languages that are known, and those that the user names. */
+/** Which documents are programs: by the known languages, and those that the user names. */
 import * as vscode from "vscode";
 import { programLanguages } from "./languages";
 

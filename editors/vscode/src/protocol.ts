@@ -1,4 +1,4 @@
-/** What the language server answers beyond the protocol; `docs/editors.md` describes it. */
+/** The answers of the language server beyond the protocol; `docs/editors.md` describes them. */
 
 /** The words of a state, as on the command line. */
 export type State = "active" | "ineffective" | "inactive" | "unconfigured" | "unknown";
@@ -28,11 +28,11 @@ export interface Segment {
 export interface Timeline {
   lines: number;
   axes: { axis: string; segments: Segment[] }[];
-  /** What the states rest on, where that has to be said. */
+  /** What the states rest on, if that has to be stated. */
   remark: string | null;
 }
 
-/** What a block drives of the path: a line through points of the picture. */
+/** The part of the path that a block drives: a line through points of the picture. */
 export interface Stretch {
   /** The number of its file, from 0. */
   file: number;
@@ -41,7 +41,7 @@ export interface Stretch {
   points: [number, number][];
 }
 
-/** The answer of `frictcomp/contour`: the picture of the path, and what stands where in it. */
+/** The answer of `frictcomp/contour`: the picture of the path, and the places in it. */
 export interface Contour {
   /** The picture; none where nothing was driven. */
   svg: string | null;
@@ -52,7 +52,7 @@ export interface Contour {
   /** The worst reversals, the worst first. */
   worst: { file: number; line: number; words: string }[];
   figures: string;
-  /** What the contour rests on, and what is missing of it. */
+  /** What the contour rests on, and what is missing from it. */
   remarks: string[];
 }
 

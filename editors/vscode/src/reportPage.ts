@@ -4,7 +4,7 @@ const POLICY = `<meta http-equiv="Content-Security-Policy" content="default-src 
 const DARK_ONLY = /@media\s*\(prefers-color-scheme:\s*dark\)/g;
 
 /**
- * The report in the colours of the editor's theme, which a webview does not tell through
+ * The report in the colours of the editor's theme, which a webview does not indicate through
  * `prefers-color-scheme`; without scripts and without the network.
  */
 export function reportPage(html: string, dark: boolean): string {

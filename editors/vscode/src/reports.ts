@@ -8,13 +8,13 @@ import * as vscode from "vscode";
 import { reportPage } from "./reportPage";
 
 const run = promisify(execFile);
-/** More than the longest report on a terminal; what is shown comes from the file. */
+/** More than the longest report on a terminal; the view comes from the file. */
 const MOST_OUTPUT = 64 * 1024 * 1024;
 
 /** The exit statuses of frictcomp that come with a report: nothing found, something found. */
 const WITH_REPORT = [0, 1];
 
-/** One panel for each title; a report asked for again takes its place. */
+/** One panel for each title; a repeated report replaces it. */
 export class Reports implements vscode.Disposable {
   private readonly panels = new Map<string, { panel: vscode.WebviewPanel; html: string }>();
   private readonly themes = vscode.window.onDidChangeActiveColorTheme(() => {
@@ -31,7 +31,7 @@ export class Reports implements vscode.Disposable {
     panel.reveal(undefined, true);
   }
 
-  /** Runs frictcomp with `--html` into a folder that is gone afterwards, and shows the report. */
+  /** Runs frictcomp with `--html` into a temporary folder, and shows the report. */
   async showRun(title: string, binary: string, args: readonly string[], cwd: string | undefined): Promise<void> {
     const folder = await fs.mkdtemp(path.join(os.tmpdir(), "frictcomp-"));
     try {
@@ -76,7 +76,7 @@ export class Reports implements vscode.Disposable {
   }
 }
 
-/** What kept a run from writing its report, `""` where the user stopped it, else nothing. */
+/** What prevented a run from writing its report, `""` if the user stopped it, otherwise nothing. */
 async function finished(running: Promise<unknown>): Promise<string | undefined> {
   try {
     await running;

@@ -34,12 +34,12 @@ export class Server implements vscode.Disposable {
     await this.stop();
     const options: LanguageClientOptions = {
       documentSelector: selector(furtherLanguages()),
-      // A server that ends is said once, by what comes to its end, and is not started over and over.
+      // The end of the server is reported once, with its reason, and it is not restarted over and over.
       errorHandler: {
         error: () => ({ action: ErrorAction.Shutdown, handled: true }),
         closed: () => ({ action: CloseAction.DoNotRestart, message: "frictcomp has ended; `frictcomp: Restart the Language Server` starts it again." }),
       },
-      // Messages are asked for on each change, too, which the client leaves out unless it is told.
+      // Messages are also requested on each change, which the client does only when told.
       diagnosticPullOptions: { onChange: true },
       initializationFailedHandler: () => false,
       initializationOptions: { frictcomp: this.settings() },
@@ -75,7 +75,7 @@ export class Server implements vscode.Disposable {
     return this.ask("frictcomp/timeline", { textDocument: { uri: uri.toString() } });
   }
 
-  /** Drives a program; it is stopped where nobody waits any more. */
+  /** Drives a program; it is stopped if no caller waits any more. */
   async contour(uri: vscode.Uri, stop: vscode.CancellationToken): Promise<ContourAnswer> {
     const client = this.client;
     if (!client?.isRunning()) {
@@ -89,7 +89,7 @@ export class Server implements vscode.Disposable {
     }
   }
 
-  /** Runs a command of the server on a document; what it answers is shown by the middleware. */
+  /** Runs a command of the server on a document; the middleware shows its answer. */
   async command(command: string, uri: vscode.Uri): Promise<void> {
     await vscode.commands.executeCommand(command, { uri: uri.toString() });
   }
@@ -120,7 +120,7 @@ export class Server implements vscode.Disposable {
     try {
       return (await client.sendRequest<Answer | null>(method, params)) ?? undefined;
     } catch {
-      // A request that is out of date is refused by the server; the next one is already on its way.
+      // The server refuses an outdated request; the next one is already on its way.
       return undefined;
     }
   }
@@ -130,7 +130,7 @@ function isReport(answer: unknown): answer is Report {
   return typeof answer === "object" && answer !== null && "html" in answer && typeof answer.html === "string";
 }
 
-/** A report is called after what its command was about. */
+/** A report is named after the subject of its command. */
 function titleOf(command: string, [subject]: unknown[]): string {
   const report = command === "frictcomp.audit" ? "Audit" : "Run";
   if (typeof subject === "object" && subject !== null && "uri" in subject && typeof subject.uri === "string") {

@@ -5,16 +5,16 @@ import type { Found } from "./binary";
 
 const run = promisify(execFile);
 
-/** How long the program may take to say its version, in ms. */
+/** How long the program may take to print its version, in ms. */
 const PATIENCE = 10_000;
 
 export type Usable = { kind: "usable"; file: string } | { kind: "unusable"; why: string };
 
-/** The program if it can be used, else why it cannot, in a sentence for the user. */
+/** The program if it can be used, otherwise the reason in a sentence for the user. */
 export async function usable(found: Found, wanted: string): Promise<Usable> {
   if (found.kind === "missing") {
     const [only, ...others] = found.looked;
-    const where = only !== undefined && others.length === 0 ? `at ${only}` : "beside this extension or on PATH";
+    const where = only !== undefined && others.length === 0 ? `at ${only}` : "in this extension or on PATH";
     return { kind: "unusable", why: `The program frictcomp was not found ${where}.` };
   }
   const { file } = found;

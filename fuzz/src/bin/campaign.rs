@@ -1,8 +1,9 @@
-//! A campaign: so many generated programs in one process, one thread, without a fuzzer's counters.
+//! A campaign: a given number of generated programs in one process and thread, without a fuzzer's
+//! counters.
 //!
 //! `cargo run --release --manifest-path fuzz/Cargo.toml --bin campaign -- run 10000000`. Inputs are
-//! numbered; a third argument is the number to begin with, so that a find is seen again by
-//! `campaign run 1 NUMBER`. What is damaged or slow ends the campaign with status 1.
+//! numbered; a third argument is the number to begin with, so that `campaign run 1 NUMBER` repeats
+//! a find. A failing or slow input ends the campaign with status 1.
 
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,16 +21,16 @@ use frictcomp_fuzz::{
 const WAYS: u64 = 18;
 
 /// Decisions of the longest inputs: enough for a program of some kilobytes. The others have a
-/// half, a quarter and an eighth.
+/// half, a quarter or an eighth.
 const DECISIONS: usize = 220;
 
-/// What an input may hold at a time, in bytes.
+/// The memory that an input may hold at a time, in bytes.
 const MOST_HELD: u64 = 32 << 20;
 
-/// How long an input may take before the campaign is given up.
+/// The time that an input may take before the campaign is aborted.
 const LONGEST: Duration = Duration::from_secs(20);
 
-/// What the inputs of a campaign so far came to.
+/// The results of a campaign's inputs so far.
 #[derive(Default)]
 struct Tally {
     inputs: u64,
@@ -76,7 +77,8 @@ fn refuse(message: impl Display) -> ExitCode {
     ExitCode::from(2)
 }
 
-/// The number of the input that is at work, plus one. Whoever stays too long with one is ended.
+/// Returns the number of the current input, plus one. A process that stays too long with one input
+/// is ended.
 fn watched() -> Arc<AtomicU64> {
     let current = Arc::new(AtomicU64::new(0));
     let watched = Arc::clone(&current);

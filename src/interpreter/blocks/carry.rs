@@ -85,7 +85,7 @@ impl Interpreter {
         self.state.control.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
     }
 
-    /// Notes what moves along with what the block moves.
+    /// Notes the axes that move along with those that the block moves.
     #[inline]
     pub(in crate::interpreter) fn carry_along(&mut self, words: AxisWords) {
         let carries = self.state.control.couplings.carry()
@@ -139,7 +139,7 @@ impl Interpreter {
         axes.map(|(position, _)| AxisIndex::new(position)).collect()
     }
 
-    /// X, Y and Z, as far as the machine has them.
+    /// Those of X, Y and Z that the machine has.
     fn main_axes(&self) -> Vec<AxisIndex> {
         let letters = [b'X', b'Y', b'Z'].map(|it| self.letter_axis(it));
         letters.into_iter().flatten().collect()
@@ -153,7 +153,7 @@ impl Interpreter {
         }
     }
 
-    /// The axes of a frame, and whether each moves for sure with another of them.
+    /// The axes of a frame, and whether each certainly moves with another of them.
     fn frame(&self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
         let row = moving::of_command(name)?;
         Some(match row.moves {

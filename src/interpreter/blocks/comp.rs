@@ -81,7 +81,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(diagnostic);
     }
 
-    /// The refusal of a command that the selected readings say the control does not take (R1.8, R1.25,
+    /// The refusal of a command that the control does not accept under the selected readings (R1.8, R1.25,
     /// R1.26).
     fn read_as_refused(
         &mut self,
@@ -224,7 +224,7 @@ impl Interpreter {
         }
     }
 
-    /// FC305: a kind that the configured build does not know (R1.10).
+    /// FC305: a kind that the configured build does not support (R1.10).
     fn warn_build(&mut self, command: &CompCommand, at: &BlockContext<'_>) {
         let Some(build) = self.machine.build else {
             return;
@@ -326,7 +326,7 @@ impl Interpreter {
                         line: *line,
                     },
                     _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
-                    // One list with all axes stands above (R1.37).
+                    // A list of all axes is shown above (R1.37).
                     _ => Advice::Configure(name.clone()),
                 });
                 if described {
@@ -356,7 +356,7 @@ impl Interpreter {
         diagnostic
     }
 
-    /// Advises on an axis that the machine does not have. Without a configuration the axes of the machine
+    /// Adds advice on an axis that the machine does not have. Without a configuration the axes of the machine
     /// are not known (R2.20).
     fn advise_on_axis(&self, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
         let known: Vec<&str> = self

@@ -116,8 +116,8 @@ impl State {
     }
 }
 
-/// The name of the element at a place in row order; `None` where a dimension that is not known decides
-/// which it is. The first one does not.
+/// The name of the element at a place in row order; `None` where an unknown dimension decides which it
+/// is. The first dimension does not.
 fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Option<String> {
     let mut subscripts = Vec::with_capacity(dimensions.len());
     let mut rest = place;

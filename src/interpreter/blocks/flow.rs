@@ -1,7 +1,7 @@
 //! Statements of flow: which block comes next (R2.40 to R2.43).
 //!
-//! The structure of control blocks is known from the index, so the position in a program is a
-//! block number and nothing else; jumps into branches and loops need no care.
+//! The structure of control blocks is known from the index, so the position in a program is only a
+//! block number; jumps into branches and loops need no special treatment.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ use crate::syntax::Fault;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::text::Span;
 
-/// The counter of a `$FOR` and what it is compared with.
+/// The counter of a `$FOR`, with its end and step.
 struct Count {
     counter: Value,
     end: Operand,
@@ -72,7 +72,7 @@ impl Interpreter {
         let seeking = frame.seeking.take();
         let index = self.programs.index(frame.unit);
         if !index.is_linked(entry) && !matches!(flow, Flow::Goto(_)) {
-            // It belongs to no control block, which was said before the program began.
+            // It belongs to no control block, which was reported before the program began.
             return Ok(None);
         }
         let links = index.links(entry);
@@ -119,7 +119,7 @@ impl Interpreter {
                         Some(ControlStep::Jump(links.next))
                     }
                 }
-                // The case before ends without `$BREAK`: the control goes on with this one.
+                // The previous case ends without `$BREAK`: the control continues with this one.
                 _ => None,
             },
             Flow::For {
@@ -206,7 +206,7 @@ impl Interpreter {
         })
     }
 
-    /// Goes back to the opener of a loop where the condition at its end says so.
+    /// Goes back to the opener of a loop if the condition at its end requires it.
     fn repeat_where(
         &mut self,
         (condition, repeats): (Operand, Truth),
@@ -316,7 +316,7 @@ impl Interpreter {
         };
         let mut step = self.pass(&count, opener, span, &head).map_err(shown)?;
         if let Some(ControlStep::Jump(entry)) = &mut step {
-            // A jump into the loop found no opener before it; the index knows it all the same.
+            // After a jump into the loop its opener was not executed; the index has it all the same.
             *entry = (*entry).max(opener + 1);
         }
         Ok(step)
@@ -358,7 +358,7 @@ impl Interpreter {
                     BlockReference::Number(Operand::Number(_)) | BlockReference::Label(_)
                 ) =>
             {
-                // Said before the program began.
+                // Reported before the program began.
                 Ok(None)
             }
             None => Err(Box::new(Fault::new(
@@ -369,7 +369,7 @@ impl Interpreter {
         }
     }
 
-    /// A jump that may be taken (R2.91): the dry run goes on after it.
+    /// A jump that may be taken (R2.91): the dry run continues after it.
     pub(in crate::interpreter) fn leave_jump(
         &mut self,
         cause: &Arc<str>,
@@ -381,7 +381,7 @@ impl Interpreter {
         }
     }
 
-    /// Passes over the jumps of a block, which may be taken; whether anything differs where they are.
+    /// Passes over the jumps of a block, which may be taken. Returns whether anything differs if they are.
     pub(in crate::interpreter) fn pass_jump(
         &mut self,
         cause: &Arc<str>,
@@ -397,7 +397,7 @@ impl Interpreter {
         differs
     }
 
-    /// Passes over what a statement decides whose operands cannot be computed.
+    /// Passes over the blocks that a statement whose operands cannot be computed decides on.
     pub(in crate::interpreter) fn undecided(
         &mut self,
         flow: &Flow,

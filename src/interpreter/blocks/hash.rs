@@ -109,7 +109,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// Applies the side effects of a command on the followed state (R2.93).
+    /// Applies the side effects of a command to the followed state (R2.93).
     fn touch(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         match hash_command(&hash.name) {
             Some(Touches::Motion) => {
@@ -132,7 +132,7 @@ impl Interpreter {
         }
     }
 
-    /// FC902: the effect of the command is described nowhere, so that states became unknown.
+    /// FC902: the effect of the command is not documented, so states became unknown.
     fn say_undescribed(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let doubted = self.scratch.doubted.iter();
         let names = doubted.map(|(axis, _)| format!("`{}`", self.machine.axis(*axis).name));
@@ -156,7 +156,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC314: the whole list of the axis is transferred again (R2.92).
+    /// FC314: the whole axis list is transferred again (R2.92).
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
         let text = hash.rest.of(at.text);
         let lost = self.transferred(hash, at);
@@ -207,7 +207,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(diagnostic);
     }
 
-    /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
+    /// `#RT WHILE` runs as long as its condition on a real-time variable holds (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         let whole = self.current_block();
         if !whole.is_empty() {
@@ -217,7 +217,7 @@ impl Interpreter {
     }
 
     /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
-    /// class that is known it is taken for a warning (tf5200, 207457163).
+    /// known class it is taken for a warning (tf5200, 207457163).
     fn report_error(&mut self, hash: &Hash, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
         let class = remedy_class(hash.rest.of(at.text));
         let class = class.and_then(|class| self.number_in(class, at));
@@ -237,7 +237,7 @@ impl Interpreter {
 }
 
 impl ControlState {
-    /// The cycle that runs keeps what it did to G functions and feed.
+    /// The running cycle keeps its changes to G functions and feed.
     fn retain_cycle_changes(&mut self) {
         if let Some(frame) = self.frames.cycle_mut() {
             frame.restores = None;
@@ -245,7 +245,7 @@ impl ControlState {
     }
 }
 
-/// Whether the axes certainly go on through a command.
+/// Whether the axes certainly keep moving through a command.
 fn goes_on(name: &str) -> bool {
     ["#VAR", "#ENDVAR", "#COMMENT", "#MSG"]
         .iter()

@@ -17,7 +17,7 @@ use crate::syntax::ast::{CallScope, GCall, Hash};
 use crate::text::Span;
 
 impl Interpreter {
-    /// An M, T or D word. A number that is not known offline may be any.
+    /// An M, T or D word. A number that is not known offline may be any number.
     pub(in crate::interpreter) fn function_word(
         &mut self,
         word: FunctionWord,
@@ -51,7 +51,7 @@ impl Interpreter {
         }
     }
 
-    /// Calls what a word calls; whether there was anything.
+    /// Calls the program of a word. Returns whether it has one.
     fn call_word(
         &mut self,
         word: FunctionWord,
@@ -136,7 +136,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// FC325: a word that calls a program calls none here, once a word and program (R2.94).
+    /// FC325: no program is known for a word that calls one; once per word and program (R2.94).
     fn warn_not_configured(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
         if !self.state.is_new_word(&word) {
@@ -154,14 +154,14 @@ impl Interpreter {
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// FC210: a G function that no public list names, once a word and program (R2.94).
+    /// FC210: a G function that is in no public list; once per word and program (R2.94).
     fn warn_unknown_g(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
         let word = format!("G{number}");
         if !self.state.is_new_word(&word) {
             return;
         }
         let message = format!(
-            "`{word}` is not known to frictcomp; every compensation keeps its state, where the axes stand is unknown \
+            "`{word}` is not known to frictcomp; every compensation keeps its state, and axis positions are unknown \
              from here on"
         );
         let help = format!(
@@ -185,7 +185,7 @@ impl Interpreter {
 }
 
 impl ControlState {
-    /// The text of a variable, or that it is not known.
+    /// The text of a variable, or the cause why it is unknown.
     fn named_elsewhere(&mut self, name: &str) -> Value {
         match self.memory.variable(name) {
             Some(value @ Value::Text(_)) => value,

@@ -35,7 +35,7 @@ impl Interpreter {
             .map(|fault| fault.span.start)
     }
 
-    /// Adds what is wrong with the text, up to the first error when that stops the program.
+    /// Adds the faults of the text, up to the first error if that stops the program.
     pub(in crate::interpreter) fn take_faults(&mut self, at: &BlockContext<'_>, stopped: bool) {
         let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
@@ -89,7 +89,7 @@ impl Interpreter {
                 return;
             }
             let done = self.item(item, at, outcome);
-            // After a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
+            // After a statement that leads elsewhere, `$CASE 2 X10`, nothing is executed.
             let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
                 && outcome.step.is_some();
             if self.say(done, at).is_break() || leaves {
@@ -98,7 +98,7 @@ impl Interpreter {
         }
     }
 
-    /// Says what is wrong with a part of the block. `Break` where the control goes no further.
+    /// Reports the fault of a part of the block. `Break` where the control stops.
     #[inline]
     fn say(&mut self, done: Result<(), Box<Fault>>, at: &BlockContext<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
@@ -111,7 +111,7 @@ impl Interpreter {
         }
     }
 
-    /// Says the number of messages about a block that are left out.
+    /// Reports the number of messages about a block that are left out.
     pub(in crate::interpreter) fn say_unsaid(&mut self, at: &BlockContext<'_>) {
         if let Some((span, more)) = self.scratch.unsaid.take() {
             let message = format!(
@@ -229,7 +229,7 @@ impl Interpreter {
         }
     }
 
-    /// A condition that cannot be computed: what depends on it is not known, and is not said again
+    /// A condition that cannot be computed: what depends on it is unknown, and is not reported again
     /// (R2.51, R2.71).
     fn undecidable(&mut self, fault: Fault, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
         if self.options.stop == StopPolicy::FirstError {
@@ -240,7 +240,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// A macro in place of words: its code is a block of its own, executed here (R2.35).
+    /// A macro in place of words: its code is a separate block, executed here (R2.35).
     fn expand(
         &mut self,
         span: Span,
@@ -284,7 +284,7 @@ impl Interpreter {
         let limit = self.first_refusal(&block);
         self.items(&inner, outcome, limit);
         self.take_faults(&inner, limit.is_some());
-        // What is said about the macro's code is shown where the macro is used.
+        // Messages about the macro's code are shown where the macro is used.
         for diagnostic in &mut self.scratch.diagnostics[said..] {
             diagnostic.place = at.place(span);
         }
@@ -303,7 +303,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// A macro whose code is not known may do anything (R2.51).
+    /// A macro with unknown code, which may do anything (R2.51).
     fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
         self.havoc_all(cause);
         let what = unknown_value(cause);

@@ -1,4 +1,4 @@
-//! The velocity of paths besides F: overrides, weights, the main spindle, and commands that a commanded
+//! The velocity of paths, apart from F: overrides, weights, the main spindle, and commands that a commanded
 //! trace does not follow in full (R5.1).
 
 use crate::interpreter::coordinates::contouring::ContouringCommand;
@@ -28,7 +28,7 @@ pub(in crate::interpreter) struct AxisBracket<'a> {
 }
 
 impl Interpreter {
-    /// Takes note of what a commanded trace does not follow in full.
+    /// Notes a command that a commanded trace does not follow in full.
     pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
         if holds == Holds::Once {
             let geometry = self.scratch.geometry();
@@ -38,7 +38,7 @@ impl Interpreter {
         }
     }
 
-    /// `G163=50`: the radius of circles, as R (R2.45). Whether there is a value.
+    /// `G163=50`: the radius of circles, as R (R2.45). Returns whether there is a value.
     pub(in crate::interpreter) fn radius_word(
         &mut self,
         span: Span,

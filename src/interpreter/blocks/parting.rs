@@ -190,7 +190,7 @@ impl Interpreter {
         Some((index.label(frame.section, name)?, span))
     }
 
-    /// The run parts at a `$SWITCH`: one way for each case, and one for all else.
+    /// Parts the run at a `$SWITCH`: one way for each case, and one for everything else.
     pub(in crate::interpreter) fn part_at_cases(
         &mut self,
         operand: Operand,
@@ -222,7 +222,7 @@ impl Interpreter {
         }
         goals.push(other);
         if let Some(asking) = &mut asking {
-            // Cases of the same values are the same question.
+            // Cases with the same values are the same question.
             asking.meaning = format!("{} {}", asking.meaning, texts.join("|"));
         }
         let question = MachineQuestion {
@@ -235,7 +235,7 @@ impl Interpreter {
         self.part(question, goals, at)
     }
 
-    /// The cases of the `$SWITCH` that is executed, with their values, and where all else goes.
+    /// The cases of the `$SWITCH` being executed, with their values, and the target of everything else.
     fn cases(&mut self, at: &BlockContext<'_>) -> Option<(Vec<(EntryIndex, Value)>, Goal)> {
         let unit = self.state.control.frames.running()?.unit;
         let whole = self.current_block();
@@ -273,8 +273,8 @@ impl Interpreter {
         Some((cases, Goal::block(whole.end)))
     }
 
-    /// The run parts before a block with a skip mark: one way executes the blocks of the level that
-    /// stand together here, the other passes over them (R2.90). Whether it can.
+    /// Parts the run before a block with a skip mark: one way executes the adjacent blocks of the level,
+    /// the other passes over them (R2.90). Returns whether it can.
     #[cold]
     pub(in crate::interpreter) fn part_by_skip(&mut self, level: u8, parsed: &Parsed) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
@@ -288,7 +288,7 @@ impl Interpreter {
         while after < section_end && is_marked(after) {
             after += 1;
         }
-        // A mark on a part of a structure only: R2.51 over all of it (R2.90).
+        // If only part of a structure has the mark, R2.51 applies to all of it (R2.90).
         let mut links = index.links.range(entry..after);
         if !links.all(|(_, links)| is_marked(links.opener) && is_marked(links.end)) {
             return false;
@@ -346,8 +346,8 @@ impl Interpreter {
         true
     }
 
-    /// Whether blocks at another place ask for a level, too, and a selected reading says whether it can
-    /// have been turned in between.
+    /// Whether blocks at another place also ask for a level, and a selected reading decides whether its switch
+    /// may have changed in between.
     fn is_level_read_again(&self, level: u8, here: &Place) -> bool {
         let mut conditions = self.state.conditions.iter();
         self.machine.readings.of(Open::SkipLevel).is_some()
@@ -372,7 +372,7 @@ impl Interpreter {
         })
     }
 
-    /// Takes a note of the level as of a value of the machine.
+    /// Notes the level as a value of the machine.
     pub(in crate::interpreter) fn note_unknown(&mut self, cause: &str, at: &BlockContext<'_>) {
         if self.options.notes == Notes::Taken {
             let note = Note {

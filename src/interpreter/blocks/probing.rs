@@ -32,7 +32,7 @@ impl Interpreter {
 }
 
 /// G310 measures, and `$GOTO` in its block is taken if the probe answers (TF5200 Programming manual,
-/// 206197003). What the other measuring functions do with it is not said; they wait for the probe, too.
+/// 206197003). Its effect with the other measuring functions is not documented; they wait for the probe, too.
 fn measures(number: f64) -> bool {
     exact(number).is_some_and(is_measuring)
 }

@@ -17,7 +17,7 @@ use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Interpreter {
-    /// The axes that the block moves for sure, homing apart, and the words that move them (R1.36).
+    /// The axes that the block certainly moves, except by homing, and the words that move them (R1.36).
     fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
         let homing_counts = self.machine.readings.takes_second(Question::Homing);
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring)
@@ -111,7 +111,7 @@ impl Interpreter {
         }
     }
 
-    /// P-ERR-70435 on some ways only: they end, and the others go on (R14.5). Whether that is so.
+    /// P-ERR-70435 on some ways only: they end, and the others continue (R14.5). Returns whether that is so.
     #[cold]
     fn end_ways_without(
         &mut self,

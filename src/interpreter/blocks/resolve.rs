@@ -86,7 +86,7 @@ impl Interpreter {
         };
         let is_refused = !self.programs.index(found.unit).refused.is_empty();
         if is_refused && found.unit > 0 {
-            // What is wrong with the file is said at the first call of it (R2.85).
+            // The faults of the file are reported at the first call of it (R2.85).
             if self.state.control.refused.insert(found.unit) {
                 let refused = &self.programs.index(found.unit).refused;
                 self.scratch
@@ -129,7 +129,7 @@ impl Interpreter {
         })
     }
 
-    /// A program that is on the machine only (R2.83): whatever it may change is unknown after it.
+    /// A program that only the machine has (R2.83): whatever it may change is unknown after it.
     fn pass_over_external(&mut self, wanted: WantedCall, at: &BlockContext<'_>) {
         let name = wanted.name;
         self.pass_over(&name, wanted.span, at);
@@ -184,7 +184,7 @@ impl Interpreter {
         }
         let mut calls = match step {
             Some(ControlStep::Call(calls)) => calls,
-            // What was called with this block is the cycle itself.
+            // The cycle itself was called with this block.
             step => {
                 debug_assert!(step.is_none());
                 Vec::new()
@@ -236,7 +236,7 @@ impl Interpreter {
         })
     }
 
-    /// Whether a part is one of the program that is executed.
+    /// Whether a part belongs to the program being executed.
     pub(in crate::interpreter) fn is_here(&self, wanted: &WantedCall) -> bool {
         let own_name = || {
             let found = self.state.control.frames.program()?;
@@ -280,7 +280,7 @@ impl Interpreter {
             self.no_block(missing, found.unit, wanted.span, at);
             return Err(());
         };
-        // The part ends in front of its call.
+        // The part ends before its call.
         let tag = call.filter(|call| part.end_tag && here && *call > first);
         let tag = tag.map(|call| call - 1);
         let last = last.filter(|last| *last >= first);
@@ -288,7 +288,7 @@ impl Interpreter {
             (Some(last), Some(tag)) => last.min(tag),
             (Some(last), None) => last,
             (None, Some(tag)) => tag,
-            // Without an end the block alone is executed; one that stands before it never comes.
+            // Without an end only the block is executed; an end before it is never reached.
             (None, None) if part.last.is_none() && !part.end_tag => first,
             (None, None) => end.saturating_sub(1),
         };
@@ -300,7 +300,7 @@ impl Interpreter {
         }))
     }
 
-    /// Says that a program has no such block; what was read line by line is not kept.
+    /// Reports that a program has no such block; lines read one after another are not kept.
     fn no_block(&mut self, name: &LabelName, unit: usize, span: Span, at: &BlockContext<'_>) {
         let source = &self.programs.index(unit).source;
         let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
@@ -322,7 +322,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// The program ends, after the configured program that runs before its end (R2.15).
+    /// Ends the program, after the configured program that runs before its end (R2.15).
     pub(in crate::interpreter) fn program_end(
         &mut self,
         by: EndedBy,

@@ -83,8 +83,8 @@ impl Interpreter {
         Ok(())
     }
 
-    /// A part of a program is called of which only the machine knows the blocks: any of them may be
-    /// executed. Without a name it is the program that calls.
+    /// A call of a part of a program whose blocks only the machine knows: any of them may be executed.
+    /// Without a name it is a part of the calling program.
     fn unknown_part(
         &mut self,
         name: String,
@@ -180,7 +180,7 @@ impl Interpreter {
                 let name = match self.label_of(target, at)? {
                     Ok(name) => name,
                     Err(cause) => {
-                        self.unknown_return("where the program goes on", &cause, back.span, at);
+                        self.unknown_return("where the program continues", &cause, back.span, at);
                         let program = self
                             .state
                             .control
@@ -230,8 +230,8 @@ impl Interpreter {
 }
 
 impl BlockScratch {
-    /// FC317: the control warns and goes back to the main program (PM/206781707). A subprogram that
-    /// is run by itself is none.
+    /// FC317: the control warns and returns to the main program (PM/206781707). A subprogram that is
+    /// run by itself is not a main program.
     fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &BlockContext<'_>) {
         if here == 0 || number <= here {
             return;

@@ -12,8 +12,8 @@ use crate::syntax::ast::{Block, Flow, Item};
 use crate::text::Span;
 
 impl Interpreter {
-    /// Passes over a block that the control executes or skips: what it could change becomes unknown,
-    /// and it may lead elsewhere.
+    /// Passes over a block that the control may execute or skip: whatever it could change becomes
+    /// unknown, and it may lead elsewhere.
     #[cold]
     pub(in crate::interpreter) fn perhaps_execute(
         &mut self,

@@ -35,8 +35,8 @@ impl Interpreter {
         }
     }
 
-    /// A circle moves both axes of its plane, also those that have no word: `G2 I5` goes all the way
-    /// round (R2.46). They end where they stand.
+    /// A circle moves both axes of its plane, even without a word for them: `G2 I5` is a full circle
+    /// (R2.46). Axes without a word end where they start.
     #[inline]
     pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
         let turns = matches!(self.state.control.modal.functions.motion, 2 | 3);
@@ -93,7 +93,7 @@ impl Interpreter {
         self.scratch.geometry().dwell = Some(seconds);
     }
 
-    /// Makes the motion of the block, which started at `from`.
+    /// Creates the motion of the block, which started at `from`.
     #[inline(never)]
     pub(in crate::interpreter) fn take_motion(
         &mut self,
@@ -102,7 +102,7 @@ impl Interpreter {
     ) {
         let geometry = self.scratch.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
-            // The radius holds until another one is given (PM, radius programming).
+            // The radius is modal (PM, radius programming).
             self.state.control.modal.radius = radius;
         }
         let Some(from) = from else { return };
@@ -280,7 +280,7 @@ impl Interpreter {
 }
 
 impl BlockScratch {
-    /// The words of the block that say where axes go.
+    /// The words of the block that give axis targets.
     #[inline]
     pub(in crate::interpreter) fn coordinates(&self) -> usize {
         let around = self.geometry.as_ref().map_or(0, |it| it.around);
@@ -295,7 +295,7 @@ impl BlockScratch {
 
 impl ControlState {
     /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
-    /// program (PM/206537483). Only with G162 a word may be left out.
+    /// program (PM/206537483). A word may be left out only with G162.
     fn centre_of(&self, axis: AxisIndex, word: WordValue, from: &[Option<f64>]) -> Option<f64> {
         let modal = &self.modal;
         if !modal.is_known(Group::CircleCentre) {

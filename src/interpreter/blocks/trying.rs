@@ -1,5 +1,5 @@
-//! Blocks that the dry run does not execute and the control perhaps does: what it would refuse there is
-//! said (R2.51, R2.52).
+//! Blocks that the control may execute, but the dry run does not: reports what the control would refuse
+//! there (R2.51, R2.52).
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
@@ -12,7 +12,7 @@ use crate::syntax::ast::Item;
 use crate::syntax::control_part;
 
 impl Interpreter {
-    /// Says what the control refuses if it executes the block.
+    /// Reports what the control refuses if it executes the block.
     pub(in crate::interpreter) fn perhaps_refused(&mut self, cause: &str, at: &BlockContext<'_>) {
         let said = self.try_out(cause, at, |run| {
             let mut outcome = BlockOutcome::default();
@@ -21,7 +21,7 @@ impl Interpreter {
                     run.scratch.complain(*fault, at);
                 }
             }
-            // What decides which blocks are executed decides nothing here.
+            // Statements that decide which blocks are executed have no effect here.
             let decides = |item: &Item| {
                 matches!(item, Item::Flow(..)) || control_part(at.block, item).is_some()
             };
@@ -34,8 +34,8 @@ impl Interpreter {
         self.scratch.of_some_ways.extend(said);
     }
 
-    /// Says what the control refuses if it executes the blocks that were passed over (R2.51), once for
-    /// each of them. The parameters of called programs are not known: of these only COMP commands are tried.
+    /// Reports what the control refuses if it executes the blocks that were passed over (R2.51), once for
+    /// each of them. The parameters of called programs are not known, so only their COMP commands are tried.
     pub(in crate::interpreter) fn try_passed(&mut self) {
         let passed = std::mem::take(&mut self.scratch.passed);
         if !self.options.follows_ways() {
@@ -79,8 +79,8 @@ impl Interpreter {
         self.scratch.of_some_ways.extend(faults);
     }
 
-    /// Keeps what the control refuses in a block for the end of the program: until then the dry run may
-    /// have executed it.
+    /// Keeps the refusals in a block until the end of the program: the dry run may have executed it by
+    /// then.
     fn try_called(&mut self, place: (usize, EntryIndex), cause: &str) {
         let block = self.programs.looked_at(place.0, place.1);
         if self.is_skipped(&block.block) {
@@ -92,15 +92,15 @@ impl Interpreter {
         self.held.extend(said.into_iter().map(|said| (place, said)));
     }
 
-    /// What was kept for the end of the program of blocks that the dry run did not execute.
+    /// Takes the refusals kept for the end of the program that are in blocks that the dry run did not execute.
     pub(in crate::interpreter) fn take_held(&mut self) -> Vec<Diagnostic> {
         let held = std::mem::take(&mut self.held).into_iter();
         let unread = held.filter(|((unit, entry), _)| !self.programs.was_read(*unit, *entry));
         unread.map(|(_, said)| said).collect()
     }
 
-    /// What the control refuses of the COMP commands of a block, those of its macros included, whose other
-    /// words depend on values that are not known.
+    /// Returns the refusals of the COMP commands of a block, including those of its macros, whose other words
+    /// depend on unknown values.
     fn refused_comp(&mut self, cause: &str, at: &BlockContext<'_>) -> Vec<Diagnostic> {
         let items = at.block.items.iter();
         let (macros, commands): (Vec<_>, Vec<_>) = items
@@ -121,7 +121,7 @@ impl Interpreter {
         said
     }
 
-    /// Does something of a block for its messages, and leaves all else as it is.
+    /// Tries part of a block for its messages only, and leaves everything else unchanged.
     fn try_out(
         &mut self,
         cause: &str,

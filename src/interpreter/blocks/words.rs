@@ -25,7 +25,7 @@ use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, is_program_number, not_known};
 use crate::text::Span;
 
-/// G functions whose axis words are no motion: software limits, gain, weighting of velocity,
+/// G functions whose axis words are not a motion: software limits, gain, weighting of velocity,
 /// acceleration, ramp time and jerk, feedforward (PM/206573067, 206590731, 206596619, 206565643), manual mode (PM/206639371),
 /// mirroring by axis (PM/206266379).
 const NO_MOTION: [u32; 23] = [
@@ -33,7 +33,7 @@ const NO_MOTION: [u32; 23] = [
     334, 338, 339, 351,
 ];
 
-/// Homing: the axes move, their words are no coordinates.
+/// Homing: the axes move, but their words are not coordinates.
 const HOMING: u32 = 74;
 
 /// A word of one letter with its value, where that is known.
@@ -122,7 +122,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// Takes a word of an axis that the program exchanged; whether it is one.
+    /// Takes a word of an axis that the program exchanged. Returns whether it is one.
     #[cold]
     pub(in crate::interpreter) fn exchanged_word(
         &mut self,
@@ -145,7 +145,7 @@ impl Interpreter {
         true
     }
 
-    /// FC210: a word of an axis that the program gave away, once an axis and program (R2.70).
+    /// FC210: a word of an axis that the program gave away; once per axis and program (R2.70).
     fn say_released(&mut self, name: &str, span: Span, at: &BlockContext<'_>) {
         self.pass_over(name, span, at);
         if !self.state.is_new_word(name) {
@@ -171,7 +171,7 @@ impl Interpreter {
         self.pass_over(name, span, at);
     }
 
-    /// FC210: the block moves axes that the lists do not name (R2.94). Once an axis and program.
+    /// FC210: the block moves axes that the lists do not name (R2.94). Once per axis and program.
     #[cold]
     pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &BlockContext<'_>) {
         for (name, span) in std::mem::take(&mut self.scratch.lacking) {
@@ -194,7 +194,7 @@ impl Interpreter {
         }
     }
 
-    /// FC210: a word that is not known here may do anything (R2.70).
+    /// FC210: an unknown word, which may do anything (R2.70).
     fn unread_word(&mut self, span: Span, at: &BlockContext<'_>) {
         let text = span.of(at.text);
         self.havoc_all(&text.into());
@@ -203,7 +203,7 @@ impl Interpreter {
             .push(at.diagnostic(not_known(text, span)));
     }
 
-    /// Takes a word that most blocks are made of and that nothing can be said about: a coordinate, a
+    /// Takes a word of the kind that most blocks consist of and that needs no message: a coordinate, a
     /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
     pub(in crate::interpreter) fn plain_word(
@@ -305,7 +305,7 @@ impl Interpreter {
         let is_other =
             |whole: i64| i32::try_from(whole).is_ok_and(|whole| Some(f64::from(whole)) != number);
         if whole.is_some_and(|whole| whole < 0 || is_other(whole)) {
-            // `G54.1` is a function of its own, not G54; no function has a number below 0.
+            // `G54.1` is a separate function, not G54; no function has a number below 0.
             self.unread_word(span, at);
             return Ok(());
         }
@@ -441,8 +441,8 @@ impl Interpreter {
         Ok(())
     }
 
-    /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
-    /// wherever they stand, and F belongs to the feed mode of its block.
+    /// Turns axis words into positions when the whole block is known: G90, G91, G70 and G92 apply
+    /// wherever they are in the block, and F belongs to the feed mode of its block.
     pub(in crate::interpreter) fn move_axes(
         &mut self,
         outcome: &BlockOutcome,
@@ -456,7 +456,7 @@ impl Interpreter {
             self.scratch.geometry = None;
             return;
         }
-        // The lint of switches on the way looks at arcs (R1.57).
+        // The lint for switches during motion looks at arcs (R1.57).
         let is_arc = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let start =
             (is_arc || self.options.motions == Motions::Taken).then(|| self.state.control.stand());
@@ -492,7 +492,7 @@ impl Interpreter {
             .collect()
     }
 
-    /// FC316: R makes no full circle, the end point must differ from the start (R2.46).
+    /// FC316: R cannot describe a full circle; the end point must differ from the start (R2.46).
     fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &BlockContext<'_>) {
         let circular = matches!(self.state.control.modal.functions.motion, 2 | 3);
         let ends = self.ends();

@@ -25,7 +25,7 @@ pub(in crate::interpreter) enum AxisWords {
     Motion,
     /// G74: the axes move to an unknown position.
     Homing,
-    /// A measuring motion ends where the probe says.
+    /// A measuring motion, which ends where the probe triggers.
     Measuring,
     /// G92: offsets.
     Reference,
@@ -33,8 +33,8 @@ pub(in crate::interpreter) enum AxisWords {
     Other,
 }
 
-/// A coordinate that counts from a place; not known where any part is not, nor where the sum
-/// leaves the range of numbers.
+/// A coordinate that counts from a place; unknown if any part is, or if the sum leaves the range of
+/// numbers.
 #[inline]
 pub(super) fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
     Some(from? + value? * scale?).filter(|sum| sum.is_finite())

@@ -14,7 +14,7 @@ pub(in crate::interpreter) enum ChainStep {
     Machine,
     /// It leaves the programmed points as they are and the path to them open (PM/207256971).
     Path,
-    /// It moves the origin, by values of the machine's own or for one block.
+    /// It moves the origin, by the machine's own values or for one block.
     Origin,
 }
 
@@ -51,8 +51,8 @@ const COMMANDS: [(&str, ChainStep); 29] = [
     ("#AX DEF", ChainStep::Origin),
 ];
 
-/// Whether a name stands for a transformation between the coordinates of the program and those of
-/// the axes. `#KIN` only chooses one (R1.42).
+/// Whether a name denotes a transformation between the coordinates of the program and those of the
+/// axes. `#KIN` only chooses one (R1.42).
 pub(in crate::interpreter) fn is_transformation(name: &str) -> bool {
     let is_one =
         |(words, step): &(&str, ChainStep)| *words == name && *step == ChainStep::Coordinates;
@@ -61,7 +61,7 @@ pub(in crate::interpreter) fn is_transformation(name: &str) -> bool {
 
 /// Commands that begin like those and touch nothing.
 const APART: [&str; 5] = [
-    // It says where the tool centre is, and switches nothing.
+    // It returns the tool centre, and switches nothing.
     "#KIN TCP",
     "#MCS TO WCS",
     "#SET AX LINK",
@@ -69,7 +69,7 @@ const APART: [&str; 5] = [
     "#SET SPLINETYPE",
 ];
 
-/// The words of the command that is meant, what it does, and whether it switches that off.
+/// Returns the words of the command that is meant, its effect, and whether it switches that off.
 pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, ChainStep, bool)> {
     let begins = |words: &str| {
         name.strip_prefix(words)
@@ -90,13 +90,13 @@ pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, Chain
     Some((words, step, off))
 }
 
-/// M functions that are known to move no origin: those of DIN 66025-2 and of the manual's overview
+/// M functions that are known not to move an origin: those of DIN 66025-2 and of the manual's overview
 /// (tccncprogramming/15557312651).
 pub(in crate::interpreter) fn is_named_m(number: i64) -> bool {
     matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
 }
 
-/// G functions that are known to leave coordinates alone, beside those of the groups: block ends,
+/// G functions that are known to leave coordinates alone, in addition to those of the groups: block ends,
 /// feedforward, gain, weights of dynamics, insertion of chamfers and roundings, override, contouring
 /// modes, threads, measuring, software limits (PM/206089483 and its neighbours).
 pub(in crate::interpreter) fn is_named_g(number: u32) -> bool {
@@ -166,7 +166,7 @@ pub(in crate::interpreter) fn is_implicit_call(number: u32) -> bool {
     matches!(number, 80..=89 | 800..=839)
 }
 
-/// Measuring motions, which end where the probe says.
+/// Measuring motions, which end where the probe triggers.
 pub(in crate::interpreter) fn is_measuring(number: u32) -> bool {
     matches!(number, 100..=102 | 106 | 108 | 310)
 }

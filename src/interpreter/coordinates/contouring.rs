@@ -4,13 +4,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Rounding of transitions between blocks. Lengths are in mm; `None` is no limit.
+/// Rounding of transitions between blocks. Lengths are in mm; `None` means no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Contouring {
     /// Permitted deviation from the programmed path; 0 where it is not known.
     pub tolerance_mm: Option<f64>,
-    /// Permitted length before and after a corner off the programmed blocks.
+    /// Permitted length off the programmed blocks, before and after a corner.
     pub distance_mm: Option<f64>,
     /// The largest share of a block that a corner takes at either end.
     pub reach: f64,
@@ -122,7 +122,7 @@ impl ContouringCommand {
                 }
                 for key in ["CONTERROR", "PATH_DEV"] {
                     match value(key) {
-                        // 0 is no monitoring (PM/207308683).
+                        // 0 means no monitoring (PM/207308683).
                         Some(Some(0.0)) if key == "PATH_DEV" => next.tolerance_mm = None,
                         Some(given) => next.tolerance_mm = Some(given.unwrap_or(0.0).max(0.0)),
                         None => {}

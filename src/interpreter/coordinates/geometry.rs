@@ -7,7 +7,7 @@ use crate::text::Span;
 /// Value of a word: absent, or a value that may be unknown.
 pub(in crate::interpreter) type WordValue = Option<Option<f64>>;
 
-/// The words of a block that shape its motion and nothing else.
+/// The words of a block that only shape its motion.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Geometry {
     /// I, J, K.
@@ -31,7 +31,7 @@ pub(in crate::interpreter) struct Geometry {
     pub(in crate::interpreter) foreign: Option<&'static str>,
 }
 
-/// G functions with which axis words are a motion that is not modelled.
+/// Reason why the motion of axis words with a G function is not modelled.
 pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
     Some(match number {
         33 => "G33 follows a spindle",
@@ -43,7 +43,7 @@ pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
     })
 }
 
-/// The same of `#` commands that stand among words (PM/206123787, 206609163).
+/// Reason why a motion with a `#` command among its words is not modelled (PM/206123787, 206609163).
 pub(in crate::interpreter) fn foreign_command(name: &str) -> Option<&'static str> {
     Some(match name {
         "#ANG" => "`#ANG` computes a coordinate from an angle",

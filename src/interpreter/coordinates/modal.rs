@@ -103,7 +103,7 @@ pub struct Modal {
     /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
     #[serde(default)]
     pub(in crate::interpreter) skewed: bool,
-    /// Whether coordinates count from another origin than at the start of the program.
+    /// Whether coordinates count from an origin other than that at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
     positions: Vec<Option<f64>>,
@@ -114,7 +114,7 @@ pub struct Modal {
 }
 
 impl Modal {
-    /// The defaults at program start. Where the axes stand is not known.
+    /// The defaults at program start. Axis positions are not known.
     pub fn new(axes: usize) -> Self {
         Self {
             functions: GFunctions::default(),
@@ -239,7 +239,7 @@ impl Modal {
         }
     }
 
-    /// Returns the rounding of the transition after a block; `once` holds in the block alone.
+    /// Returns the rounding of the transition after a block; `once` applies only in the block.
     pub(in crate::interpreter) fn contouring(&self, once: Simplifications) -> Option<Contouring> {
         let holds = self.simplified.union(once);
         if holds.contains(Simplification::HighSpeed) {
@@ -264,7 +264,7 @@ impl Modal {
         self.simplify(Simplification::Slope, holds);
     }
 
-    /// Something may or may not have been put into force: what it would round is not known.
+    /// Something may have been put into force: its rounding is not known.
     pub(in crate::interpreter) fn perhaps_simplify(&mut self, what: Simplification) {
         self.simplify(what, Holds::On);
         match what {
@@ -275,8 +275,8 @@ impl Modal {
         }
     }
 
-    /// Whether coordinates count from another origin than at the start of the program, or may: where
-    /// the axes stood then says nothing any more.
+    /// Whether coordinates count from an origin other than that at the start of the program, or may: axis
+    /// positions from then have no meaning any more.
     pub fn has_moved_origin(&self) -> bool {
         self.origin_moved
     }
@@ -312,8 +312,8 @@ impl Modal {
         }
     }
 
-    /// `#MCS ON` takes all offsets away until `#MCS OFF`. What is programmed after either of them
-    /// is no sure place of the machine any more.
+    /// `#MCS ON` suspends all offsets until `#MCS OFF`. Positions programmed after either of them
+    /// are not certainly machine positions any more.
     fn machine_coordinates(&mut self, words: &str, off: bool) {
         if off {
             if let Some(references) = self.suspended.take() {
@@ -327,7 +327,7 @@ impl Modal {
         self.havoc_positions();
     }
 
-    /// Positions are the program's from here on.
+    /// Positions are in program coordinates from here on.
     pub(in crate::interpreter) fn note_transformed(&mut self, name: &str) {
         if !self.transformed.contains(name) {
             self.transformed.insert(name.to_owned());
@@ -349,7 +349,7 @@ impl Modal {
         }
     }
 
-    /// Ends a contour description: whether its G functions and feeds hold after it is not documented (R2.81).
+    /// Ends a contour description: whether its G functions and feeds apply after it is not documented (R2.81).
     pub(in crate::interpreter) fn end_description(&mut self, before: &Self) {
         self.join_functions(before);
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
@@ -360,7 +360,7 @@ impl Modal {
         self.havoc_positions();
     }
 
-    /// Returns the function of a group in force, as the number that stands for it.
+    /// Returns the function of a group in force, as its number.
     fn value(&self, group: Group) -> u32 {
         let functions = &self.functions;
         match group {
@@ -398,12 +398,12 @@ impl Modal {
         self.is_known(Group::Unit).then_some(factor)
     }
 
-    /// Millimetres of a programmed unit, where what coordinates count from is known, too.
+    /// Millimetres of a programmed unit, where it is also known what coordinates count from.
     fn scale(&self) -> Option<f64> {
         self.metric().filter(|_| self.is_known(Group::Distance))
     }
 
-    /// Programmed coordinates. The words remember where their axes stood.
+    /// Moves axes to programmed coordinates. The words keep the previous axis positions.
     pub(in crate::interpreter) fn move_axes(&mut self, words: &mut [AxisWord]) {
         let scale = self.scale();
         for word in words {
@@ -433,7 +433,7 @@ impl Modal {
         }
     }
 
-    /// Forgets where the axes stand.
+    /// Forgets the axis positions.
     pub fn havoc_positions(&mut self) {
         self.origin_moved = true;
         self.positions.fill(None);

@@ -1,4 +1,4 @@
-//! The canonical motion of a block: what moves, along what and how fast, without any words (R5.1).
+//! The canonical motion of a block: which axes move, along which path and how fast, without any words (R5.1).
 //!
 //! It is made only where [`Motions::Taken`] asks for it.
 
@@ -9,7 +9,7 @@ use super::simplified::Simplifications;
 use crate::comp::AxisIndex;
 use crate::machine::SlopeProfile;
 
-/// Whether blocks say what they move.
+/// Whether blocks report their motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Motions {
@@ -34,7 +34,7 @@ pub enum Motion {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Travel {
-    /// Along what.
+    /// Shape of the path.
     pub form: PathForm,
     /// The axes that it moves.
     pub axes: Vec<AxisIndex>,
@@ -113,7 +113,7 @@ pub enum PathFeed {
     /// At least one axis moves at this part of its highest velocity: G00, and G194 with its weight
     /// (PM/206602507).
     OfAxes(f64),
-    /// Not known, and why.
+    /// Not known, with the reason.
     Unknown(&'static str),
 }
 
@@ -121,7 +121,7 @@ pub enum PathFeed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum BlockEnd {
-    /// The path goes on as fast as its corner allows.
+    /// The path continues as fast as its corner allows.
     #[default]
     Through,
     /// G60, or G360 until G359: the axes come to rest (PM/206301707).

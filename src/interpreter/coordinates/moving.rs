@@ -17,11 +17,11 @@ crate::words! {
     pub enum MotionKind {
         /// G00.
         Rapid = "rapid",
-        /// G01, G02, G03 and what else interpolates at the path feed.
+        /// G01, G02, G03 and everything else that interpolates at the path feed.
         Feed = "feed",
         /// A reference point is approached.
         Homing = "homing",
-        /// The axis moves by itself, beside the path or along with it.
+        /// The axis moves by itself, independently of the path or along with it.
         Independent = "independent",
         /// It follows another axis.
         Coupled = "coupled",
@@ -52,7 +52,7 @@ pub struct MovedAxis {
     pub span: Span,
     /// How it moves.
     pub kind: MotionKind,
-    /// Whether it moves for sure.
+    /// Whether it certainly moves.
     pub certainty: Certainty,
 }
 
@@ -88,9 +88,9 @@ pub(in crate::interpreter) enum Moves {
     Words,
     /// Those with a word in the block, or every axis where none has one.
     WordsOrAll,
-    /// The one before the bracket, now.
+    /// The axis before the bracket, now.
     Own,
-    /// The one before the bracket or named in it, whenever its master moves.
+    /// The axis before the bracket or named in it, whenever its master moves.
     Follower,
     /// All that it names, whenever one of them moves.
     Gantry,
@@ -131,7 +131,7 @@ const fn possible(form: MovingForm, kind: MotionKind, moves: Moves) -> MovingRow
     }
 }
 
-/// Causes of axis motion besides the words of G00 to G03; the first row that fits counts.
+/// Causes of axis motion other than the words of G00 to G03; the first row that fits applies.
 const TABLE: [MovingRow; 46] = {
     use MotionKind::{Coupled, Feed, Frame, Homing, Independent, Unknown};
     use Moves::{Channel, Follower, Gantry, Main, NamedOrAll, Own, Plane, Words, WordsOrAll};

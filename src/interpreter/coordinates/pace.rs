@@ -1,4 +1,4 @@
-//! The way from a programmed F to the velocity of the path: the unit, the main spindle, programmed overrides
+//! From a programmed F to the velocity of the path: the unit, the main spindle, programmed overrides
 //! (R5.1).
 
 use std::collections::BTreeMap;
@@ -95,8 +95,8 @@ impl Pace {
         }
     }
 
-    /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; what
-    /// it makes of m/min is not documented.
+    /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; its
+    /// effect on m/min is not documented.
     pub(in crate::interpreter) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
         let (unit, length) = (self.feed_unit_mm?, length_mm?);
         #[allow(clippy::float_cmp)] // both are constants
@@ -109,7 +109,7 @@ impl Pace {
         self.spindle.speed_per_min = value.filter(|_| !self.spindle.cuts);
     }
 
-    /// G96, G97: what S is.
+    /// G96, G97: the meaning of S.
     pub(in crate::interpreter) fn cut(&mut self, cuts: bool) {
         self.spindle.cuts = cuts;
         self.spindle.speed_per_min = None;
@@ -132,7 +132,7 @@ impl Pace {
     /// Revolutions per minute for G95.
     ///
     /// # Errors
-    /// Why they are not known.
+    /// The reason why they are not known.
     pub(in crate::interpreter) fn per_minute(&self) -> Result<f64, &'static str> {
         match self.spindle {
             Spindle { stands: true, .. } => Err("G95 needs a spindle that turns"),
@@ -143,7 +143,7 @@ impl Pace {
         }
     }
 
-    /// `#OVERRIDE`: what it names changes.
+    /// `#OVERRIDE`: changes the overrides that it names.
     pub(in crate::interpreter) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
         change(&mut self.overrides.get_or_insert_default().path);
     }

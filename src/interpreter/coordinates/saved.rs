@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::group::Group;
 use super::modal::{GFunctions, Modal};
 
-/// G functions that take positions away from the machine's.
+/// G functions that separate positions from those of the machine.
 const TRANSFORMING: [&str; 2] = ["G41", "G21"];
 
 /// G functions and feeds before a cycle.

@@ -1,5 +1,5 @@
-//! The functions of a control on the path or its velocity that a commanded trace follows in a simpler way,
-//! which is reported (R5.1).
+//! The functions of a control that affect the path or its velocity and that a commanded trace follows in a
+//! simpler way, which is reported (R5.1).
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
@@ -35,9 +35,9 @@ pub enum Simplification {
     ToolFeed,
     /// `#FGROUP`: F refers to other axes.
     FeedGroup,
-    /// `#VECTOR LIMIT`: the path has limits of its own.
+    /// `#VECTOR LIMIT`: the path has its own limits.
     PathLimits,
-    /// `#GEO FEED ADAPT`: feed is adapted by something else than the program.
+    /// `#GEO FEED ADAPT`: feed is adapted by something other than the program.
     ForeignFeed,
     /// `X[INDP_ASYN …]`, `X[OSC …]` and the like: an axis moves by itself.
     IndependentAxis,
@@ -130,7 +130,7 @@ impl Simplification {
             Self::ForeignFeed => {
                 "keeps the programmed F, which the control adapts (`#GEO FEED ADAPT`)"
             }
-            Self::IndependentAxis => "leaves out motions of single axes beside the path",
+            Self::IndependentAxis => "leaves out independent motions of single axes",
             Self::AxisDynamics => {
                 "keeps the dynamics of the axes, which the program weights (`DYNAMIC`)"
             }
@@ -145,7 +145,7 @@ impl Simplification {
 pub struct Simplifications(u32);
 
 impl Simplifications {
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }

@@ -12,7 +12,7 @@ pub(in crate::interpreter) enum SlopeSelection {
     Channel,
     /// A profile that the command names.
     Program(SlopeProfile),
-    /// A profile that is not known, or one whose use of the jerk is optimized (`NO_OPT=0`).
+    /// An unknown profile, or one whose use of the jerk is optimized (`NO_OPT=0`).
     Unknown,
 }
 

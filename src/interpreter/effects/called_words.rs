@@ -1,4 +1,4 @@
-//! Programs that words call, and the unknown state where the program is open (R2.14, R2.75).
+//! Programs that words call, and the unknown state where the program is not known (R2.14, R2.75).
 
 use std::sync::Arc;
 
@@ -66,7 +66,7 @@ impl Interpreter {
         !self.machine.programs.words.is_empty() || !self.state.control.named.is_empty()
     }
 
-    /// A word whose number is not known: it may call any program.
+    /// A word with an unknown number: it may call any program.
     pub(in crate::interpreter) fn unknown_word(
         &mut self,
         letter: &str,
@@ -93,7 +93,7 @@ impl Interpreter {
         self.tell_once(&cause, "function", fault, at);
     }
 
-    /// A call is passed over, of which `what` depends on a value that only the machine knows.
+    /// Passes over a call of which `what` depends on a value that only the machine knows.
     pub(in crate::interpreter) fn unknown_call(
         &mut self,
         what: &str,
@@ -132,7 +132,7 @@ impl Interpreter {
             .note_transformed(&format!("G{number}"));
     }
 
-    /// A call may be one of any local subprogram: what the control refuses there is looked for.
+    /// A call that may be of any local subprogram: looks for what the control refuses there.
     pub(in crate::interpreter) fn look_through_locals(
         &mut self,
         span: Span,
@@ -146,7 +146,7 @@ impl Interpreter {
         }
     }
 
-    /// A word whose number is not known may call any program that one of its letter calls.
+    /// A word with an unknown number, which may call any program that one of its letter calls.
     fn look_through_words(&mut self, letter: u8, span: Span, unit: usize, cause: &Arc<str>) {
         if self.programs.unit_mut(unit).open_calls.insert(letter) {
             let names = self.programs_of_words(letter);

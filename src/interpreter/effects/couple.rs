@@ -63,7 +63,7 @@ impl Interpreter {
         self.state.control.mark_coupled(changed);
     }
 
-    /// Commands by which an axis follows others, beside the coupling groups (R10.7).
+    /// Commands by which an axis follows others, apart from the coupling groups (R10.7).
     pub(in crate::interpreter) fn couple_by(&mut self, name: &str, rest: &str) {
         let Some(row) = moving::of_command(name) else {
             return;
@@ -126,7 +126,7 @@ impl Interpreter {
         }
     }
 
-    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531). Everything is in
+    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531). All text is in
     /// upper case.
     pub(in crate::interpreter) fn gear_in(&mut self, axis: AxisIndex, body: &str) {
         let mut words = body.split(is_between).filter(|it| !it.is_empty());
@@ -211,7 +211,7 @@ impl ControlState {
         self.mark_coupled(changed);
     }
 
-    /// Axes that follow others are anywhere from here on: `slave=master` (PM/207120267).
+    /// Axes that follow others have unknown positions from here on: `slave=master` (PM/207120267).
     fn lose_followers(&mut self, group: &str) {
         let groups = self.couplings.groups();
         let axes = groups.filter(|(name, _)| *name == group);
@@ -229,7 +229,7 @@ impl ControlState {
     }
 }
 
-/// Whether a command says which axes follow others, coupling groups apart.
+/// Whether a command determines which axes follow others, apart from coupling groups.
 pub(in crate::interpreter) fn is_follower_command(name: &str) -> bool {
     let row = moving::of_command(name);
     row.is_some_and(|row| matches!(row.moves, Moves::Gantry | Moves::Follower))

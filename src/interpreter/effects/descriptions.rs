@@ -6,7 +6,7 @@ use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::description::Description;
 use crate::syntax::ast::Hash;
 
-/// The commands between which blocks describe geometry and do not move: what a cycle shall cut
+/// The commands between which blocks describe geometry and do not move: the contour for a cycle
 /// (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
 pub(in crate::interpreter) const DESCRIPTIONS: [(&str, &str); 3] = [
     ("#CONTOUR BEGIN", "#CONTOUR END"),

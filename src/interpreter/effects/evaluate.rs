@@ -1,4 +1,4 @@
-//! Values of operands, system variables, and what assignments write.
+//! Values of operands, system variables, and the effects of assignments.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,8 +25,7 @@ const MAX_OPAQUE: usize = 1000;
 /// Name under which further words are counted.
 const OTHER_WORDS: &str = "other words";
 
-/// The widest step of something that only counts. It would take longer than any run to leave the
-/// range of numbers.
+/// The widest step of a counter. It would take longer than any run to leave the range of numbers.
 const WIDEST_STEP: f64 = 1e9;
 
 /// A variable of an axis whose value follows from the state of the run (R1.35, R2.36).
@@ -131,7 +130,7 @@ impl Interpreter {
         }
     }
 
-    /// Returns the value of a variable of the machine itself that the dry run knows (R1.35, R2.36).
+    /// Returns the value of a variable of the machine itself that is known to the dry run (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
         if let Some(index) = given_parameter(name) {
             return self.state.control.is_given(index);
@@ -206,7 +205,7 @@ impl Interpreter {
         }
     }
 
-    /// FC322: what an assignment to such a variable does is not known.
+    /// FC322: the effect of an assignment to such a variable is not known.
     pub(in crate::interpreter) fn warn_own(
         &mut self,
         place: &AssignedPlace,
@@ -244,7 +243,7 @@ impl Interpreter {
         self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// Something may have written such a variable: what it shows is not known any more.
+    /// Something may have written such a variable: its value is not known any more.
     fn havoc_own(&mut self, own: OwnVariable) {
         match own {
             OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
@@ -263,7 +262,7 @@ impl Interpreter {
     ) -> Result<(), Box<Fault>> {
         let watching = self.state.watching;
         if watching {
-            // What only counts is not read (R2.84).
+            // A counter is not read (R2.84).
             let place = self.target_place(assignment.target.place, at)?;
             self.state.watching = !only_counts(assignment, &place, at);
         }

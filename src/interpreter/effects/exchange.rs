@@ -1,9 +1,9 @@
 //! Axis exchange: which axes the channel has, and under which names
 //! (TF5200 programming manual, 206977419 and its neighbours).
 //!
-//! A name stands for the machine's axis of that name until the program says otherwise. An axis that
-//! is given back keeps its compensation: what another channel does with it is reported where the
-//! programs of that channel are checked.
+//! A name denotes the machine's axis of that name until the program changes it. An axis that is given
+//! back keeps its compensation: what another channel does with it is reported when the programs of that
+//! channel are checked.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,7 @@ enum Exchange {
     Request,
     /// The named axes go.
     Release,
-    /// The named axes come, all others go.
+    /// The named axes come; all others go.
     Define,
     /// The axes are again those of an earlier moment.
     Restore,
@@ -133,7 +133,7 @@ impl Interpreter {
     }
 
     /// Returns the axis of a name after a request with this logical axis number, if it is known. An axis
-    /// of the machine without a number is taken to be the one of its name.
+    /// of the machine without a number is taken to be the one of that name.
     fn requested(&self, name: &str, number: Option<u32>) -> Option<AxisNameMeaning> {
         let number = number?;
         let axes = self.machine.axes.iter();
@@ -178,7 +178,7 @@ impl Interpreter {
 }
 
 impl ControlState {
-    /// The axis that a COMP command switches under the names of the moment.
+    /// The axis that a COMP command switches under the current names.
     pub(in crate::interpreter) fn addressed(
         &self,
         name: &str,

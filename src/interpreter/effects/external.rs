@@ -1,4 +1,4 @@
-//! Programs that are on the machine only (R2.83).
+//! Programs that only the machine has (R2.83).
 
 use crate::interpreter::programs::wanted::WantedCall;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -11,7 +11,7 @@ impl Interpreter {
         wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
     }
 
-    /// Makes unknown what a program that is on the machine only does not keep.
+    /// Makes unknown what a program that only the machine has does not keep.
     pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
         let keeps = self.machine.programs.keeps(name);
         if !keeps.compensation {

@@ -82,7 +82,7 @@ impl Interpreter {
         }
     }
 
-    /// The macros of programs may be gone; those of the machine are what it says, now as before.
+    /// The macros of programs may be gone; those of the machine remain as the machine defines them.
     pub(in crate::interpreter) fn havoc_macros(&mut self, cause: &Arc<str>) {
         let machine = &self.machine.programs.macros;
         let stays = |name: &str, code: &str| {
@@ -92,7 +92,7 @@ impl Interpreter {
         self.state.control.memory.havoc_macros(cause, stays);
     }
 
-    /// A COMP command switched kinds of an axis, but it is not known of which.
+    /// A COMP command switched kinds of an axis, but it is not known which axis.
     pub(in crate::interpreter) fn havoc_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.havoc(axis, kinds);
@@ -120,7 +120,7 @@ impl Interpreter {
                 .iter()
                 .any(|(begin, end)| [*begin, *end].contains(&name)) =>
             {
-                // What follows may be a description, or not.
+                // The blocks after it may or may not be a description.
                 let modal = &mut self.state.control.modal;
                 modal.havoc_words();
                 modal.note_transformed(name);

@@ -10,7 +10,7 @@ use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Interpreter {
-    /// Says something about an unknown value once a program (FC902); again only where `what` differs.
+    /// Adds a message about an unknown value once per program (FC902); again only where `what` differs.
     pub(in crate::interpreter) fn tell_once(
         &mut self,
         cause: &Arc<str>,
@@ -35,7 +35,7 @@ impl Interpreter {
 }
 
 impl MentionedUnknowns {
-    /// Remembers where an unknown value came in first.
+    /// Remembers where an unknown value first occurred.
     pub(in crate::interpreter) fn enter_root(
         &mut self,
         cause: &Arc<str>,
@@ -45,7 +45,7 @@ impl MentionedUnknowns {
         self.enter(cause, || at.place(at.in_block(span)));
     }
 
-    /// The message with the block that brought the value in, where its own block does not show it.
+    /// Adds to the message the block where the value first occurred, unless its own block shows it.
     pub(in crate::interpreter) fn with_origin(
         &self,
         said: Diagnostic,

@@ -10,8 +10,8 @@ use crate::syntax::ast::Block;
 use crate::syntax::{Comments, RawBlock, Stretch, parse_expression};
 
 impl Interpreter {
-    /// Returns a copy that stands in the program whose block comes next. A run that was stopped after a
-    /// call stands in the caller still, where the parameters of the called program are not seen.
+    /// Returns a copy positioned in the program whose block comes next. A run that was stopped after a
+    /// call is still in the caller, which does not see the parameters of the called program.
     #[must_use]
     pub fn settled(&self) -> Self {
         let mut copy = self.clone();
@@ -30,12 +30,12 @@ impl Interpreter {
     /// Computes an expression with the values that the next block would read.
     ///
     /// # Errors
-    /// The text is no expression, or it has no value here: the reason in words.
+    /// The text is not an expression, or it has no value here: the reason in words.
     pub fn evaluate(&self, text: &str) -> Result<Value, String> {
         let text = text.trim();
         let mut block = Block::default();
         let operand = parse_expression(text, &mut block)
-            .ok_or_else(|| format!("`{text}` is no expression"))?;
+            .ok_or_else(|| format!("`{text}` is not an expression"))?;
         let mut copy = self.settled();
         let (file, shown) = (Arc::from(""), ShownBlockLines::default());
         let raw = RawBlock {

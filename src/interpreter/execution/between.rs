@@ -6,7 +6,7 @@ use crate::readings::Question;
 
 impl Interpreter {
     /// A reset of the channel (R1.28): the compensation stays as it is, or returns to its start-up
-    /// state, as the machine is read; kinds with manual activation fall off in any case.
+    /// state, depending on the reading; kinds with manual activation are switched off in any case.
     pub fn reset(&mut self) {
         let _ = self.state.control.compensation.reset();
         self.reset_friction();
@@ -23,8 +23,8 @@ impl Interpreter {
         }
     }
 
-    /// Without knowing what was switched before the start of the control, friction compensation is
-    /// unknown where the machine is read as keeping it (R1.29).
+    /// If the state before the start of the control is not known, friction compensation is unknown where
+    /// the machine is read as keeping it (R1.29).
     pub(crate) fn havoc_start(&mut self) {
         if self.machine.readings.takes_second(Question::Restart) {
             self.havoc_any_axis(KindSet::of(Kind::Frict));

@@ -1,4 +1,4 @@
-//! One block as a whole: its words, what it does after them, and what it reports.
+//! One block as a whole: its words, its actions after them, and its messages.
 
 use std::ops::ControlFlow;
 
@@ -56,7 +56,7 @@ impl Interpreter {
         }
     }
 
-    /// Begins a block: says what joining ways leave, and counts the block. Returns the number of
+    /// Begins a block: reports what joining ways leave, and counts the block. Returns the number of
     /// messages.
     #[inline]
     fn begin_block(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> usize {
@@ -208,8 +208,8 @@ impl Interpreter {
         }
     }
 
-    /// Says of what the block says on which ways it holds, but for the first messages, which are about
-    /// ways that meet (R14.5).
+    /// Limits the messages of the block to the ways on which they apply, except the first ones, which are
+    /// about ways that meet (R14.5).
     #[inline]
     fn limit_said(&mut self, met: usize) {
         self.show_ways();
@@ -242,15 +242,15 @@ impl Interpreter {
         }
     }
 
-    /// Finishes a block that did more than move: says the number of messages left out, and the
-    /// budget that is used up. Returns whether one is.
+    /// Finishes a block that did more than move: reports the number of messages left out and a budget
+    /// that is used up. Returns whether one is.
     #[inline(never)]
     fn settle(&mut self, at: &BlockContext<'_>) -> bool {
         self.say_unsaid(at);
         let Some(over) = self.used_up(at) else {
             return false;
         };
-        // The faults of the parts that were given up say no more than it does.
+        // The faults of the parts that were given up add nothing to it.
         let is_part = |said: &Diagnostic| said.code == Code::Fc919;
         self.scratch.diagnostics.retain(|said| !is_part(said));
         self.scratch.diagnostics.push(over);
@@ -298,7 +298,8 @@ impl Interpreter {
         step
     }
 
-    /// Executes the items of a block. Its commands are the last ones on the way then, each at the place where it is written or used as a macro.
+    /// Executes the items of a block. Its commands are then the last ones on the way, each at the place where it is
+    /// written or used as a macro.
     fn remembered_items(
         &mut self,
         at: &BlockContext<'_>,
@@ -342,7 +343,7 @@ impl Interpreter {
 }
 
 impl State {
-    /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
+    /// Remembers the block for FC310; it is not known beforehand whether M30 follows.
     fn remember_last(&mut self, at: &BlockContext<'_>) {
         if at.level > 0 {
             return;

@@ -19,8 +19,8 @@ impl Interpreter {
         is_over.then(|| too_many_repeats(self.state.blocks, at))
     }
 
-    /// FC919 or FC918 when the block used up what it must not. What it could have changed besides is
-    /// unknown then: the run did not get to the end of it.
+    /// FC919 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
+    /// the run did not reach its end.
     pub(in crate::interpreter) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.scratch.wrote);
         if self.state.effort.level() > self.options.limits.work && self.is_exhausted() {
@@ -97,7 +97,7 @@ fn too_many_repeats(blocks: u64, at: &BlockContext<'_>) -> Diagnostic {
     )
 }
 
-/// FC910 of a program that may end: what follows is not known, so it is an error (R9.91).
+/// FC910 of a program that may end: its remaining course is not known, so it is an error (R9.91).
 fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
     let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
         .with_help(Advice::RaiseBudget(Budget::Blocks));

@@ -13,7 +13,7 @@ use crate::interpreter::run::step::{ControlStep, Destination, Request};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
-    /// Whether M30 or M02 stands in the running program after its last block; `None` where its lines are read one
+    /// Whether the running program has M30 or M02 after its last executed block; `None` if its lines are read one
     /// after another.
     fn holds_end_after(&self) -> Option<bool> {
         let frame = self.state.control.frames.running()?;
@@ -96,7 +96,7 @@ impl Interpreter {
         }
     }
 
-    /// A part of a program begins once more, or a program is left.
+    /// Begins a part of a program once more, or leaves a program.
     pub(in crate::interpreter) fn end_of_pass(&mut self) {
         let executed = self.state.seq;
         let frame = self.state.control.frames.running_mut();
@@ -168,7 +168,7 @@ impl Interpreter {
         });
     }
 
-    /// Does what a block asked for. `Break` when the program ends.
+    /// Executes the step that a block requested. `Break` when the program ends.
     pub(in crate::interpreter) fn follow(&mut self, step: ControlStep) -> ControlFlow<EndedBy> {
         match step {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
@@ -196,8 +196,8 @@ impl Interpreter {
             ControlStep::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
-                    // A subprogram run by itself ends as it should; one that holds M30 is a main program. What is
-                    // read line by line says so when its rest is there.
+                    // A subprogram run by itself ends as it should; one that holds M30 is a main program. For a program
+                    // read line by line, this is decided when the rest of its lines is available.
                     if self.holds_end_after() == Some(false) {
                         self.state.last = None;
                     }

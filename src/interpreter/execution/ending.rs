@@ -23,7 +23,7 @@ use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
 
 impl Interpreter {
-    /// Whether what is wrong with the main program keeps it from running.
+    /// Whether faults of the main program keep it from running.
     pub(in crate::interpreter) fn is_refused(&self) -> bool {
         !self.programs.refused().is_empty() && self.options.stop == StopPolicy::FirstError
     }
@@ -109,7 +109,7 @@ impl Interpreter {
         self.state.track.reach = WaySet::always();
         self.version += u64::from(!self.state.control.possible.is_empty());
         self.show_ways();
-        // The observer wants no more, or it does not: the program has ended either way.
+        // Whether or not the observer wants more events, the program has ended.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
             by,
@@ -190,7 +190,7 @@ impl Interpreter {
             let Some(mut reader) = unit.index.reader(entry) else {
                 continue;
             };
-            // What is skipped is passed over on the way, too.
+            // A skipped block is also passed over by the run.
             if let Some(raw) = reader.next(&mut block)
                 && !self.is_skipped(&block)
             {

@@ -1,12 +1,12 @@
 //! Loops that never end by themselves (R2.84).
 //!
-//! A run depends on its state and on nothing else. Where a loop is repeated and the state is what
-//! it was some passes ago, every further pass does what those did: the loop is known to be
-//! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
-//! The whole state is compared, so it need not be known what a pass reads.
+//! A run depends only on its state. Where a loop is repeated and the state is the same as some
+//! passes ago, every further pass repeats those passes: the loop is known to be endless. Parameters
+//! that only count, `P1 = P1 + 1`, and that nothing else reads may differ. The whole state is
+//! compared, so it need not be known what a pass reads.
 //!
-//! Where a value that is not known offline may lead out of such a loop, the loop is not endless:
-//! the run goes on where that way goes (R2.51, R2.52).
+//! Where a value that is not known offline may lead out of such a loop, the loop is not endless: the
+//! run follows that way (R2.51, R2.52).
 
 use std::sync::Arc;
 
@@ -33,17 +33,17 @@ const LONGEST_PERIOD: u64 = 8;
 /// The weight of values beyond which nothing is compared.
 const MAX_WEIGHT: usize = 10_000;
 
-/// The passes after which a loop is left that a value of the machine may end, whatever its state.
+/// The passes after which a loop that a value of the machine may end is left, whatever its state.
 const MOST_PASSES: u64 = 1 << 20;
 
-/// Number of passes that a loop is run until its state repeats. A loop that is left more often
-/// stands in another loop, and nested loops must not multiply their passes.
+/// Number of times that a loop is run until its state repeats. A loop that is left more often is
+/// inside another loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
 
-/// Passes of a loop that is left on other ways and whose own condition is known.
+/// Most passes of a loop that is left on other ways and whose own condition is known.
 const MOST_FOLLOWED_PASSES: u64 = 32;
 
-/// The same of a `$FOR`, which ends by itself.
+/// Most passes of such a `$FOR`, which ends by itself.
 const MOST_COUNTED_PASSES: u64 = 1000;
 
 /// Passes after which a loop that is joined at its head is given up (R14.4).
@@ -56,18 +56,18 @@ enum Repeats {
     Unknown,
 }
 
-/// Why a loop need not be run any further.
+/// Reason why a loop need not be run any further.
 #[derive(Debug)]
 enum Enough {
     /// Its state repeats.
     Repeated,
-    /// It was run through often enough; the value that may end it.
+    /// It was run often enough; holds the value that may end it.
     TooMany(Arc<str>),
 }
 
 impl Interpreter {
-    /// A block jumps back: what the control does next, which is something else where only a value
-    /// of the machine ends the loop.
+    /// Returns the next step where a block jumps back; it leaves a loop that only a value of the machine
+    /// ends.
     pub(in crate::interpreter) fn come_round(
         &mut self,
         target: EntryIndex,
@@ -88,7 +88,7 @@ impl Interpreter {
         left.unwrap_or(ControlStep::Jump(target))
     }
 
-    /// A way that only the machine decides leads back: what the control does next on it.
+    /// Returns the next step where a way that only the machine decides leads back.
     pub(in crate::interpreter) fn come_back(
         &mut self,
         target: EntryIndex,
@@ -98,8 +98,8 @@ impl Interpreter {
         self.follow_loop(target, Repeats::Unknown, finder)
     }
 
-    /// A loop that is left on other ways is followed until a pass begins with what passes before it
-    /// began with (R14.3).
+    /// Follows a loop that is left on other ways until a pass begins in the same state as earlier ones
+    /// (R14.3).
     #[cold]
     fn follow_loop(
         &mut self,
@@ -168,7 +168,7 @@ impl Interpreter {
         }
     }
 
-    /// Counts a pass of a loop; why it need not be run any further, where that is so.
+    /// Counts a pass of a loop. Returns the reason why it need not be run any further, if there is one.
     fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
         let depth = self.state.control.frames.depth();
         let place = self.state.control.frames.program()?;
@@ -242,7 +242,7 @@ impl Interpreter {
         }
     }
 
-    /// Goes out of the innermost loop, and says so (FC902).
+    /// Leaves the innermost loop, and reports that (FC902).
     #[cold]
     fn leave_loop(
         &mut self,
@@ -321,7 +321,7 @@ impl State {
         others.any(|path| path.parted >= known.since)
     }
 
-    /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
+    /// Whether the state is that of an earlier pass; if there is none, it is kept for comparison.
     #[cold]
     fn repeats(&mut self) -> bool {
         let Some(mut last) = self.track.loops.pop() else {
@@ -350,7 +350,7 @@ impl State {
 }
 
 impl RunTrack {
-    /// The value that may end a loop which was left often enough.
+    /// The value that may end a loop that was left often enough.
     fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
         let mut left = self.left_loops.iter();
         let found = left.find(|it| (it.unit, it.head) == (unit, head))?;

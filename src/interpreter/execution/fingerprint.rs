@@ -8,12 +8,12 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 
 /// The fingerprint of a text or of saved data: the same for the same bytes, on every machine and in
-/// every version. It shows what changed by mistake; it is no protection against forgery.
+/// every version. It shows what changed by mistake; it does not protect against forgery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub(in crate::interpreter) struct Fingerprint(u64);
 
-/// A text that is no fingerprint.
+/// A text that is not a fingerprint.
 #[derive(Debug, thiserror::Error)]
 #[error("a fingerprint has 16 hexadecimal digits")]
 pub(in crate::interpreter) struct NoFingerprint;
@@ -26,15 +26,15 @@ impl Fingerprint {
         Self(hasher.finish())
     }
 
-    /// The fingerprint of data, taken over the bytes that it is written as. `None` for what cannot be
-    /// written.
+    /// The fingerprint of data, computed over its serialised bytes. `None` for data that cannot be
+    /// serialised.
     pub(in crate::interpreter) fn of_data(data: &impl Serialize) -> Option<Self> {
         let bytes = Bytes(FnvHasher::default());
         postcard::serialize_with_flavor(data, bytes).ok()
     }
 }
 
-/// Takes the bytes of data one after another and keeps none.
+/// Takes the bytes of data one after another without keeping them.
 struct Bytes(FnvHasher);
 
 impl Flavor for Bytes {

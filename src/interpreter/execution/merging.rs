@@ -9,7 +9,7 @@ use crate::interpreter::run::path::{EndedPath, Passed};
 use crate::interpreter::run::state::State;
 
 impl Interpreter {
-    /// A way ends; whether the run does, as no other way goes on.
+    /// Ends a way. Returns the end of the run if no other way continues.
     #[cold]
     pub(in crate::interpreter) fn end_path(&mut self, by: EndedBy) -> Option<EndedBy> {
         let is_covered = std::mem::take(&mut self.scratch.covered);
@@ -21,7 +21,7 @@ impl Interpreter {
             return Some(by);
         }
         if by == EndedBy::Budget && !self.scratch.endless && !is_covered {
-            // What the other ways would have done is not known.
+            // The effects of the other ways are not known.
             self.state.pending.clear();
             self.state.ended.clear();
             self.havoc_all(&"a way that was not followed".into());
@@ -99,7 +99,7 @@ impl Interpreter {
                 compensation,
             });
         }
-        // What an error leaves is not what the next program finds.
+        // The next program does not find the state that an error leaves.
         let is_error = |end: &EndedPath| end.by == EndedBy::Error;
         if !ended.iter().all(is_error) {
             ended.retain(|end| !is_error(end));

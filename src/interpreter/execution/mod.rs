@@ -1,4 +1,4 @@
-//! Blocks one after another: the beginning, the way and the end of a program.
+//! Execution block by block: the beginning, the course and the end of a program.
 
 pub(super) mod asking;
 mod between;

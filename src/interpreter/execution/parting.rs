@@ -31,7 +31,7 @@ impl Interpreter {
             self.state.track.reach = ways;
             let (to, is_back) = (side.to, side.to < here);
             self.state.apply_side(side);
-            // What leads back joins the loop's head, where other ways do.
+            // Ways that lead back join at the loop's head, as other ways do.
             let goes_on = if is_back && self.options.branches != Branches::Passed {
                 self.come_back(to, finder)
             } else {
@@ -49,7 +49,7 @@ impl Interpreter {
         self.version += 1;
         self.state.pending.append(&mut open);
         if self.state.pending.is_empty() {
-            // No answer is possible: the ways were merged too far to tell. Going on is what is left.
+            // No answer is possible: the ways were merged too far to tell. The run can only continue.
             self.enter_path(base);
         } else {
             self.enter_first();

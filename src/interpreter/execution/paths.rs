@@ -1,9 +1,9 @@
 //! The ways through the program: which is executed next, and where they meet (R14.1).
 //!
-//! At a condition that only the machine knows the run parts: each way goes on with its own copy of
-//! what the control has. The way that stands before the others in the text is executed first; ways
-//! that reach the same block are joined there. So each block is executed once for all ways that
-//! lead to it, whatever the conditions before it (R14.4).
+//! At a condition that only the machine knows, the run parts: each way continues with its own copy of
+//! the state of the control. The way that is first in the text is executed first; ways that reach the
+//! same block are joined there. So each block is executed once for all ways that lead to it, whatever
+//! the conditions before it (R14.4).
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::work_budget::ITEM;
 
 impl Interpreter {
-    /// Goes on with a way.
+    /// Continues with a way.
     pub(in crate::interpreter) fn enter_path(&mut self, path: Path) {
         let Path {
             control,
@@ -41,7 +41,7 @@ impl Interpreter {
         self.version += 1;
     }
 
-    /// Goes on with the way that stands before all others. Whether there is one.
+    /// Continues with the way that is first in the text. Returns whether there is one.
     pub(in crate::interpreter) fn enter_first(&mut self) -> bool {
         let mut first = 0;
         for place in 1..self.state.pending.len() {
@@ -58,8 +58,8 @@ impl Interpreter {
         true
     }
 
-    /// Goes on with the way that stands before the others, joined with those that stand where it does.
-    /// Whether any do.
+    /// Continues with the way that is first in the text, joined with those at the same block. Returns
+    /// whether there are any.
     #[cold]
     pub(in crate::interpreter) fn choose_path(&mut self) -> bool {
         let mut joined = false;
@@ -86,7 +86,7 @@ impl Interpreter {
         joined
     }
 
-    /// Another way reaches the block that is executed next.
+    /// Joins another way that reaches the block that is executed next.
     pub(in crate::interpreter) fn join_path(&mut self, mut other: Path) {
         let mut mine = self.state.leave_path();
         let parted = Self::what_parts(&mine, &other);
@@ -119,7 +119,7 @@ impl Interpreter {
         deciding.max().or_else(|| both.iter().copied().max())
     }
 
-    /// Says, once for each condition, what differs where two ways join (FC901).
+    /// Reports, once for each condition, what differs where two ways join (FC901).
     pub(in crate::interpreter) fn tell_join(
         &mut self,
         met: &[ControlState; 2],
@@ -197,7 +197,7 @@ impl State {
         }
     }
 
-    /// The way that is executed, which is so no more.
+    /// Takes the way that was being executed.
     pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
         let control = self.control.clone();
         Path {

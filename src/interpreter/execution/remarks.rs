@@ -1,5 +1,4 @@
-//! Lines that no run reaches: `%` lines, and comments to this tool that no block follows
-//! (R9.24).
+//! Lines that no run reaches: `%` lines, and comments for this tool that no block follows (R9.24).
 
 use std::sync::Arc;
 
@@ -46,7 +45,7 @@ impl Interpreter {
         last.map_or(0, |last| last.line)
     }
 
-    /// Keeps in mind what there is to say about lines that are not kept.
+    /// Keeps the messages about lines that are not kept.
     pub(in crate::interpreter) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
         gather(file, lost, u32::MAX, &mut self.lost);
     }

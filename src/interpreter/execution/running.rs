@@ -1,4 +1,4 @@
-//! Blocks one after another, until the program ends.
+//! Executes block after block until the program ends.
 
 use std::ops::ControlFlow;
 
@@ -116,7 +116,7 @@ impl Interpreter {
         }
     }
 
-    /// Says where ways meet.
+    /// Announces that ways meet.
     #[cold]
     fn tell_joined(&mut self, observer: &mut dyn Observer) {
         let Some(frame) = self.state.control.frames.running() else {
@@ -149,8 +149,8 @@ impl Interpreter {
         }
     }
 
-    /// The run parts after a block that asked, unless it ends or returns in any case. Returns what is
-    /// left to do.
+    /// Parts the run after a block that asked, unless it ends or returns in any case. Returns the
+    /// remaining step.
     fn part_and_step(
         &mut self,
         step: Option<ControlStep>,

@@ -60,7 +60,7 @@ pub enum ResumeError {
     /// The machine has other axes.
     #[error("the snapshot belongs to a machine with other axes")]
     OtherMachine,
-    /// It is not as it was saved, or names what is not there.
+    /// It was changed after it was saved, or names something that does not exist.
     #[error("the snapshot is damaged: {0}")]
     Damaged(&'static str),
 }
@@ -79,8 +79,8 @@ impl Snapshot {
         self.files.iter().map(|file| file.name.as_str())
     }
 
-    /// The same snapshot with a seal for what it holds now, for who has changed a saved snapshot on
-    /// purpose. Its places are checked by [`Interpreter::resume`] all the same.
+    /// Returns the snapshot with a seal for its present content, for callers that changed a saved snapshot
+    /// on purpose. Its places are checked by [`Interpreter::resume`] all the same.
     pub fn sealed_anew(mut self) -> Self {
         self.seal = self.seal_of_content();
         self
@@ -133,11 +133,12 @@ impl Interpreter {
         Some(snapshot.sealed_anew())
     }
 
-    /// An interpreter in the state of a snapshot. `source` gives the text of each file of the run.
+    /// An interpreter in the state of a snapshot. `source` returns the text of each file of the run.
     ///
     /// # Errors
-    /// A snapshot of another version, a file that `source` does not give or whose text has changed, a
-    /// machine with other axes, or content that is not as it was saved or names what is not there.
+    /// A snapshot of another version, a file that `source` does not return or whose text has changed, a
+    /// machine with other axes, or content that was changed after it was saved or names something that does
+    /// not exist.
     pub fn resume(
         machine: impl Into<Arc<Machine>>,
         options: Options,

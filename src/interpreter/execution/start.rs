@@ -55,7 +55,7 @@ impl Interpreter {
         self.begin(finder, observer)
     }
 
-    /// Runs the program that was announced, from the start of its section on.
+    /// Runs the announced program from the start of its section.
     pub(in crate::interpreter) fn begin(
         &mut self,
         finder: &mut dyn Finder,
@@ -76,7 +76,7 @@ impl Interpreter {
         self.close(outcome, observer)
     }
 
-    /// Goes on with a run that an observer stopped. One whose program is read line by line stays
+    /// Continues a run that an observer stopped. One whose program is read line by line stays
     /// [`RunOutcome::Stopped`].
     pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> RunOutcome {
         if self.handed == SourceMode::LineByLine {
@@ -195,7 +195,7 @@ impl Interpreter {
             }
             Ok(None) => Ok(()),
             Err(fault) => {
-                // The call stands in the configuration, not in a block.
+                // The call is in the configuration, not in a block.
                 Err(Box::new(fault.into_diagnostic(place, |_| None)))
             }
         }

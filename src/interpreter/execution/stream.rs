@@ -1,9 +1,9 @@
-//! Programs whose lines come one after another.
+//! Programs whose lines arrive one after another.
 //!
 //! Straight blocks are executed and forgotten. A block that makes the rest of the text count, for
-//! instance a jump label or a `$` statement, is the first one that can be reached again: it and
+//! example a jump label or a `$` statement, is the first one that can be reached again: it and
 //! everything after it is taken into memory, and the run continues there. Nothing ever goes back to
-//! what was forgotten.
+//! the forgotten blocks.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -53,11 +53,11 @@ struct StreamProgress {
 }
 
 impl Interpreter {
-    /// Runs a main program whose lines come one after another. Memory does not grow with its length
+    /// Runs a main program whose lines arrive one after another. Memory does not grow with its length
     /// until a block makes the rest count; from there on it is held in memory.
     ///
-    /// Control blocks and labels are checked when the rest is read, where a program in memory is
-    /// refused before its first block; [`crate::syntax::FlowScan`] says which program may have any.
+    /// Control blocks and labels are checked when the rest is read, whereas a program in memory is
+    /// refused before its first block; [`crate::syntax::FlowScan`] tells which program may have any.
     /// An observer that stops it ends it: see [`RunOutcome::Stopped`].
     pub fn stream(
         &mut self,
@@ -250,7 +250,7 @@ impl Interpreter {
         }
     }
 
-    /// Runs called programs until the one that called them goes on; `None` when it does.
+    /// Runs called programs until their caller continues; `None` when it does.
     fn run_called(
         &mut self,
         finder: &mut dyn Finder,
@@ -271,7 +271,7 @@ impl Interpreter {
         }
     }
 
-    /// Takes the rest of the text into memory and goes on in it.
+    /// Takes the rest of the text into memory and continues in it.
     fn go_on_with(
         &mut self,
         rest: SourceFile,
@@ -283,7 +283,7 @@ impl Interpreter {
         if matches!(stage, ProgramStage::Before) {
             return self.whole(rest, finder, observer);
         }
-        // The blocks so far stood in front of the first one of the index, and so does the frame.
+        // The blocks so far come before the first one of the index, and so does the frame.
         let mut index = Index::new(rest, self.options.limits.nesting);
         index.main = Some(0);
         self.programs.hold_first(index);
@@ -307,7 +307,7 @@ impl Interpreter {
         }
     }
 
-    /// Takes the lines that were not read into memory, behind a text whose first line has a number.
+    /// Reads the remaining lines into memory, after a text; `first` is the number of its first line.
     fn take_rest<S: LineSource>(
         &mut self,
         (mut text, first): (String, u32),
@@ -319,7 +319,7 @@ impl Interpreter {
         SourceFile::new(file, text).from_line(first)
     }
 
-    /// M17 ended the program; what follows is looked at where all of it is checked. FC310 where the program holds M30
+    /// M17 ended the program; the rest is looked at only if all blocks are checked. FC310 if the program has M30
     /// farther down; a subprogram run by itself ends as it should.
     fn returned(
         &mut self,

@@ -1,5 +1,5 @@
-//! Whether a state that comes from outside fits the machine and the files of the run. What it names is
-//! looked up later without further checks.
+//! Checks whether a state from outside fits the machine and the files of the run. The items that it names
+//! are looked up later without further checks.
 
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::programs::store::ProgramStore;

@@ -22,9 +22,9 @@ struct Open {
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
-    /// Whether its `$ELSE` or `$DEFAULT` was there.
+    /// Whether its `$ELSE` or `$DEFAULT` was found.
     last_branch: bool,
-    /// Whether a block was refused that stands before its first branch.
+    /// Whether a block before its first branch was refused.
     is_led: bool,
     /// Number of open blocks up to the innermost one of each kind, so that none has to be searched.
     innermost: [usize; ControlBlock::ALL.len()],
@@ -95,12 +95,12 @@ struct Builder {
     nesting: usize,
     open: Vec<Open>,
     jumps: Vec<PendingJump>,
-    /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
+    /// `$BREAK` and `$CONTINUE` with the loops that contain them, by opener.
     inner: Vec<(EntryIndex, EntryIndex)>,
     /// The last block so far, once something was refused in it.
     here: Option<(EntryIndex, Place)>,
-    /// The block before it in which something was refused last. What is not closed comes one block
-    /// after the other, so that no block is read again for each of its statements.
+    /// The block before it in which something was last refused. Openers without an end are reported block by
+    /// block, so that no block is read again for each of its statements.
     earlier: Option<(EntryIndex, Place)>,
 }
 
@@ -143,7 +143,7 @@ impl Builder {
         self.index.main = main_of(&self.index.sections);
         self.check_jumps();
         for (statement, opener) in std::mem::take(&mut self.inner) {
-            // A loop without an end cannot be left: it is none, which is said of its opener.
+            // A loop without an end cannot be left: it is not a loop, which is reported at its opener.
             if !self.index.is_linked(opener) {
                 continue;
             }
@@ -219,7 +219,7 @@ impl Builder {
         }
     }
 
-    /// Refuses an opener without an end, unless it is misspelt, which the block says itself.
+    /// Refuses an opener without an end, unless it is misspelt, which the block itself reports.
     fn refuse_open(&mut self, open: &Open) {
         if let Some(fault) = not_closed(open) {
             self.refuse(open.opener, fault);
@@ -328,7 +328,7 @@ impl Builder {
         });
     }
 
-    /// FC208: a block between `$SWITCH` and its first `$CASE`, which no value leads to.
+    /// FC208: a block between `$SWITCH` and its first `$CASE`, which no value reaches.
     fn before_cases(&mut self, block: &Block, at: Statement<'_>) {
         let Some(open) = self.open.last_mut() else {
             return;
@@ -350,9 +350,9 @@ impl Builder {
         }
         open.is_led = true;
         let message =
-            "this block stands between `$SWITCH` and its first `$CASE`, where no value leads to";
+            "this block is between `$SWITCH` and its first `$CASE`, and no value leads to it";
         let fault = Fault::new(Code::Fc208, at.span, message)
-            .with_help("write it before `$SWITCH`, or behind a `$CASE`");
+            .with_help("write it before `$SWITCH`, or after a `$CASE`");
         self.refuse(at.entry, fault);
     }
 
@@ -456,7 +456,7 @@ impl Builder {
         }
     }
 
-    /// Returns the cure for a missing label, which may be there in the other form.
+    /// Returns the remedy for a missing label, which may exist in the other form.
     fn help_for_label(&self, section: usize, label: &LabelName) -> String {
         let other = label.in_other_form();
         let other = other.filter(|it| self.index.label(section, it.clone()).is_some());
@@ -511,12 +511,12 @@ fn after_last(kind: ControlBlock, at: Statement<'_>) -> Fault {
         _ => "$DEFAULT".to_owned(),
     };
     let message = format!("`{word}` follows `{last}`, which is the last branch");
-    let help = format!("write `{last}` behind all other branches");
+    let help = format!("write `{last}` after all other branches");
     Fault::new(Code::Fc208, at.span, message).with_help(help)
 }
 
-/// The section that a run of a file begins with: blocks in front of any `%` line, else the first
-/// program that is no local subprogram.
+/// The section that a run of a file begins with: blocks before any `%` line, else the first program
+/// that is not a local subprogram.
 fn main_of(sections: &[ProgramSection]) -> Option<usize> {
     let is_main = |section: &ProgramSection| match section.name {
         None => section.end > section.start,

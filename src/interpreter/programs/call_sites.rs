@@ -1,4 +1,4 @@
-//! The calls that stand in a text, found without executing it (R17.2).
+//! The calls in a text, found without executing it (R17.2).
 
 use std::collections::BTreeMap;
 
@@ -103,7 +103,7 @@ struct Sites<'a> {
     /// The macros that were defined so far, with their code.
     macros: BTreeMap<String, String>,
     /// The programs of words, of the configuration and of `#FILE NAME`; `None` for a name that only a
-    /// run can tell.
+    /// run can determine.
     by_word: BTreeMap<String, Option<String>>,
     line: u32,
     found: Vec<CallSite>,
@@ -126,7 +126,7 @@ impl Sites<'_> {
         });
     }
 
-    /// A macro of the channel list, whose code stands in no program.
+    /// A macro of the channel list, whose code is in no program.
     fn configured_macro(&mut self, name: &str) {
         let macros = &self.programs.macros;
         if let Some((_, code)) = macros.iter().find(|(it, _)| it == name) {

@@ -12,9 +12,9 @@ pub(in crate::interpreter) fn named_words(text: &str) -> impl Iterator<Item = St
 
 /// The name of a program after `#FILE NAME`.
 pub(in crate::interpreter) enum FileName<'a> {
-    /// It stands there.
+    /// A literal name.
     Written(&'a str),
-    /// It is the value of a variable, or of something that is not followed here.
+    /// The value of a variable, or of something that is not followed.
     Elsewhere(&'a str),
 }
 

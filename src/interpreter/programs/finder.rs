@@ -2,17 +2,17 @@
 
 use crate::text::SourceFile;
 
-/// Why a called program is missing.
+/// Reason why a called program is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoProgram {
-    /// There is none (FC320).
+    /// It does not exist (FC320).
     Absent,
-    /// There is none, but one of nearly that name, which may be meant (FC320).
+    /// It does not exist, but one with a similar name, which may be meant, does (FC320).
     Near(String),
-    /// It lies where programs are not called from (FC321).
+    /// It is in a folder that programs are not called from (FC321).
     Outside,
-    /// It exists but cannot be used (FC320); what to say after its name: `is a folder`.
+    /// It exists but cannot be used (FC320); the words that follow its name: `is a folder`.
     Unusable(String),
 }
 

@@ -140,7 +140,7 @@ impl Index {
         })
     }
 
-    /// FC323 where the file has nothing but local subprograms.
+    /// FC323 where the file has only local subprograms.
     pub(in crate::interpreter) fn no_main_program(&self) -> Option<Diagnostic> {
         let first_local = self.sections.iter().find(|section| section.local)?;
         let place = first_local.opening.clone()?;
@@ -149,8 +149,8 @@ impl Index {
         Some(said.with_help("begin the main program with `%NAME`"))
     }
 
-    /// FC324 for every main program with blocks but the one that runs, with its first block. A `%` alone may end a
-    /// file.
+    /// FC324 for every main program with blocks except the one that runs, with its first block. A lone `%` may end
+    /// a file.
     pub(in crate::interpreter) fn other_mains(
         &self,
     ) -> impl Iterator<Item = (EntryIndex, Diagnostic)> {
@@ -299,7 +299,7 @@ pub(in crate::interpreter) fn never_run(name: Place) -> Diagnostic {
         "" => ("without a name".to_owned(), "%L NAME".to_owned()),
         named => (format!("`{named}`"), format!("%L {named}")),
     };
-    let message = format!("the main program {shown} is never run: another one stands before it");
+    let message = format!("the main program {shown} is never run: another one comes before it");
     Diagnostic::new(Code::Fc324, name, message).with_help(format!(
         "give it a file of its own, or make it a subprogram with `{call}`"
     ))

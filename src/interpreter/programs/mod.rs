@@ -1,4 +1,4 @@
-//! The texts of a run: the index of each, and what calls find.
+//! The texts of a run: the index of each, and the lookup of calls.
 
 pub(super) mod builder;
 pub(super) mod call_sites;

@@ -1,4 +1,4 @@
-//! The files of a run: held when they are needed first, looked up by what called them.
+//! The files of a run: loaded when they are first needed, looked up by their caller.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -20,8 +20,8 @@ const MAX_COMPARED: usize = 100_000;
 /// Limit of the parsed blocks that a run keeps.
 pub(in crate::interpreter) const MAX_KEPT: usize = 100_000;
 
-/// Units of work that a byte of a program in memory brings with it: its regions may have to be
-/// looked through once.
+/// Units of work that a byte of a program in memory allows: its regions may have to be examined
+/// once.
 const PER_BYTE_HELD: u64 = 16;
 
 /// Caller of a program.
@@ -63,7 +63,7 @@ impl ProgramStore {
         }
     }
 
-    /// Lets go of all files.
+    /// Drops all files.
     pub(in crate::interpreter) fn clear(&mut self) {
         *self = Self::new(self.nesting);
     }
@@ -90,7 +90,7 @@ impl ProgramStore {
         &self.units[program.unit].index.sections[program.section]
     }
 
-    /// The work that the texts bring with them.
+    /// The work that the texts allow.
     pub(in crate::interpreter) fn granted(&self) -> u64 {
         PER_BYTE_HELD.saturating_mul(self.held_text)
     }
@@ -106,7 +106,7 @@ impl ProgramStore {
         unit
     }
 
-    /// The main program takes the place that was kept for it. The programs that were called so far
+    /// Puts the main program into the place that was kept for it. The programs that were called so far
     /// stay where they are: a modal cycle and the calls that were found name them by their places.
     pub(in crate::interpreter) fn hold_first(&mut self, index: Index) {
         self.names.retain(|_, unit| *unit != 0);
@@ -154,7 +154,7 @@ impl ProgramStore {
         parsed
     }
 
-    /// A parsed block that is looked at and not executed.
+    /// A parsed block that is inspected, not executed.
     pub(in crate::interpreter) fn looked_at(&self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let unit = &self.units[unit];
         let kept = unit.kept.get(entry as usize).cloned().flatten();

@@ -23,7 +23,7 @@ pub(in crate::interpreter) struct SourceUnit {
     pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
     /// Regions that were passed over and tried (R2.51), apart from each other: first block and end.
     tried: BTreeMap<EntryIndex, EntryIndex>,
-    /// What may call any program of its kind: local subprograms `L`, those of G functions `G`.
+    /// Kinds of calls that may call any program of their kind: local subprograms `L`, those of G functions `G`.
     pub(in crate::interpreter) open_calls: BTreeSet<u8>,
     /// Whether a call of the file came back from its end (R17.2).
     pub(in crate::interpreter) returned: bool,
@@ -67,7 +67,7 @@ impl SourceUnit {
         }
     }
 
-    /// The parts of a region that were not tried before; they are from here on.
+    /// Takes the parts of a region that were not tried before, and marks them as tried.
     pub(in crate::interpreter) fn take_untried(
         &mut self,
         region: Range<EntryIndex>,

@@ -45,7 +45,7 @@ pub(in crate::interpreter) struct WantedCall {
     pub(in crate::interpreter) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
     pub(in crate::interpreter) repeat: Option<bool>,
-    /// The part of the program, where it is not the whole.
+    /// The part of the program, where it is not all of it.
     pub(in crate::interpreter) part: Option<CalledPart>,
 }
 
@@ -73,6 +73,6 @@ pub(in crate::interpreter) struct CalledPart {
     /// Whether the call itself ends the part, too.
     pub(in crate::interpreter) end_tag: bool,
     pub(in crate::interpreter) passes: u64,
-    /// Whether it is one of the program that is executed.
+    /// Whether it belongs to the program being executed.
     pub(in crate::interpreter) here: bool,
 }

@@ -1,10 +1,10 @@
-//! The work of executing a block again, by which loops end after about the same time whatever they
+//! The work of executing a block again, so that loops end after about the same time whatever they
 //! repeat (R9.91). A unit is about a nanosecond of a processor of this decade.
 
 use crate::syntax::allow::MARK;
 use crate::syntax::ast::{Block, Item};
 
-/// A block, whatever stands in it.
+/// A block, whatever it contains.
 const BLOCK: usize = 100;
 
 /// A word with a number.

@@ -9,7 +9,7 @@ use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Fault, RawBlock, Remark};
 use crate::text::{MAX_WHOLE, Place, Span};
 
-/// The place of a block, and what is known about it besides its tree.
+/// The place of a block, and what is known about it apart from its tree.
 pub(in crate::interpreter) struct BlockContext<'a> {
     pub(in crate::interpreter) block: &'a Block,
     pub(in crate::interpreter) file: &'a Arc<str>,
@@ -53,7 +53,7 @@ struct LineSpan {
 }
 
 impl ShownBlockLines {
-    /// The place of a span: the lines that it touches, no more of the block.
+    /// The place of a span: only the lines of the block that it touches.
     fn place(&self, at: &BlockContext<'_>, span: Span) -> Place {
         let text = at.text;
         let clamped = |offset: u32| {
@@ -95,7 +95,7 @@ impl ShownBlockLines {
 }
 
 impl LineSpan {
-    /// Whether what stands between two offsets is shown with these lines.
+    /// Whether the text between two offsets is shown with these lines.
     fn show(&self, start: usize, end: usize) -> bool {
         let is_within = self.from <= start && start <= self.to && end <= self.to;
         let touches_all = || {
@@ -107,7 +107,7 @@ impl LineSpan {
 }
 
 impl<'a> BlockContext<'a> {
-    /// A block of the main program, or one that is looked at and not executed.
+    /// A block of the main program, or one that is inspected, not executed.
     #[inline]
     pub(in crate::interpreter) fn of_raw(
         file: &'a Arc<str>,
@@ -174,7 +174,7 @@ impl<'a> BlockContext<'a> {
         }
     }
 
-    /// A part of the block that was read again, with spans of its own.
+    /// A part of the block that was read again, with its own spans.
     pub(in crate::interpreter) fn part(
         &self,
         text: &'a str,
@@ -208,7 +208,7 @@ impl<'a> BlockContext<'a> {
 }
 
 impl BlockContext<'_> {
-    /// The span in the block of what stands here, for messages once the whole block is known.
+    /// The span in the block of a span here, for messages once the whole block is known.
     pub(in crate::interpreter) fn in_block(&self, span: Span) -> Span {
         self.used.unwrap_or(span)
     }

@@ -26,14 +26,14 @@ pub(in crate::interpreter) struct OwnEnd {
     pub(in crate::interpreter) is_passed_into: bool,
 }
 
-/// A program that only the machine has, and its call: what it leaves is open.
+/// A program that only the machine has, and its call: the state that it leaves is not known.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct LeftOpen {
     pub(in crate::interpreter) program: Arc<str>,
     pub(in crate::interpreter) place: Place,
 }
 
-/// Blocks that the dry run passes over and the control perhaps executes.
+/// Blocks that the dry run passes over and the control may execute.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct PassedOver {
     pub(in crate::interpreter) unit: usize,
@@ -43,7 +43,7 @@ pub(in crate::interpreter) struct PassedOver {
     pub(in crate::interpreter) by: PassedBy,
 }
 
-/// What passes over blocks.
+/// Reason why blocks are passed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum PassedBy {
     /// A control block whose branch is not known.
@@ -68,7 +68,7 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) left_open: Option<LeftOpen>,
     /// Kinds that may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
-    /// The axes that it moves, or may, without a word of their own.
+    /// The axes that it moves, or may, without their own word.
     pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
     /// Motion of its axis words, where the G functions in force do not decide it.
     pub(in crate::interpreter) word_row: Option<MovingRow>,
@@ -103,14 +103,14 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
     /// The states of compensation that its expressions read.
     pub(in crate::interpreter) asked: RefCell<Vec<(AxisIndex, Kind)>>,
-    /// Whether a text of the block had no meaning that is known here; what depends on it is not said
-    /// again (R2.71).
+    /// Whether a text of the block had no known meaning; what depends on it is not reported again
+    /// (R2.71).
     pub(in crate::interpreter) unread: Cell<bool>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
     pub(in crate::interpreter) flushing: RefCell<Option<String>>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
-    /// The block that says that the program ends.
+    /// The block that ends the program.
     pub(in crate::interpreter) end: Option<OwnEnd>,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
@@ -119,7 +119,7 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) covered: bool,
     /// Whether that is a loop that never ends.
     pub(in crate::interpreter) endless: bool,
-    /// Whether calls are nested too deeply for the run to go on (R9.91).
+    /// Whether calls are nested too deeply for the run to continue (R9.91).
     pub(in crate::interpreter) too_deep: bool,
     /// Whether an axis occurred for the first time.
     pub(in crate::interpreter) new_axes: bool,
@@ -136,7 +136,7 @@ impl BlockScratch {
         self.changes.clear();
     }
 
-    /// Hands what the block asked to what is reported of it.
+    /// Hands the states that the block read to the details reported of it.
     #[inline]
     pub(in crate::interpreter) fn gather_asked(&mut self) {
         let asked = self.asked.get_mut();

@@ -1,4 +1,4 @@
-//! States of which several are possible, as one program leaves them to the next (R14.7).
+//! Kinds with several possible states, as one program leaves them to the next (R14.7).
 
 use serde::{Deserialize, Serialize};
 

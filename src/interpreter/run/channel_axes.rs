@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comp::AxisIndex;
 
-/// The names of the channel's axes, as far as the program changed them.
+/// The changes that the program made to the names of the channel's axes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ChannelAxes {
     pub(in crate::interpreter) names: BTreeMap<String, AxisNameMeaning>,
@@ -29,7 +29,7 @@ impl ChannelAxes {
         self.names.get(name).copied()
     }
 
-    /// Whether it names no axis beyond a number.
+    /// Whether all axes that it names are below a number.
     pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
             AxisNameMeaning::Axis(axis) | AxisNameMeaning::Released(Some(axis)) => {

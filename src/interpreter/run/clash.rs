@@ -1,7 +1,7 @@
 //! Answers that contradict each other while a value of the machine stays as it is (R14.1).
 //!
-//! A value of the machine is asked for each time. A way that needs two answers which no single value
-//! gives is possible all the same, but only if the value changes in between.
+//! A value of the machine is asked for each time. A way that needs two answers that no single value
+//! gives is still possible, but only if the value changes in between.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,10 +14,10 @@ use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
 
-/// Conditions on values of the machine that are remembered; older ones contradict nothing.
+/// Number of remembered conditions on values of the machine; older ones contradict nothing.
 const MAX_READINGS: usize = 16;
 
-/// Answers of a condition beyond which what they say of values is not compared.
+/// Number of answers of a condition beyond which their values are not compared.
 const MAX_COMPARED: usize = 8;
 
 /// Values that follow from an answer.
@@ -173,7 +173,7 @@ impl RememberedConditions {
         self.0.retain(|it| it.writer != Writer::Control);
     }
 
-    /// Some values are others from here on.
+    /// Some values differ from here on.
     pub(in crate::interpreter) fn havoc(&mut self, is_other: impl Fn(&RegionTarget) -> bool) {
         self.0.retain(|it| !it.reads.iter().any(&is_other));
     }
@@ -191,7 +191,7 @@ impl RememberedConditions {
         self.0.iter().map(|it| it.condition)
     }
 
-    /// Two ways meet: what only one of them asked counts where the other names no answer to it.
+    /// Two ways meet: a condition that only one of them asked counts if the other names no answer to it.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, named: [&BTreeSet<u32>; 2]) {
         let [mine, theirs] = named;
         let is_only_mine = |it: &Arc<RememberedCondition>| !theirs.contains(&it.condition);

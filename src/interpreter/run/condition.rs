@@ -51,7 +51,7 @@ pub(in crate::interpreter) struct Condition {
     pub(in crate::interpreter) texts: Vec<Arc<str>>,
     /// The value that decides.
     pub(in crate::interpreter) cause: Arc<str>,
-    /// A place that is reached again asks again: which of its questions it is.
+    /// Number of the question at its place: a place that is reached again asks again.
     pub(in crate::interpreter) round: u8,
     /// Number of times that its number was given to a question.
     #[serde(default)]
@@ -62,7 +62,7 @@ pub(in crate::interpreter) struct Condition {
 }
 
 impl Condition {
-    /// The same among conditions with other numbers; those without one are left out.
+    /// Renumbers the conditions; those without a number are left out.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> Option<u32>) -> Self {
         let mut copy = self.clone();
         copy.clashes.retain_mut(|clash| {
@@ -78,7 +78,7 @@ impl Condition {
         self.texts.len() < MAX_ANSWERS
     }
 
-    /// Whether it asks the same at the same place, whichever time.
+    /// Whether it is the same question at the same place, at any time.
     pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
         self.kind == other.kind
             && self.place.first_line == other.place.first_line

@@ -1,4 +1,4 @@
-//! The state of the control at a moment, as far as blocks of programs can see or change it.
+//! The part of the control's state at a moment that blocks of programs can see or change.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,7 +23,7 @@ use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 
-/// The state of the control. A copy is cheap: it shares what does not change.
+/// The state of the control. A copy is cheap: it shares the parts that do not change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ControlState {
     pub(in crate::interpreter) compensation: Compensation,
@@ -72,8 +72,8 @@ impl ControlState {
         }
     }
 
-    /// The state where two ways meet at a block: what differs becomes unknown (R14.1). `reach` is what
-    /// leads to this one and to the other. Returns how many values differ.
+    /// Joins the states of two ways that meet at a block: differences become unknown (R14.1). `reach` holds
+    /// the ways to this one and to the other. Returns how many values differ.
     pub(in crate::interpreter) fn join(
         &mut self,
         other: &Self,
@@ -92,7 +92,7 @@ impl ControlState {
             channel_axes,
             cycles,
             refused,
-            // Where a program end is executed stands on the call stack.
+            // The call stack tells where a program end is executed.
             ending: _,
             named,
             described,

@@ -39,7 +39,7 @@ pub(in crate::interpreter) struct Couplings {
     version: u64,
 }
 
-/// An axis, the one that it follows, `None` for any, and whether it does so for sure.
+/// An axis, the one that it follows, `None` for any, and whether it certainly does.
 pub(in crate::interpreter) type CouplingLink = (AxisIndex, Option<AxisIndex>, Certainty);
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -117,7 +117,7 @@ impl Couplings {
         }
     }
 
-    /// No axis follows another one but by a coupling group.
+    /// No axis follows another one except by a coupling group.
     pub(in crate::interpreter) fn end_following(&mut self) {
         if !(self.followers.is_empty() && self.strays.is_empty()) {
             self.version = self.version.wrapping_add(1);
@@ -158,7 +158,7 @@ impl Couplings {
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
-    /// The axes that groups may name which are not known.
+    /// The axes that unknown groups may name.
     pub(in crate::interpreter) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
         self.named.iter().copied().filter(|_| self.vague)
     }
@@ -246,7 +246,7 @@ impl Couplings {
         Vec::new()
     }
 
-    /// Whether it names no axes beyond a number.
+    /// Whether all axes that it names are below a number.
     pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
         let pairs = self.followers.values().flatten();
@@ -259,7 +259,7 @@ impl Couplings {
             .all(|axis| axis.get() < axes)
     }
 
-    /// Puts a group into force; the axes whose coupling may have changed. One that no command defined is a
+    /// Puts a group into force. Returns the axes whose coupling may have changed. One that no command defined is a
     /// group of the channel parameters, which may couple any axis of the machine.
     pub(in crate::interpreter) fn enable(
         &mut self,
@@ -307,12 +307,12 @@ impl Couplings {
         }
     }
 
-    /// Releases a group; the axes whose coupling may have changed.
+    /// Releases a group. Returns the axes whose coupling may have changed.
     pub(in crate::interpreter) fn release(&mut self, group: &str) -> Vec<AxisIndex> {
         self.take_out(group).1
     }
 
-    /// Releases a group; the turn at which it was enabled, and its axes, if it was in force.
+    /// Releases a group. Returns the turn at which it was enabled, and its axes, if it was in force.
     fn take_out(&mut self, group: &str) -> (Option<u64>, Vec<AxisIndex>) {
         let known = self.groups.get_mut(group);
         let Some((known, turn)) = known.and_then(|known| {
@@ -335,7 +335,7 @@ impl Couplings {
         (Some(turn), self.axes_of(group))
     }
 
-    /// Releases the group that was enabled last; the axes whose coupling may have changed.
+    /// Releases the last enabled group. Returns the axes whose coupling may have changed.
     pub(in crate::interpreter) fn release_last(&mut self) -> Vec<AxisIndex> {
         match self.enabled.pop_last() {
             Some((_, group)) => self.release(&group),
@@ -343,7 +343,7 @@ impl Couplings {
         }
     }
 
-    /// Releases every group, known or not; the axes whose coupling may have changed.
+    /// Releases every group, known or not. Returns the axes whose coupling may have changed.
     pub(in crate::interpreter) fn release_all(&mut self) -> Vec<AxisIndex> {
         if !self.doubted && self.enabled.is_empty() {
             return Vec::new();

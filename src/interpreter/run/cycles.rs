@@ -1,4 +1,4 @@
-//! Modal cycles: what is called again after blocks or motions (R2.13).
+//! Modal cycles: programs that are called again after blocks or motions (R2.13).
 
 use std::collections::BTreeMap;
 
@@ -27,9 +27,9 @@ pub(in crate::interpreter) struct Repeated {
 pub(in crate::interpreter) enum RepeatedCall {
     /// A program that was found.
     Program(ProgramId),
-    /// The same, or nothing: it is not known whether the cycle is in force.
+    /// A program that was found, or nothing: it is not known whether the cycle is in force.
     Perhaps(ProgramId),
-    /// A program that is on the machine only, by its name.
+    /// A program that only the machine has, by its name.
     External(String),
 }
 

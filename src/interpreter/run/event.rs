@@ -22,7 +22,7 @@ use crate::syntax::{Comments, Remark};
 use crate::text::Place;
 
 crate::words! {
-    /// Why a program ended.
+    /// Reason why a program ended.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
     pub enum EndedBy {
@@ -51,11 +51,11 @@ pub struct Outcome {
     pub changes: usize,
 }
 
-/// Finding of a run that a user may want to look at.
+/// Finding of a run that may interest a user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Note {
-    /// Why.
+    /// The reason.
     pub kind: NoteKind,
     /// The value's name, or the word that was passed over.
     pub name: String,
@@ -63,7 +63,7 @@ pub struct Note {
     pub place: Place,
 }
 
-/// Why a [`Note`] is taken.
+/// Reason for a [`Note`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum NoteKind {
@@ -89,14 +89,14 @@ pub enum Notes {
 pub(crate) struct Aside {
     /// The axis words of the last block that moved before it, unless the axes have come to rest since.
     pub(crate) last_moved: Vec<AxisWord>,
-    /// The arc that it was.
+    /// The arc of that block.
     pub(crate) last_arc: Option<Travel>,
-    /// The arc that the block is.
+    /// The arc of the block.
     pub(crate) arc: Option<Travel>,
     /// The states of compensation that it reads (R1.35).
     pub(crate) asked: Vec<(AxisIndex, Kind)>,
-    /// Messages about unknown values that are not said, because nothing differs or because they
-    /// were said before; a comment that allows one is in use (R2.95).
+    /// Withheld messages about unknown values, because nothing differs or because they were reported
+    /// before; a comment that allows one is in use (R2.95).
     pub(crate) withheld: Vec<Diagnostic>,
 }
 
@@ -111,7 +111,7 @@ pub struct Executed<'a> {
     pub line: u32,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
-    /// Whether comments stand in the text.
+    /// Whether the text has comments.
     pub comments: Comments,
     /// The comment line directly above that is addressed to this tool.
     pub remark: Option<&'a Remark>,
@@ -121,13 +121,13 @@ pub struct Executed<'a> {
     pub level: Option<u32>,
     /// Tree of the block.
     pub block: &'a Block,
-    /// Its COMP commands, from left to right, as far as it was executed.
+    /// Its executed COMP commands, from left to right.
     pub outcomes: &'a [Outcome],
     /// Changes by the block.
     pub changes: &'a [Change],
     /// Kinds that the block leaves unknown though no command of it names them (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
-    /// Its axis words, as far as they move; [`motions`](Self::motions) has every axis that it moves.
+    /// Its axis words that move an axis; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
     /// The axes that have a word in it, a bit each by their positions modulo 64.
     pub(crate) named: u64,
@@ -135,9 +135,9 @@ pub struct Executed<'a> {
     pub(crate) aside: &'a Aside,
     /// Whether the axes come to rest in it, or may.
     pub(crate) rests: bool,
-    /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
-    /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
-    /// here (R10.7, R2.51, R2.52).
+    /// The axes that it moves, or may, without their own word: by a command in their bracket, through
+    /// another axis, in a rotated frame, or by something that it calls or contains and that is not
+    /// executed here (R10.7, R2.51, R2.52).
     pub also_moved: &'a [MovedAxis],
     /// Motion of its axis words, where the G functions in force do not decide it.
     pub word_motion: Option<MotionKind>,
@@ -196,7 +196,7 @@ impl Executed<'_> {
     }
 }
 
-/// Ways that go on as one.
+/// Ways that continue as one.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Joined<'a> {
@@ -220,7 +220,7 @@ pub struct Joined<'a> {
 pub struct ProgramEnd {
     /// The block, `M30` or the last one of the file.
     pub place: Place,
-    /// Whether no jump goes to that block, so that what is written before it comes before the end.
+    /// Whether no jump goes to that block, so that blocks before it in the text come before the end.
     pub is_passed_into: bool,
     /// Value that only the machine knows and that decides whether the program ends there; `None`
     /// for the end of the dry run.
@@ -239,7 +239,7 @@ pub struct Ended<'a> {
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
-    /// The block that ends it, `M30` for instance, where it is written in a program.
+    /// The block that ends it, for example `M30`, where it is written in a program.
     pub at: Option<&'a Place>,
     /// Every end that the program may reach (R1.58): first that of the dry run.
     pub ends: &'a [ProgramEnd],
@@ -265,7 +265,7 @@ pub struct Ended<'a> {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Event<'a> {
-    /// A program begins; its name stands after `%`.
+    /// A program begins; its name is the text after `%`.
     Started {
         /// The name, where it has one.
         name: Option<&'a str>,

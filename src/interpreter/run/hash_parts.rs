@@ -1,4 +1,4 @@
-//! Parts of `#` commands that say what the command changes.
+//! Parts of `#` commands that determine what the command changes.
 
 use super::block_context::BlockContext;
 use crate::interpreter::values::variable::canonical;

@@ -52,7 +52,7 @@ use crate::syntax::ast::Block;
 /// assert_eq!(changes, 1);
 /// ```
 ///
-/// A clone stands where the run stands and shares the texts with it: a debugger looks ahead in it.
+/// A clone is at the same block as the run and shares its texts: a debugger uses it to look ahead.
 #[derive(Clone)]
 pub struct Interpreter {
     pub(in crate::interpreter) machine: Arc<Machine>,
@@ -67,11 +67,11 @@ pub struct Interpreter {
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: ProgramStore,
-    /// Label at which a main program that is read line by line goes on.
+    /// Label at which a main program that is read line by line continues.
     pub(in crate::interpreter) sought: Option<AwaitedBlock>,
     /// Calls in regions that may or may not be executed.
     pub(in crate::interpreter) pending: Vec<RegionCall>,
-    /// Ways that leave at the block that is executed.
+    /// Ways that leave at the block being executed.
     pub(in crate::interpreter) departing: Vec<Branch>,
     /// Targets of the answers to the condition of the current block.
     pub(in crate::interpreter) sides: Vec<BranchSide>,
@@ -79,10 +79,10 @@ pub struct Interpreter {
     pub(in crate::interpreter) shown: ShownWays,
     /// Messages on ways that joined before the current block.
     pub(in crate::interpreter) met: Vec<Diagnostic>,
-    /// The same where it was reported before, or where nothing differs.
+    /// Such messages that are withheld, because they were reported before or nothing differs.
     pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
-    /// What the control refuses in blocks of called programs, each with its file, until it is known
-    /// whether the dry run executes them.
+    /// Refusals of the control in blocks of called programs, each with its file, until it is known whether
+    /// the dry run executes them.
     pub(in crate::interpreter) held: Vec<((usize, EntryIndex), Diagnostic)>,
     /// The answers among which the user may choose where no way is followed.
     pub(in crate::interpreter) offered: Vec<WayCondition>,
@@ -93,13 +93,13 @@ pub struct Interpreter {
     pub(in crate::interpreter) lost: Collected,
     pub(in crate::interpreter) journal: Journal,
     pub(in crate::interpreter) state: State,
-    /// What the programs do with variables that outlive programs, where that is asked for.
+    /// The use of variables that outlive programs, if requested.
     pub(in crate::interpreter) used: Option<RefCell<VariableUse>>,
     pub(in crate::interpreter) version: u64,
     pub(in crate::interpreter) scratch: BlockScratch,
 }
 
-/// Ways to a block, as far as they are shown.
+/// Ways to a block that are shown.
 #[derive(Debug, Clone, Default)]
 pub(in crate::interpreter) struct ShownWays {
     version: u64,
@@ -108,7 +108,7 @@ pub(in crate::interpreter) struct ShownWays {
 }
 
 impl Interpreter {
-    /// Brings up to date what is shown of ways.
+    /// Updates the ways that are shown.
     #[inline]
     pub(in crate::interpreter) fn show_ways(&mut self) {
         let is_plain = self.state.control.possible.is_empty() && self.state.track.reach.is_always();
@@ -188,7 +188,7 @@ impl Interpreter {
     ) -> Self {
         let mut letters = [None; 26];
         let mut names = BTreeMap::new();
-        // A spindle is no axis that coordinates move.
+        // A spindle is not an axis that coordinates move.
         let axes = machine.axes.iter().enumerate();
         for (position, axis) in axes.filter(|(_, axis)| !axis.is_spindle()) {
             let index = AxisIndex::new(position);
@@ -234,28 +234,28 @@ impl Interpreter {
         self.journal.begin_anew();
     }
 
-    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and notes from
-    /// here on what is done with them.
+    /// Sets what programs before this one may have left in variables that outlive programs (R2.34), and records
+    /// their use from here on.
     pub(crate) fn find(&mut self, found: &FoundVariables) {
         self.state.control.memory.find(found);
         self.used = Some(RefCell::new(VariableUse::new(self.machine.parameters)));
     }
 
-    /// What the programs since did with variables that outlive programs.
+    /// The use of variables that outlive programs by the programs since.
     pub(crate) fn take_use(&mut self) -> VariableUse {
         let used = self.used.take().map(RefCell::into_inner);
         used.unwrap_or_default()
     }
 
-    /// Notes what is done with variables that outlive programs, where that is asked for.
+    /// Records the use of variables that outlive programs, if requested.
     pub(in crate::interpreter) fn note_use(&self, note: impl FnOnce(&mut VariableUse)) {
         if let Some(used) = &self.used {
             note(&mut used.borrow_mut());
         }
     }
 
-    /// Says where an axis stands before the first program, in mm or degrees; a name that no axis has
-    /// is passed over.
+    /// Sets the position of an axis before the first program, in mm or degrees; a name that no axis has
+    /// is ignored.
     pub fn place(&mut self, name: &str, position: f64) {
         if let Some(axis) = self.axis_named(name) {
             self.state.control.modal.place(axis, Some(position));
@@ -267,7 +267,7 @@ impl Interpreter {
         &self.machine
     }
 
-    /// The compensation state of the moment.
+    /// The current compensation state.
     pub fn compensation(&self) -> &Compensation {
         &self.state.control.compensation
     }
@@ -277,7 +277,7 @@ impl Interpreter {
         &self.state.occurred
     }
 
-    /// Takes an axis for one that occurred.
+    /// Marks an axis as one that occurred.
     pub fn expect_axis(&mut self, axis: AxisIndex) {
         self.state.occurred[axis.get()] = true;
         self.version += 1;
@@ -298,7 +298,7 @@ impl Interpreter {
         &self.state.opaque
     }
 
-    /// Returns the open questions on whose readings the results so far rest (R15.3).
+    /// Returns the open questions whose readings the results so far depend on (R15.3).
     pub fn rests_on(&self) -> QuestionSet {
         self.state.rests_on
     }
@@ -340,13 +340,13 @@ impl Interpreter {
         self.letter_axis(letter)
     }
 
-    /// The axis that a letter stands for at the moment, if that is known.
+    /// The axis that a letter currently denotes, if that is known.
     pub(in crate::interpreter) fn letter_axis(&self, letter: u8) -> Option<AxisIndex> {
         let mut name = [0; 4];
         self.axis_named(char::from(letter).encode_utf8(&mut name))
     }
 
-    /// The axis that a name stands for at the moment, if that is known.
+    /// The axis that a name currently denotes, if that is known.
     pub(in crate::interpreter) fn axis_now(&self, name: &str) -> Option<AxisIndex> {
         match self.state.control.channel_axes.meaning(name) {
             None => self.machine.find(name),
@@ -440,7 +440,7 @@ impl Interpreter {
         }
     }
 
-    /// The statement that is executed and the end of its control block.
+    /// The statement being executed and the end of its control block.
     pub(in crate::interpreter) fn current_block(&self) -> Range<EntryIndex> {
         self.state.control.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
@@ -461,7 +461,7 @@ impl Interpreter {
 }
 
 impl State {
-    /// Whether the way that is followed executes the blocks with a skip mark around this one.
+    /// Whether the current way executes the blocks with a skip mark around this one.
     fn is_on_marked_way(&self) -> bool {
         let frames = &self.control.frames;
         let here = frames.running().zip(self.track.marked);

@@ -1,5 +1,5 @@
-//! Notes on regions that were made unknown, so that a loop that comes back to one does not examine
-//! it again.
+//! Notes on regions that were made unknown, so that a loop that returns to one does not examine it
+//! again.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,14 +21,13 @@ pub(in crate::interpreter) struct RegionCall {
     pub(in crate::interpreter) region: Option<RegionKey>,
 }
 
-/// Writes since regions were last made unknown: a loop that comes back to a region examines only
-/// these.
+/// Writes since regions were last made unknown: a loop that returns to a region examines only these.
 #[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Journal {
     written: Vec<RegionTarget>,
     /// Rises when the list is restarted.
     epoch: u64,
-    /// Up to where the list counted when a region was made unknown.
+    /// The end of the list when a region was made unknown.
     seen: HashMap<RegionKey, (u64, usize)>,
 }
 
@@ -36,7 +35,7 @@ impl Journal {
     /// A value became known.
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &AssignedPlace, value: &Value) {
-        // Where no region was looked through, nothing has to be kept.
+        // If no region was examined, nothing has to be kept.
         if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
             return;
         }
@@ -58,7 +57,7 @@ impl Journal {
         }
     }
 
-    /// Something happened that the list does not have.
+    /// Something happened that the list does not record.
     pub(in crate::interpreter) fn begin_anew(&mut self) {
         self.written.clear();
         self.epoch += 1;
@@ -82,5 +81,5 @@ pub(in crate::interpreter) type RegionKey = (usize, EntryIndex, EntryIndex);
 /// Limit of the list.
 const MAX_WRITTEN: usize = 4096;
 
-/// Regions that were looked through.
+/// Regions that were examined.
 pub(in crate::interpreter) type Regions = HashMap<RegionKey, Arc<Region>>;

@@ -1,4 +1,4 @@
-//! The last COMP command on each way, so that the command is named that made a state (R1.50, R14.5).
+//! The last COMP command on each way, to name the command that caused a state (R1.50, R14.5).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::comp::{AxisIndex, Kind, KindSet, Selection};
 use crate::text::Place;
 
-/// Commands of one direction that are kept of a kind where ways meet; of more, the later lines.
+/// Number of commands of one direction kept for a kind where ways meet; of more, the later lines are kept.
 const MAX_KEPT: usize = 16;
 
 /// A COMP command that was executed last on some way.
@@ -20,7 +20,7 @@ pub(crate) struct LastCommand {
 }
 
 impl PartialEq for LastCommand {
-    /// A command that a loop repeats is the same.
+    /// A command that a loop repeats counts as equal.
     fn eq(&self, other: &Self) -> bool {
         self.place == other.place
     }
@@ -29,8 +29,8 @@ impl PartialEq for LastCommand {
 /// Commands by file and line.
 type ByLine = BTreeMap<(Arc<str>, u32), LastCommand>;
 
-/// The last commands on the kinds of axes: those that switch a kind off, and those that switch it on. Nothing where no
-/// command of the program switched it on any way.
+/// The last commands on the kinds of axes: those that switch a kind off, and those that switch it on. Nothing if no
+/// command of the program switched the kind, on any way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<CommandRow>", from = "Vec<CommandRow>")]
 pub(crate) struct LastCommands(BTreeMap<(AxisIndex, Kind), [ByLine; 2]>);
@@ -81,14 +81,14 @@ impl LastCommands {
         }
     }
 
-    /// Something else than a command set kinds of an axis.
+    /// Something other than a command set kinds of an axis.
     pub(in crate::interpreter) fn forget(&mut self, axis: AxisIndex, kinds: KindSet) {
         for kind in kinds.iter() {
             self.0.remove(&(axis, kind));
         }
     }
 
-    /// Another way comes to the same block.
+    /// Another way reaches the same block.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         if self == other {
             return;
@@ -112,7 +112,7 @@ impl LastCommands {
         both[usize::from(is_on)].values().max_by_key(|it| it.seq)
     }
 
-    /// Whether it names no other axes than so many.
+    /// Whether all axes that it names are below a number.
     pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
     }

@@ -22,7 +22,7 @@ pub struct Limits {
     pub macros: u32,
 }
 
-/// Repeated work that about two seconds of a processor suffice for.
+/// Repeated work that takes about two seconds of processor time.
 const BRIEF_REPEATS: u64 = 1_500_000_000;
 
 impl Limits {
@@ -31,43 +31,43 @@ impl Limits {
         Self::default().with_repeats(BRIEF_REPEATS)
     }
 
-    /// The same with another value of [`blocks`](Self::blocks).
+    /// Sets [`blocks`](Self::blocks).
     pub fn with_blocks(mut self, blocks: u64) -> Self {
         self.blocks = blocks;
         self
     }
 
-    /// The same with another value of [`work`](Self::work).
+    /// Sets [`work`](Self::work).
     pub fn with_work(mut self, work: u64) -> Self {
         self.work = work;
         self
     }
 
-    /// The same with another value of [`repeats`](Self::repeats).
+    /// Sets [`repeats`](Self::repeats).
     pub fn with_repeats(mut self, repeats: u64) -> Self {
         self.repeats = repeats;
         self
     }
 
-    /// The same with another value of [`values`](Self::values).
+    /// Sets [`values`](Self::values).
     pub fn with_values(mut self, values: u32) -> Self {
         self.values = values;
         self
     }
 
-    /// The same with another value of [`calls`](Self::calls).
+    /// Sets [`calls`](Self::calls).
     pub fn with_calls(mut self, calls: u32) -> Self {
         self.calls = calls;
         self
     }
 
-    /// The same with another value of [`nesting`](Self::nesting).
+    /// Sets [`nesting`](Self::nesting).
     pub fn with_nesting(mut self, nesting: u32) -> Self {
         self.nesting = nesting;
         self
     }
 
-    /// The same with another value of [`macros`](Self::macros).
+    /// Sets [`macros`](Self::macros).
     pub fn with_macros(mut self, macros: u32) -> Self {
         self.macros = macros;
         self

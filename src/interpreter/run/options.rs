@@ -26,8 +26,8 @@ pub enum Branches {
     /// Every way is executed, and what they agree on is known.
     #[default]
     Followed,
-    /// None is, and whatever any of them could change is unknown (R2.51). So it is, too, where blocks
-    /// say what they move.
+    /// No way is executed, and whatever any of them could change is unknown (R2.51). This also applies
+    /// where blocks report their motion.
     Passed,
 }
 
@@ -37,8 +37,8 @@ pub enum Branches {
 pub struct Options {
     /// Reaction to an error.
     pub stop: StopPolicy,
-    /// The skip levels that are on; without them those of the machine count. Where neither says
-    /// them, it is unknown whether a block with a skip mark is executed (R2.90).
+    /// The skip levels that are on; without them those of the machine count. If neither is given, it is
+    /// unknown whether a block with a skip mark is executed (R2.90).
     pub skip: Option<SkipLevels>,
     /// Budgets.
     pub limits: Limits,
@@ -46,7 +46,7 @@ pub struct Options {
     pub fast_path: FastPath,
     /// Whether notes are taken.
     pub notes: Notes,
-    /// Whether blocks say what they move.
+    /// Whether blocks report their motion.
     pub motions: Motions,
     /// Treatment of a condition that depends on a value that only the machine knows.
     pub branches: Branches,
@@ -55,54 +55,54 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether a run parts where only the machine knows the way. A path that is driven has no sides (R14.8).
+    /// Whether a run parts where only the machine knows the way. A driven path has no side ways (R14.8).
     pub(in crate::interpreter) fn follows_ways(&self) -> bool {
         self.branches == Branches::Followed && self.motions != Motions::Taken
     }
 
-    /// The same with another value of [`stop`](Self::stop).
+    /// Sets [`stop`](Self::stop).
     pub fn with_stop(mut self, stop: StopPolicy) -> Self {
         self.stop = stop;
         self
     }
 
-    /// The same with another value of [`skip`](Self::skip).
+    /// Sets [`skip`](Self::skip).
     pub fn with_skip(mut self, skip: impl Into<Option<SkipLevels>>) -> Self {
         self.skip = skip.into();
         self
     }
 
-    /// The same with another value of [`limits`](Self::limits).
+    /// Sets [`limits`](Self::limits).
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// The same with another value of [`fast_path`](Self::fast_path).
+    /// Sets [`fast_path`](Self::fast_path).
     pub fn with_fast_path(mut self, fast_path: FastPath) -> Self {
         self.fast_path = fast_path;
         self
     }
 
-    /// The same with another value of [`notes`](Self::notes).
+    /// Sets [`notes`](Self::notes).
     pub fn with_notes(mut self, notes: Notes) -> Self {
         self.notes = notes;
         self
     }
 
-    /// The same with another value of [`branches`](Self::branches).
+    /// Sets [`branches`](Self::branches).
     pub fn with_branches(mut self, branches: Branches) -> Self {
         self.branches = branches;
         self
     }
 
-    /// The same with another value of [`search`](Self::search).
+    /// Sets [`search`](Self::search).
     pub fn with_search(mut self, search: impl Into<Option<SearchedBlock>>) -> Self {
         self.search = search.into();
         self
     }
 
-    /// The same with another value of [`motions`](Self::motions).
+    /// Sets [`motions`](Self::motions).
     pub fn with_motions(mut self, motions: Motions) -> Self {
         self.motions = motions;
         self
@@ -115,9 +115,9 @@ impl Options {
 pub enum RunOutcome {
     /// The program ended.
     Ended(EndedBy),
-    /// The observer stopped it; it can go on, or be saved and resumed.
+    /// The observer stopped it; it can continue, or be saved and resumed.
     Paused,
-    /// The observer stopped a program that is read line by line: it cannot go on.
+    /// The observer stopped a program that is read line by line: it cannot continue.
     Stopped,
 }
 

@@ -24,13 +24,13 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) end: Option<EndedBy>,
     /// M17, M29.
     pub(in crate::interpreter) returns: bool,
-    /// A jump, or a control block's business.
+    /// A jump, or the step of a control block.
     pub(in crate::interpreter) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
     pub(in crate::interpreter) calls: Vec<WantedCall>,
     /// The G functions of the block, to find two of one group.
     pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
-    /// Meaning of the axis words: G04, G92 … make them something else than coordinates.
+    /// Meaning of the axis words: with G04, G92 … they are not coordinates.
     pub(in crate::interpreter) axis_words: AxisWords,
     /// F, which may be unknown.
     pub(in crate::interpreter) feed: Feed,
@@ -43,7 +43,7 @@ pub(in crate::interpreter) struct BlockOutcome {
 }
 
 impl BlockOutcome {
-    /// Whether nothing in the block itself leads elsewhere than to the next one.
+    /// Whether the block itself leads only to the next one.
     pub(in crate::interpreter) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()
     }

@@ -21,7 +21,7 @@ use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Owner;
 use crate::text::{Place, Span};
 
-/// The way of the run to its present block.
+/// The way of the run to its current block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct RunTrack {
     /// The loops that were repeated, the outermost first.
@@ -83,7 +83,7 @@ impl From<AssumedValues> for Vec<AssumedRow> {
 }
 
 impl AssumedValues {
-    /// A value that holds on this way from here on.
+    /// A value that applies on this way from here on.
     pub(in crate::interpreter) fn assume(
         &mut self,
         memory: &mut Memory,
@@ -146,7 +146,7 @@ fn value_of(memory: &Memory, target: &RegionTarget) -> Option<Value> {
 }
 
 impl RunTrack {
-    /// A value is written: what was known of it from conditions is over.
+    /// A value is written: conclusions about it from conditions no longer apply.
     #[inline]
     pub(in crate::interpreter) fn write(&mut self, place: &Written, memory: &mut Memory) {
         if !self.readings.is_empty() {
@@ -176,7 +176,7 @@ impl RunTrack {
         self.readings.clear();
     }
 
-    /// Another program runs, with own parameters and variables of its own.
+    /// Another program runs, with its own parameters and variables.
     pub(in crate::interpreter) fn change_level(&mut self, depth: usize) {
         let is_own = |target: &RegionTarget| match target {
             RegionTarget::Parameter(owner, _) => *owner == Owner::Call,
@@ -196,7 +196,7 @@ impl RunTrack {
             ways,
             reach,
             asked,
-            // Joined before, by what both ways name.
+            // Joined before, using the conditions that both ways name.
             readings: _,
             // Undone before.
             assumed: _,
@@ -214,7 +214,7 @@ impl RunTrack {
         }
         self.ways.join(ways);
         self.reach.or(reach);
-        // What reads nothing is not written on any way.
+        // A condition that reads nothing is not written on any way.
         let is_kept = |asked: &AskedCondition| asked.reads.is_empty();
         self.asked
             .retain(|mine| asked.contains(mine) || is_kept(mine));
@@ -233,7 +233,7 @@ impl RunTrack {
     }
 }
 
-/// A way through the program: what the control has on it, and how it came there.
+/// A way through the program: the state of the control on it, and how it got there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Path {
     pub(in crate::interpreter) control: ControlState,
@@ -304,7 +304,7 @@ impl Path {
 pub(in crate::interpreter) struct EndedPath {
     pub(in crate::interpreter) path: Path,
     pub(in crate::interpreter) by: EndedBy,
-    /// The block that says that the program ends, and whether no jump goes to it.
+    /// The block that ends the program, and whether no jump goes to it.
     pub(in crate::interpreter) at: Option<(Place, Passed)>,
     pub(in crate::interpreter) last: Option<Last>,
 }
@@ -333,7 +333,7 @@ pub(in crate::interpreter) struct BranchSide {
 }
 
 impl BranchSide {
-    /// A side that leads to a block and says nothing else.
+    /// A side that leads to a block and implies nothing else.
     pub(in crate::interpreter) fn to(ways: WaySet, to: EntryIndex) -> Self {
         Self {
             ways,
@@ -348,7 +348,7 @@ impl BranchSide {
 
 impl CallStack {
     /// Returns whether a way is executed before another: the one that comes first in the text, a
-    /// called program before its caller goes on. `None` for two ways at the same block.
+    /// called program before the rest of its caller. `None` for two ways at the same block.
     pub(in crate::interpreter) fn comes_before(&self, other: &Self) -> Option<bool> {
         for (mine, theirs) in self.iter().zip(other.iter()) {
             match order(mine).cmp(&order(theirs)) {
@@ -396,7 +396,7 @@ pub(in crate::interpreter) struct Loop {
     pub(in crate::interpreter) head: EntryIndex,
     pub(in crate::interpreter) from: EntryIndex,
     pub(in crate::interpreter) passes: u64,
-    /// The executed block at which it came round first.
+    /// The executed block at which it was first repeated.
     pub(in crate::interpreter) since: u64,
     /// The state at the start of an earlier pass.
     pub(in crate::interpreter) mark: Option<Box<Mark>>,
@@ -424,7 +424,7 @@ impl Loop {
 }
 
 impl Loop {
-    /// Whether the loop lies around a jump back, or is the one that jumps.
+    /// Whether the loop contains a jump back, or is the one that jumps.
     pub(in crate::interpreter) fn is_around(
         &self,
         place: ProgramId,
@@ -465,10 +465,10 @@ pub(in crate::interpreter) struct Mark {
     pub(in crate::interpreter) occurred: Vec<bool>,
 }
 
-/// The pass after which a loop is looked at for the first time, then at each doubling.
+/// The pass after which a loop is first examined, then at each doubling.
 const FIRST_LOOK: u64 = 32;
 
-/// The last executed block, in case that the program ends without M30.
+/// The last executed block, in case the program ends without M30.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Last {
     pub(in crate::interpreter) file: Arc<str>,

@@ -1,4 +1,4 @@
-//! The states that are possible where more than one is, each with the ways that lead to it (R14.2).
+//! The possible states where there is more than one, each with the ways that lead to it (R14.2).
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ pub(in crate::interpreter) struct Split {
 }
 
 impl Split {
-    /// The same on some ways only.
+    /// Restricts both to some ways.
     pub(in crate::interpreter) fn and(&self, ways: &WaySet) -> Self {
         Self {
             on: self.on.and(ways),
@@ -23,7 +23,7 @@ impl Split {
         }
     }
 
-    /// The same with other numbers of the conditions.
+    /// Renumbers the conditions of both.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         Self {
             on: self.on.renumbered(&number),
@@ -31,7 +31,7 @@ impl Split {
         }
     }
 
-    /// Whether it names no conditions beyond a number.
+    /// Whether all conditions that it names are below a number.
     pub(in crate::interpreter) fn fits(&self, conditions: usize) -> bool {
         self.conditions().all(|it| (it as usize) < conditions)
     }
@@ -96,12 +96,12 @@ impl PossibleKinds {
         }
     }
 
-    /// On which ways a kind of an axis is selected, and on which not.
+    /// The ways on which a kind of an axis is selected, and those on which it is not.
     pub(in crate::interpreter) fn insert(&mut self, axis: AxisIndex, kind: Kind, split: Split) {
         self.0.insert((axis, kind), split);
     }
 
-    /// The kinds that they are about.
+    /// The kinds that have possible states.
     pub(in crate::interpreter) fn iter(
         &self,
     ) -> impl Iterator<Item = (&(AxisIndex, Kind), &Split)> {
@@ -112,7 +112,7 @@ impl PossibleKinds {
         self.0.clear();
     }
 
-    /// Whether it names no axes and no conditions beyond a number of each.
+    /// Whether all axes and conditions that it names are below a number of each.
     pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
         let mut splits = self.0.iter();
         splits.all(|((axis, _), split)| axis.get() < axes && split.fits(conditions))
@@ -130,7 +130,7 @@ impl PossibleKinds {
         }
     }
 
-    /// The run goes on on some ways only: what they all agree on is known.
+    /// The run continues on some ways only: whatever they all agree on is known.
     pub(in crate::interpreter) fn narrow(
         &mut self,
         ways: &WaySet,
@@ -157,7 +157,7 @@ pub(in crate::interpreter) struct PossibleSide<'a> {
 }
 
 impl PossibleSide<'_> {
-    /// On which ways a kind is selected; `None` where that is not known.
+    /// The ways on which a kind is selected; `None` where that is not known.
     fn split(&self, axis: AxisIndex, kind: Kind) -> Option<Split> {
         if self.compensation.unknown(axis).contains(kind) {
             let split = self.possible.of(axis, kind)?;
@@ -178,7 +178,7 @@ impl PossibleSide<'_> {
     }
 }
 
-/// The state where two ways meet.
+/// Joins the states of two ways that meet.
 pub(in crate::interpreter) fn join(
     mine: &PossibleSide<'_>,
     theirs: &PossibleSide<'_>,

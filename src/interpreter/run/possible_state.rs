@@ -1,4 +1,4 @@
-//! The states that are possible, as users see them (R14.2).
+//! The possible states, as users see them (R14.2).
 
 use std::sync::Arc;
 
@@ -23,11 +23,11 @@ pub struct PossibleStates {
     pub axis: AxisIndex,
     /// The kind.
     pub kind: Kind,
-    /// Each state that is possible. At most one has no ways: it is the state otherwise.
+    /// Each possible state. At most one has no ways: it is the state otherwise.
     pub states: Vec<PossibleState>,
 }
 
-/// A state that is possible.
+/// A possible state.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct PossibleState {
@@ -53,7 +53,7 @@ impl Serialize for PossibleState {
 }
 
 impl Serialize for PossibleStates {
-    /// The states; what they are of stands outside.
+    /// Serializes only the states; the axis and kind are given elsewhere.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.states.serialize(serializer)
     }
@@ -96,7 +96,7 @@ impl PossibleStates {
         })
     }
 
-    /// Whether nothing but what programs leave decides that only the machine has.
+    /// Whether the states depend only on what programs that only the machine has leave.
     pub(crate) fn rests_on_calls(&self) -> bool {
         let is_call = |condition: &WayCondition| matches!(condition, WayCondition::Call { .. });
         let named = self.states.iter().flat_map(|state| &state.ways);
@@ -115,7 +115,7 @@ impl PossibleStates {
         found.ways.as_deref()
     }
 
-    /// The same whatever the lines of the conditions.
+    /// Returns a copy without the lines of the conditions, for comparison.
     pub(crate) fn without_lines(&self) -> Self {
         let mut copy = self.clone();
         let ways = copy.states.iter_mut().flat_map(|state| &mut state.ways);
@@ -157,7 +157,7 @@ impl PossibleState {
         Some(after_if(ways, self.more, file))
     }
 
-    /// Whether there are so many ways that none is named.
+    /// Whether there are too many ways to name any.
     fn is_always(&self) -> bool {
         let mut ways = self.ways.iter().flatten();
         ways.any(Vec::is_empty)
@@ -168,7 +168,7 @@ impl PossibleState {
     }
 }
 
-/// The states that are possible where ways lead on some ways only.
+/// Returns the possible states of the unknown kinds on the ways of `reach`.
 pub(in crate::interpreter) fn shown(
     (compensation, possible): (&Compensation, &PossibleKinds),
     reach: &WaySet,
@@ -184,7 +184,7 @@ pub(in crate::interpreter) fn shown(
             decided.state(*axis, *kind)
         };
         let Split { on, off } = split;
-        // Sets that were widened until they overlap say of no way which state it leaves.
+        // Sets that were widened until they overlap do not tell which state a way leaves.
         let overlap = !on.and(off).and(reach).is_never();
         let [on, off] = [on, off].map(|ways| {
             if overlap {
@@ -193,7 +193,7 @@ pub(in crate::interpreter) fn shown(
                 ways.within(reach).beyond(reach)
             }
         });
-        // What is possible only if a value changes says so.
+        // A state that is possible only if a value changes is marked as such.
         let size = |ways: &WaySet| {
             let named = ways.conditions().count();
             named * usize::from(!all_need_change(&ways_of(ways, conditions)))

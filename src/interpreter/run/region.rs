@@ -24,7 +24,7 @@ pub(in crate::interpreter) enum RegionEffect {
     Spindle,
     /// Programmed overrides.
     Overrides,
-    /// The path or its velocity is followed in a simpler way than by the control.
+    /// The trace follows the path or its velocity in a simpler way than the control.
     Simplified(Simplification),
     /// The radius of circles.
     Radius,
@@ -32,7 +32,7 @@ pub(in crate::interpreter) enum RegionEffect {
     Position(AxisIndex),
     /// The position of any axis.
     Positions,
-    /// Offset of G92 for an axis.
+    /// The offset of G92 of an axis.
     Reference(AxisIndex),
     /// A `#` command.
     Hash(String),
@@ -65,7 +65,7 @@ pub(in crate::interpreter) enum Exit {
     Block(EntryIndex),
     /// M17, M29.
     Return,
-    /// The same over programs or to a label.
+    /// M17, M29 over several programs or to a label.
     Far,
     /// M02, M30.
     End,

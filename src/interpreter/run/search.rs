@@ -67,7 +67,7 @@ impl SearchedBlock {
     }
 }
 
-/// The states before a program, which hold at the searched block if the search only decodes.
+/// The states before a program, which apply at the searched block if the search only decodes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct BeforeSearch {
     pub(in crate::interpreter) compensation: Compensation,

@@ -16,7 +16,7 @@ use crate::text::Place;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct CallStack(Vec<CallFrame>);
 
-/// One level of the call stack: where a program or subprogram stands.
+/// One level of the call stack: the position in a program or subprogram.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct CallFrame {
     /// The file, by its position among the files of the run.
@@ -28,7 +28,7 @@ pub(in crate::interpreter) struct CallFrame {
     pub(in crate::interpreter) level: u32,
     /// Own parameters of the call.
     pub(in crate::interpreter) own: BTreeMap<u32, Value>,
-    /// Set between `$IF` or `$SWITCH` and the branch that is looked for.
+    /// Set between `$IF` or `$SWITCH` and the branch being looked for.
     pub(in crate::interpreter) seeking: Option<Seeking>,
     /// Place of the call.
     pub(in crate::interpreter) called_from: Option<Place>,
@@ -51,7 +51,7 @@ impl CallFrame {
     }
 }
 
-/// Whether a cycle keeps what it did to G functions and feed.
+/// Whether a cycle keeps its changes to G functions and feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Retains {
     /// It does not.
@@ -70,10 +70,10 @@ pub(in crate::interpreter) enum Seeking {
 }
 
 impl CallFrame {
-    /// Another way stands at the same block: what differs becomes unknown.
+    /// Joins another way at the same block: whatever differs becomes unknown.
     fn join(&mut self, other: &Self, cause: &Arc<str>) {
         let Self {
-            // Both stand at the same block.
+            // Both are at the same block.
             unit: _,
             section: _,
             next: _,
@@ -110,7 +110,7 @@ impl CallFrame {
 }
 
 impl CallStack {
-    /// Another way stands at the same block: what differs becomes unknown.
+    /// Joins another way at the same block: whatever differs becomes unknown.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) {
         for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
             mine.join(theirs, cause);
@@ -134,7 +134,7 @@ impl CallStack {
         self.0.first()
     }
 
-    /// The cycle that runs, whose end brings back what was in force before it.
+    /// The running cycle, whose end restores what was in force before it.
     pub(in crate::interpreter) fn cycle_mut(&mut self) -> Option<&mut CallFrame> {
         let mut frames = self.0.iter_mut().rev();
         frames.find(|frame| frame.restores.is_some())
@@ -155,7 +155,7 @@ impl CallStack {
         self.running()?.next.checked_sub(1)
     }
 
-    /// Whether a block of the running program stands before the next one.
+    /// Whether a block of the running program comes before the next one.
     pub(in crate::interpreter) fn is_passed(&self, target: EntryIndex) -> bool {
         self.running().is_some_and(|frame| target < frame.next)
     }

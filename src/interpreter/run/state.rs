@@ -46,16 +46,16 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) reads: RefCell<Reads>,
     /// The last executed block of the main program.
     pub(in crate::interpreter) last: Option<Last>,
-    /// First step of a paused run when it goes on.
+    /// First step of a paused run when it continues.
     pub(in crate::interpreter) parked: Option<ControlStep>,
     /// The unknown values that messages were about.
     pub(in crate::interpreter) told: MentionedUnknowns,
-    /// The open questions on whose readings results rest (R15.3).
+    /// The open questions whose readings results depend on (R15.3).
     pub(in crate::interpreter) rests_on: QuestionSet,
 }
 
 impl State {
-    /// Whether a word that is reported once is met for the first time in the program.
+    /// Whether a word that is reported once occurs for the first time in the program.
     pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;
         words.len() < MAX_ONCE && words.insert(word.to_owned())

@@ -1,4 +1,4 @@
-//! The step after a block, where that is not to the next one.
+//! The step after a block, where it does not lead to the next one.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::interpreter::values::value::Value;
 use crate::syntax::ast::CallForm;
 use crate::text::Place;
 
-/// Step of the control after a block, where that is not the next one.
+/// Step of the control after a block, where it does not lead to the next one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) enum ControlStep {
     /// The program was announced and has not begun.
@@ -22,14 +22,14 @@ pub(in crate::interpreter) enum ControlStep {
     Call(Vec<Request>),
     /// M17, M29.
     Return,
-    /// The same with a place to return to.
+    /// M17, M29 with a place to return to.
     ReturnTo(Destination),
     End(EndedBy),
     /// Nowhere: another way does what this one would do (R14.3).
     Covered,
 }
 
-/// Why the next block is not the one that follows.
+/// Reason why the block that follows is not executed next.
 pub(in crate::interpreter) enum NextBlock {
     /// The observer stops the run.
     Paused,
@@ -78,7 +78,7 @@ pub(in crate::interpreter) struct Destination {
     pub(in crate::interpreter) entry: Option<EntryIndex>,
 }
 
-/// A block of a main program that is read line by line, and the message where it never comes.
+/// A block of a main program that is read line by line, and the message if it is never reached.
 #[derive(Clone, Debug)]
 pub(in crate::interpreter) struct AwaitedBlock {
     pub(in crate::interpreter) label: LabelName,

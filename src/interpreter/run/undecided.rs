@@ -1,5 +1,4 @@
-//! Parts of a program of which it is not known whether they are executed, and what differs where
-//! they are (R2.90, R2.95).
+//! Parts of a program that may or may not be executed, and what differs if they are (R2.90, R2.95).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,10 +22,10 @@ pub(in crate::interpreter) struct Undecided {
     pub(in crate::interpreter) differing: Differing,
 }
 
-/// Differences between the ways besides compensation states.
+/// Differences between the ways other than compensation states.
 #[derive(Debug, Clone, Default)]
 pub(in crate::interpreter) struct Differing {
-    /// Whether anything does that a user may ask for.
+    /// Whether anything differs that a user may ask for.
     pub(in crate::interpreter) decides: bool,
     /// Its names in a message.
     pub(in crate::interpreter) named: BTreeSet<String>,
@@ -35,7 +34,7 @@ pub(in crate::interpreter) struct Differing {
 }
 
 impl Differing {
-    /// Something differs that has a name.
+    /// Adds a named difference.
     pub(in crate::interpreter) fn name(&mut self, name: impl Into<String>) {
         self.decides = true;
         self.named.insert(name.into());
@@ -50,14 +49,14 @@ pub(in crate::interpreter) struct MentionedUnknowns {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Root {
-    /// The block that brought the value in.
+    /// The block where the value first occurred.
     place: Place,
     /// Names that messages called unknown because of it, with the line of the first.
     named: BTreeMap<String, (Arc<str>, u32)>,
 }
 
 impl MentionedUnknowns {
-    /// Remembers where a value came in first.
+    /// Remembers where a value first occurred.
     pub(in crate::interpreter) fn enter(
         &mut self,
         cause: &Arc<str>,
@@ -72,12 +71,12 @@ impl MentionedUnknowns {
         }
     }
 
-    /// The block that brought a value in.
+    /// The block where a value first occurred.
     pub(in crate::interpreter) fn origin(&self, cause: &str) -> Option<&Place> {
         self.roots.get(cause).map(|root| &root.place)
     }
 
-    /// Whether a message names anything that none of another block about the same value named before.
+    /// Whether a message names anything that no message about the same value in another block has named.
     /// A message that a loop repeats at its own place is counted, not withheld (R2.85).
     pub(in crate::interpreter) fn is_new(
         &mut self,

@@ -1,4 +1,4 @@
-//! The ways on which a program has not yet switched what it found (R1.52, R14.5).
+//! The ways on which a program has not yet switched the state that it found (R1.52, R14.5).
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use super::way_condition::{WayCondition, if_ways};
 use super::way_set::WaySet;
 use crate::comp::{AxisIndex, Kind, KindSet};
 
-/// Axis and kind → the ways on which no command of the program has switched it. What is not among
-/// them was switched on no way.
+/// Axis and kind → the ways on which no command of the program has switched it. A kind without an entry
+/// was switched on no way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<UntouchedRow>", from = "Vec<UntouchedRow>")]
 pub(in crate::interpreter) struct Untouched(BTreeMap<(AxisIndex, Kind), WaySet>);
@@ -43,7 +43,7 @@ impl Untouched {
         }
     }
 
-    /// Two ways meet. `reach` is what leads to this one and to the other.
+    /// Joins two ways that meet. `reach` holds the ways to this one and to the other.
     pub(in crate::interpreter) fn join(&mut self, other: &Self, reach: [&WaySet; 2]) {
         if self == other {
             return;
@@ -66,7 +66,7 @@ impl Untouched {
         self.0.values().flat_map(WaySet::conditions)
     }
 
-    /// Whether it names no axes and no conditions beyond a number of each.
+    /// Whether all axes and conditions that it names are below a number of each.
     pub(in crate::interpreter) fn fits(&self, axes: usize, conditions: usize) -> bool {
         self.0.keys().all(|(axis, _)| axis.get() < axes)
             && self.conditions().all(|it| (it as usize) < conditions)
@@ -79,7 +79,7 @@ impl Untouched {
     }
 }
 
-/// On which of the ways that lead to a block the state is the one that the program found.
+/// The ways to a block on which the state is the one that the program found.
 #[derive(Debug, Clone)]
 pub(crate) enum UntouchedOn {
     /// On all of them.

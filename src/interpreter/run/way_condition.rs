@@ -92,7 +92,7 @@ pub struct BlockCondition {
     pub changed: Option<WayChange>,
 }
 
-/// A change of a value of the machine, without which a way contradicts an earlier condition of it (R14.1).
+/// A change of a value of the machine without which a way contradicts its own earlier condition (R14.1).
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub struct WayChange {
@@ -115,14 +115,14 @@ pub(crate) fn ways_in_words(ways: &[Vec<WayCondition>], file: &str) -> String {
     in_words(&ways[..named], ways.len() - named, file)
 }
 
-/// The same after `if`, or `only if` where a value of the machine must change on each of them.
+/// The words after `if`, or after `only if` where a value of the machine must change on each way.
 pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
     let named = ways.len().min(MAX_NAMED);
     after_if(&ways[..named], ways.len() - named, file)
 }
 
-/// Says of a message on which ways it holds (R14.5). What is no error and holds only if a value of the
-/// machine changes meanwhile is worth knowing, no more (R14.1).
+/// Adds to a message the ways on which it applies (R14.5). One that is not an error and applies only if a
+/// value of the machine changes in between is information only (R14.1).
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
     if said.code.is_about_text() {
         return;
@@ -142,7 +142,7 @@ pub(crate) fn unless(if_words: &str) -> String {
 }
 
 /// Whether each of some ways needs a value of the machine to change between two conditions. The ways
-/// that need none stand before the others.
+/// that need no change come before the others.
 pub(crate) fn all_need_change(ways: &[Vec<WayCondition>]) -> bool {
     !ways.is_empty() && ways.iter().all(|way| needs_change(way))
 }
@@ -171,7 +171,7 @@ fn in_words(ways: &[Vec<WayCondition>], more: usize, file: &str) -> String {
     words
 }
 
-/// One way; two conditions between which a value changes are named as that.
+/// One way in words; two conditions between which a value changes are named as that change.
 fn way_in_words(way: &[WayCondition], file: &str) -> String {
     let changes = way.iter().filter_map(WayCondition::changed);
     let is_earlier = |condition: &WayCondition| {

@@ -1,4 +1,4 @@
-//! On which ways something holds: conditions that only the machine knows, and their answers (R14.2).
+//! Sets of ways on which something holds: conditions that only the machine knows, and their answers (R14.2).
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ const MAX_WAYS: usize = 16;
 /// Conditions of one way beyond which the first ones are left out, which only widens.
 const MAX_CONDITIONS: usize = 32;
 
-/// An answer to a condition, or several of which it is one.
+/// An answer to a condition, or several possible answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct WayAnswer {
     /// The condition, by its number in the run.
@@ -93,7 +93,7 @@ impl WaySet {
         both
     }
 
-    /// The same with other numbers of the conditions, in the same order.
+    /// Renumbers the conditions, in the same order.
     pub(in crate::interpreter) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         let answer = |answer: &WayAnswer| WayAnswer {
             condition: number(answer.condition),
@@ -127,7 +127,7 @@ impl WaySet {
         self
     }
 
-    /// The ways on which any of both holds.
+    /// The ways on which at least one of both holds.
     pub(in crate::interpreter) fn or(&mut self, other: &Self) {
         if !self.is_always() {
             self.0.extend_from_slice(&other.0);
@@ -135,7 +135,7 @@ impl WaySet {
         }
     }
 
-    /// The same whatever the answer to a condition: it is asked again.
+    /// Drops the answers to a condition: it is asked again.
     pub(in crate::interpreter) fn havoc(&mut self, condition: u32) {
         for way in &mut self.0 {
             way.retain(|answer| answer.condition != condition);
@@ -143,7 +143,7 @@ impl WaySet {
         self.simplify();
     }
 
-    /// Leaves out what says nothing, and conditions while there are too many ways.
+    /// Drops ways without information, and conditions while there are too many ways.
     fn simplify(&mut self) {
         for way in &mut self.0 {
             let beyond = way.len().saturating_sub(MAX_CONDITIONS);
@@ -161,7 +161,7 @@ impl WaySet {
         }
     }
 
-    /// Leaves out a way that another one contains.
+    /// Drops a way that another one contains.
     fn absorb(&mut self) -> bool {
         let count = self.0.len();
         for inner in 0..count {
@@ -175,7 +175,7 @@ impl WaySet {
         false
     }
 
-    /// Widens an answer of a way by what another way says for all the rest of it.
+    /// Widens an answer of a way by another way that agrees with all the rest of it.
     fn shorten(&mut self) -> bool {
         let count = self.0.len();
         for inner in 0..count {
@@ -215,7 +215,7 @@ impl WaySet {
     }
 }
 
-/// Whether a way contains another one, but for a condition.
+/// Whether a way contains another one, except for a condition.
 fn contains(outer: &Way, inner: &Way, but: Option<u32>) -> bool {
     outer
         .iter()

@@ -1,5 +1,5 @@
-//! Ways that the control may go and the dry run does not (R2.51, R2.52): a jump, a return or a
-//! program end that depends on a value which is not known offline.
+//! Ways that the control may take and the dry run does not (R2.51, R2.52): a jump, a return or a
+//! program end that depends on a value that is not known offline.
 //!
 //! Such a way is kept with the state in which it leaves. At the block where it joins the way of the
 //! dry run again, everything in which the two may differ becomes unknown. A way that would end the
@@ -25,7 +25,7 @@ pub(in crate::interpreter) const RETURN: EntryIndex = EntryIndex::MAX;
 /// Different targets beyond which everything counts as written.
 const MAX_WRITTEN: usize = 4096;
 
-/// All the ways that the control may have gone.
+/// All the ways that the control may have taken.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Ways {
     /// Sorted by depth and target, one for each.
@@ -82,7 +82,7 @@ impl From<WrittenTargets> for Vec<(RegionTarget, u64)> {
 pub(in crate::interpreter) struct OpenPath {
     /// Number of nested calls at its target.
     pub(in crate::interpreter) depth: usize,
-    /// The block where it goes on.
+    /// The block where it continues.
     pub(in crate::interpreter) target: EntryIndex,
     /// The executed block at which it left.
     pub(in crate::interpreter) since: u64,
@@ -133,14 +133,14 @@ pub(in crate::interpreter) struct Remainder {
     pub(in crate::interpreter) from: EntryIndex,
 }
 
-/// A way that leaves at the block that is executed.
+/// A way that leaves at the block being executed.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct Branch {
     pub(in crate::interpreter) to: JumpTarget,
     pub(in crate::interpreter) cause: Arc<str>,
     /// The block after what is passed over.
     pub(in crate::interpreter) here: EntryIndex,
-    /// Span for the message on it, while it is not said.
+    /// Span for the message on it, until it is reported.
     pub(in crate::interpreter) say: Option<Span>,
 }
 
@@ -165,7 +165,7 @@ pub(in crate::interpreter) enum Leaving {
     End,
 }
 
-/// A way out of a loop, and the value that decides whether it is gone.
+/// A way out of a loop, and the value that decides whether it is taken.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct WayOut {
     pub(in crate::interpreter) to: Leaving,
@@ -179,13 +179,13 @@ impl Ways {
         !self.open.is_empty() || self.end.is_some()
     }
 
-    /// Whether a way goes on somewhere.
+    /// Whether a way continues somewhere.
     #[inline]
     pub(in crate::interpreter) fn has_targets(&self) -> bool {
         !self.open.is_empty()
     }
 
-    /// Those of another way that reaches the same block.
+    /// Adds those of another way that reaches the same block.
     pub(in crate::interpreter) fn join(&mut self, other: &Self) {
         let Self {
             open,
@@ -270,8 +270,8 @@ impl Ways {
         }
     }
 
-    /// The nearest way that left since a block was executed and goes on beyond another block of the
-    /// same program, else returns from it or ends it.
+    /// The nearest way that left since a block was executed and continues beyond another block of the
+    /// same program, or else returns from it or ends it.
     pub(in crate::interpreter) fn out_of(
         &self,
         depth: usize,
@@ -297,7 +297,7 @@ impl Ways {
         })
     }
 
-    /// The first way of a program that goes on before a block or at it.
+    /// Takes the first way of a program that continues before a block or at it.
     pub(in crate::interpreter) fn arrived(
         &mut self,
         depth: usize,
@@ -308,7 +308,7 @@ impl Ways {
         (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
     }
 
-    /// The ways of a program that is left.
+    /// Takes the ways of a program that is left.
     pub(in crate::interpreter) fn left(&mut self, depth: usize) -> Vec<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
@@ -318,7 +318,7 @@ impl Ways {
         self.open.iter().chain(self.end.as_deref())
     }
 
-    /// Whether what is kept for each way describes a number of axes.
+    /// Whether the state kept for each way describes a number of axes.
     pub(in crate::interpreter) fn fit(&self, axes: usize) -> bool {
         let standings = self.all().map(|way| &way.standing);
         standings
@@ -343,7 +343,7 @@ impl Ways {
         self.all().map(|way| &way.standing.cycles)
     }
 
-    /// Forgets what no way needs any more.
+    /// Drops data that no way needs any more.
     pub(in crate::interpreter) fn tidy(&mut self) {
         if !self.is_open() {
             self.written.0.clear();
@@ -380,7 +380,7 @@ impl OpenPath {
     }
 }
 
-/// Words that may call another program on one way become unknown.
+/// Makes unknown the words that may call another program on one way.
 pub(in crate::interpreter) fn join_names(
     names: &mut BTreeMap<String, Value>,
     other: &BTreeMap<String, Value>,

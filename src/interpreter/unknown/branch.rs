@@ -61,13 +61,13 @@ impl Interpreter {
         }
     }
 
-    /// A jump that may be taken; whether anything differs where it is.
+    /// Notes a jump that may be taken. Returns whether anything differs if it is.
     pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) -> bool {
         let Some(frame) = self.state.control.frames.running() else {
             return false;
         };
         let here = frame.next;
-        // A label that there is not stops the control.
+        // A missing label stops the control.
         let mut differs = matches!(exit, Exit::AnyLabel);
         for to in self.aims(exit, frame.program()) {
             if to != JumpTarget::Block(here) {
@@ -107,7 +107,7 @@ impl Interpreter {
 }
 
 impl State {
-    /// The program ends of a region, which may be reached with the state of this moment (R1.58).
+    /// The program ends of a region, which may be reached with the current state (R1.58).
     fn note_ends(&mut self, region: &Region, cause: &Arc<str>) {
         if region.ends.is_empty() {
             return;

@@ -22,13 +22,13 @@ use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
-/// Ways that are open at a time; past them a condition is treated as R2.51 says.
+/// Most ways that are open at a time; beyond them a condition is treated by R2.51.
 const MAX_OPEN: usize = 40;
 
-/// Conditions that ways may name.
+/// Most conditions that ways may name.
 pub(in crate::interpreter) const MAX_CONDITIONS: usize = 4096;
 
-/// Conditions on values of the program whose answers are remembered; older ones are asked again.
+/// Most conditions on values of the program whose answers are remembered; older ones are asked again.
 const MAX_ASKED: usize = 64;
 
 /// Number of questions at a place before its earlier answers are dropped.
@@ -46,7 +46,7 @@ pub(in crate::interpreter) struct MachineQuestion {
 }
 
 impl MachineQuestion {
-    /// The same question, where nothing but the program writes what it reads.
+    /// The key of equal questions, if only the program writes the values that it reads.
     fn key(&self) -> Option<Arc<str>> {
         let asking = self.reads.as_ref();
         let asking = asking.filter(|asking| asking.writer == Writer::Nothing)?;
@@ -54,7 +54,7 @@ impl MachineQuestion {
     }
 }
 
-/// Block at which a way goes on.
+/// Block at which a way continues.
 pub(in crate::interpreter) struct Goal {
     pub(in crate::interpreter) to: EntryIndex,
     pub(in crate::interpreter) seeking: Option<Seeking>,
@@ -105,8 +105,8 @@ pub(in crate::interpreter) fn answers(
 }
 
 impl Interpreter {
-    /// The answers to the condition in the block that was executed last, where only the machine knows which
-    /// holds and no way was followed ([`Branches::Passed`]).
+    /// The answers to the condition in the last executed block, where only the machine knows which holds
+    /// and no way was followed ([`Branches::Passed`]).
     pub fn offered(&self) -> &[WayCondition] {
         &self.offered
     }
@@ -117,7 +117,7 @@ impl Interpreter {
         self.chosen.push_back(place);
     }
 
-    /// Whether the ways that part at the block can be followed, so many of them.
+    /// Whether a number of ways that part at the block can be followed.
     pub(in crate::interpreter) fn may_part(&self, answers: usize, at: &BlockContext<'_>) -> bool {
         let Some(program) = self.state.control.frames.program() else {
             return false;
@@ -166,8 +166,8 @@ impl Interpreter {
         true
     }
 
-    /// The answer is taken that was chosen beforehand, or that an earlier one implies; without either the
-    /// answers are offered. Whether one is taken.
+    /// Takes the answer that was chosen beforehand, or that an earlier one implies; without either, offers the
+    /// answers. Returns whether one is taken.
     fn take_chosen(
         &mut self,
         question: MachineQuestion,
@@ -339,7 +339,7 @@ impl State {
         found.cloned()
     }
 
-    /// A loop whose own condition is not known is joined at its head from the second pass on.
+    /// Joins a loop whose own condition is not known at its head from the second pass on.
     fn note_open_loop(&mut self) {
         let frames = &self.control.frames;
         if let Some(program) = frames.program()

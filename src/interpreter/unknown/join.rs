@@ -23,8 +23,8 @@ use crate::syntax::Fault;
 use crate::text::Span;
 
 impl Interpreter {
-    /// Remembers the ways that leave at the block that was executed, and says that they are not
-    /// gone (FC902).
+    /// Remembers the ways that leave at the executed block, and reports that they are not taken
+    /// (FC902).
     #[cold]
     pub(in crate::interpreter) fn depart(
         &mut self,
@@ -56,7 +56,7 @@ impl Interpreter {
         self.meet(here, finder);
     }
 
-    /// Opens the ways that leave; returns the block after what is passed over.
+    /// Opens the ways that leave; returns the block after those that are passed over.
     pub(in crate::interpreter) fn take_departing(&mut self) -> EntryIndex {
         let departing = std::mem::take(&mut self.departing);
         let depth = self.state.control.frames.depth();
@@ -100,7 +100,7 @@ impl Interpreter {
         here
     }
 
-    /// The ways that go on at the block that is executed next, or before it, meet it.
+    /// Joins the ways that continue at the next block, or before it.
     #[cold]
     pub(in crate::interpreter) fn arrive(&mut self, finder: &mut dyn Finder) {
         let here = self
@@ -141,7 +141,7 @@ impl Interpreter {
         self.state.track.ways.tidy();
     }
 
-    /// A program is left: its ways go on in the caller, after what they still execute.
+    /// A program is left: its ways continue in the caller, after the blocks that they still execute.
     pub(in crate::interpreter) fn leave_ways(&mut self, frame: &CallFrame) {
         let depth = self.state.control.frames.depth();
         let caller = self.state.control.frames.running().map(|caller| {
@@ -217,7 +217,7 @@ impl Interpreter {
         }
     }
 
-    /// Makes unknown what may differ between the way of the dry run and another that goes on here.
+    /// Makes unknown what may differ between the way of the dry run and another that continues here.
     fn join(&mut self, way: OpenPath, tails: &mut HashSet<Remainder>) {
         let OpenPath {
             since,

@@ -1,5 +1,5 @@
-//! The state left by a program that only the machine has: either state of each kind, as a way of
-//! its own (R14.1).
+//! The state left by a program that only the machine has: either state of each kind, as a separate
+//! way (R14.1).
 
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 //!
 //! They depend on its text and on the macros, not on the state: an
 //! assignment whose target has to be computed could go anywhere in its array. So a region is
-//! read once, however often a loop comes back to it.
+//! read once, however often a loop returns to it.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -43,9 +43,9 @@ struct MayEffects<'a> {
     effects: HashSet<RegionEffect>,
     calls: HashSet<(bool, Option<bool>, String)>,
     exits: HashSet<Exit>,
-    /// The block that is looked at.
+    /// The block being examined.
     place: (usize, EntryIndex),
-    /// Macros of the region whose code was not looked through yet.
+    /// Macros of the region whose code has not been examined yet.
     macros: Vec<(String, Span)>,
     expanded: HashSet<String>,
     /// Whether it may execute any part of its program.
@@ -103,8 +103,8 @@ impl MayEffects<'_> {
         }
     }
 
-    /// Looks through the code of macros, each once however often it is used: macros that use each
-    /// other would be looked through without end.
+    /// Examines the code of macros, each once however often it is used: macros that use each other would
+    /// otherwise be examined endlessly.
     fn expand(&mut self, at: &BlockContext<'_>) {
         while let Some((name, used)) = self.macros.pop() {
             let code = match self.run.state.control.memory.macro_code(&name) {
@@ -358,7 +358,7 @@ impl MayEffects<'_> {
     }
 
     /// Returns the possible targets of an assignment. A place that has to be computed may be
-    /// another one each time.
+    /// different each time.
     fn target(place: Expression, at: &BlockContext<'_>) -> Option<RegionTarget> {
         let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;

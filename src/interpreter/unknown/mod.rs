@@ -1,4 +1,4 @@
-//! Uncertainty offline: regions that may or may not be executed, and the ways around them.
+//! Offline uncertainty: regions that may or may not be executed, and the ways around them.
 
 pub(super) mod branch;
 pub(super) mod branching;

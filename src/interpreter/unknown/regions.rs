@@ -25,7 +25,7 @@ use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 impl Interpreter {
-    /// Passes over a control block, from its statement to its end, and says so (FC901).
+    /// Passes over a control block, from its statement to its end, and reports that (FC901).
     pub(in crate::interpreter) fn skip_unknown(
         &mut self,
         passed: Range<EntryIndex>,
@@ -69,8 +69,8 @@ impl Interpreter {
     ) -> Arc<Region> {
         let version = self.state.control.memory.macro_version();
         let region = self.havoc_blocks(unit, range.clone(), cause);
-        // What it defines it may use as well, before or after: the second look finds such macros
-        // unknown, and no third one is needed.
+        // It may also use the macros that it defines, before or after: the second look finds them unknown, and
+        // no third one is needed.
         if self.state.control.memory.macro_version() != version {
             return self.havoc_blocks(unit, range, cause);
         }
@@ -271,7 +271,7 @@ impl Interpreter {
                 Ok(Some(found)) => found,
                 Ok(None) => continue,
                 Err(_) => {
-                    // What it would have done is not known.
+                    // Its effects are not known.
                     let undecided = self.scratch.undecided.take();
                     self.havoc_all(&cause);
                     self.scratch.undecided = undecided.map(|mut undecided| {

@@ -76,7 +76,7 @@ impl Interpreter {
         }
     }
 
-    /// Goes on with both readings of a block search.
+    /// Continues with both readings of a block search.
     fn search_either_way(&mut self, before: &BeforeSearch, at: &BlockContext<'_>) {
         let differing = self.differing_since(before);
         if differing.is_empty() {

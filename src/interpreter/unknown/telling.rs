@@ -27,8 +27,8 @@ use crate::text::Span;
 const MAX_NAMED: usize = 8;
 
 impl Interpreter {
-    /// Prepares the message about a part of the program (FC901); [`Self::tell_undecided`] completes
-    /// it, as soon as the programs are known that the part may call.
+    /// Prepares the message about a part of the program (FC901); [`Self::tell_undecided`] completes it, as
+    /// soon as the programs that the part may call are known.
     pub(in crate::interpreter) fn open_undecided(
         &mut self,
         cause: &Arc<str>,
@@ -99,7 +99,7 @@ impl Interpreter {
         for (kind, axes) in &kinds {
             keys.extend(axes.iter().map(|axis| format!("{kind} {axis}")));
         }
-        // What has no name is said once, too.
+        // A difference without a name is also reported once.
         keys.push(differing.leaves.unwrap_or_default().to_owned());
         let shown: Vec<String> = kinds
             .iter()
@@ -119,7 +119,7 @@ impl Interpreter {
             message.push_str(", including ");
             message.push_str(&named.join(", "));
         }
-        // Of a control block, FC902 says so.
+        // For a control block, FC902 reports this.
         if let Some(leaves) = differing.leaves.filter(|_| decided_level(&cause).is_some()) {
             let message = &mut self.scratch.diagnostics[said].message;
             message.push_str("; ");
@@ -177,7 +177,7 @@ impl Interpreter {
 
     fn weigh(&self, effect: &RegionEffect, is_skip: bool, differing: &mut Differing) {
         match effect {
-            // What a skipped block would be refused for is said itself.
+            // The refusals in a skipped block are reported separately.
             RegionEffect::Compensation(..) => differing.decides |= !is_skip,
             RegionEffect::All => differing.name("everything that a program can change"),
             RegionEffect::Coupling(_) => differing.name("axis couplings"),
@@ -195,7 +195,7 @@ impl Interpreter {
             RegionEffect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
                 differing.decides = true;
             }
-            // A block that may be skipped and only moves matters to those who ask for motion.
+            // A block that may be skipped and only moves matters only if motions are requested.
             RegionEffect::G(number) if !is_skip && is_modal_word(*number) => {
                 differing.name("modal words");
             }
@@ -212,12 +212,12 @@ impl Interpreter {
             {
                 differing.name("positions and what paces motion");
             }
-            // A value that reaches something is spoken of there; called programs are looked through.
+            // A value that affects something is reported there; called programs are examined.
             _ => {}
         }
     }
 
-    /// Notes a way that leaves what may or may not be executed.
+    /// Notes a way that leaves a part that may or may not be executed.
     pub(in crate::interpreter) fn note_leaving(&mut self, to: JumpTarget, here: EntryIndex) {
         if self.scratch.undecided.is_none() || !self.differs(to, here) {
             return;
@@ -232,7 +232,7 @@ impl Interpreter {
         }
     }
 
-    /// Whether anything differs between a way and the one of the dry run, which goes on at a block.
+    /// Whether anything differs between a way and the one of the dry run, which continues at a block.
     pub(in crate::interpreter) fn differs(&mut self, to: JumpTarget, here: EntryIndex) -> bool {
         let JumpTarget::Block(target) = to else {
             return true;
@@ -290,7 +290,7 @@ pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
 }
 
-/// Whether a G function is of a group that outlives a motion and is no motion itself.
+/// Whether a G function stays in force after a motion and is not a motion itself.
 fn is_modal_word(number: Option<i64>) -> bool {
     let number = number.and_then(|number| u32::try_from(number).ok());
     number.is_none_or(|number| match Group::of(number) {

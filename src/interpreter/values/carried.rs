@@ -1,4 +1,4 @@
-//! State that outlives programs besides the states of the axes, as data (R2.34, R9.32): variables,
+//! State that outlives programs, apart from the states of the axes, as data (R2.34, R9.32): variables,
 //! arrays, macros, kept parameters, coupling groups.
 
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub struct ArrayShape {
     pub default: Value,
 }
 
-/// State besides that of the axes that programs leave to the next one.
+/// State other than that of the axes that programs leave to the next one.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Carried {

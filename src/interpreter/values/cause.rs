@@ -14,7 +14,7 @@ const PROGRAM: &str = "program ";
 /// The signal of a probe as a cause (R2.91).
 pub(in crate::interpreter) const PROBE: &str = "the signal of the probe";
 
-/// A skip level as what decides (R2.90).
+/// A skip level as the deciding value (R2.90).
 pub(in crate::interpreter) fn skip_level(level: u8) -> Arc<str> {
     format!("{SKIP}{level}").into()
 }
@@ -24,12 +24,12 @@ pub(in crate::interpreter) fn decided_level(name: &str) -> Option<u8> {
     name.strip_prefix(SKIP)?.parse().ok()
 }
 
-/// A missing program as what decides (R2.83, R2.95).
+/// A missing program as the deciding value (R2.83, R2.95).
 pub(in crate::interpreter) fn program(name: &str) -> Arc<str> {
     format!("{PROGRAM}{name}").into()
 }
 
-/// A value that is not known offline, and why.
+/// A value that is not known offline, with the reason.
 pub(in crate::interpreter) fn unknown_value(name: &str) -> String {
     if decided_level(name).is_some() {
         format!("{name}, a switch of the machine")

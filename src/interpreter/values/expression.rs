@@ -1,7 +1,7 @@
-//! Expressions to values.
+//! Evaluation of expressions.
 //!
-//! The nodes of an expression stand in postfix order, so a stack is all it takes: no recursion,
-//! whatever a program writes.
+//! The nodes of an expression are in postfix order, so that a stack is enough: no recursion, whatever
+//! a program contains.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{Fault, MAX_LINE};
 use crate::text::Span;
 
-/// Macros that one block may expand, whatever their depth: each may use others several times.
+/// Number of macros that one block may expand, whatever their depth: each may use others several times.
 pub(in crate::interpreter) const MAX_EXPANSIONS: u32 = 4096;
 
 /// Sources of an expression: the memory of the run and the variables of the machine.
@@ -30,7 +30,7 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     pub(in crate::interpreter) memory: &'a Memory,
     /// Notes on the values read, while they matter (R2.84).
     pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
-    /// Notes on what programs before it may have written, where that is asked for (R2.34).
+    /// Records of what earlier programs may have written, if requested (R2.34).
     pub(in crate::interpreter) used: Option<&'a RefCell<VariableUse>>,
     /// Own parameters of the call.
     pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
@@ -38,9 +38,9 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     pub(in crate::interpreter) given: ParameterSource,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(in crate::interpreter) system: &'a dyn Fn(&str) -> Option<Value>,
-    /// Hears of every value that only the machine knows.
+    /// Called for every value that only the machine knows.
     pub(in crate::interpreter) unknown: &'a dyn Fn(&str, Span),
-    /// Set where a text had no meaning that is known here, which the block's faults say.
+    /// Set where a text had no known meaning, which the block's faults report.
     pub(in crate::interpreter) unread: &'a Cell<bool>,
     /// Set where a variable is read for which the control waits until the axes rest.
     pub(in crate::interpreter) waits: &'a Cell<bool>,
@@ -76,7 +76,7 @@ impl Macros<'_> {
     ) -> Result<Self, Box<Fault>> {
         effort.charge(ITEM + code.len());
         if effort.level() > self.until {
-            // The block ends with FC919, which says what there is to say.
+            // The block ends with FC919, which says it all.
             return Err(fault(Code::Fc919, span, "the budget of work is used up"));
         }
         let expansions = self.expansions.get() + 1;
@@ -201,7 +201,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The answer of `EXIST` to a variable that a program before this one may have left, or not.
+    /// The result of `EXIST` for a variable that an earlier program may or may not have left.
     fn perhaps_there(&self, function: Function, at: usize) -> Option<Value> {
         self.scope.used.filter(|_| function == Function::Exist)?;
         let argument = at.checked_sub(1)?;
@@ -287,8 +287,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A text: the name of a macro whose code is an expression stands for its value
-    /// (PM/206014219), any other text for itself.
+    /// A text: the name of a macro whose code is an expression denotes its value (PM/206014219), any other
+    /// text itself.
     fn text(&self, span: Span) -> Slot {
         let name = unquoted(span.of(self.text));
         let plain = || Ok(Value::Text(name.replace("\\\"", "\"").into()));
@@ -432,7 +432,7 @@ impl Evaluator<'_> {
         }))
     }
 
-    /// The elements of an array: of its first dimension, or of the one that is asked for.
+    /// The number of elements of an array: of its first dimension, or of the requested one.
     fn sizeof(&self, span: Span, dimension: Option<Slot>) -> Slot {
         let text = span.of(self.text);
         let argument = text.split_once('[').map_or("", |(_, argument)| argument);
@@ -517,7 +517,7 @@ impl Evaluator<'_> {
         found
     }
 
-    /// The dimensions in a declaration's subscripts; for one that is not known the cause.
+    /// The dimensions in a declaration's subscripts; for an unknown one, the cause.
     pub(in crate::interpreter) fn dimensions(
         &self,
         place: Expression,
@@ -543,7 +543,7 @@ impl Evaluator<'_> {
                 size.map(Ok)
                     .ok_or_else(|| wrong_type(span, "an array cannot have that many elements"))
             }
-            Value::Text(_) => Err(wrong_type(span, "a string is no dimension of an array")),
+            Value::Text(_) => Err(wrong_type(span, "a string is not an array dimension")),
             unknown @ Value::Unknown(_) => Ok(Err(unknown)),
         };
         stack.drain(bottom..).skip(skip).map(size).collect()
@@ -564,7 +564,7 @@ enum VariableKey {
 }
 
 fn pop(stack: &mut Vec<Slot>) -> Slot {
-    // Nothing stands where an operand should: that is no zero (R2.50).
+    // An operand is missing: that is not a zero (R2.50).
     stack
         .pop()
         .unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
@@ -588,7 +588,7 @@ pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
     inner.strip_suffix('"').unwrap_or(inner)
 }
 
-/// `V.P.`, `V.L.`, `V.S.`: what only programs write.
+/// Whether only programs write a variable: `V.P.`, `V.L.`, `V.S.`.
 fn is_program_variable(name: &str) -> bool {
     ["V.P.", "V.L.", "V.S."]
         .iter()

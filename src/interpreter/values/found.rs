@@ -1,4 +1,4 @@
-//! What a program finds in the variables that outlive programs, and what it does to them (R2.34).
+//! The values that a program finds in the variables that outlive programs, and its use of them (R2.34).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,18 +9,18 @@ use super::value::Value;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 
-/// Values in the variables that outlive programs, as far as it is known which programs write them: `V.S.`, and P
+/// Values in the variables that outlive programs, if it is known which programs write them: `V.S.`, and P
 /// parameters where a program start keeps them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FoundVariables {
-    /// The value that each has where it is there: known where every write is of the same.
+    /// The value that each has if it exists: known if every write is of the same value.
     names: BTreeMap<String, Value>,
     /// Set where any of them may have been written.
     anything: bool,
 }
 
 impl FoundVariables {
-    /// Adds what other programs write.
+    /// Adds the values that other programs write.
     pub(crate) fn add(&mut self, other: &Self) {
         self.anything |= other.anything;
         for (name, value) in &other.names {
@@ -28,7 +28,7 @@ impl FoundVariables {
         }
     }
 
-    /// The part of it that concerns some names.
+    /// Returns the part for some names.
     pub(crate) fn of(&self, names: &BTreeSet<String>) -> Self {
         let asked = self.names.iter().filter(|(name, _)| names.contains(*name));
         Self {
@@ -39,7 +39,7 @@ impl FoundVariables {
         }
     }
 
-    /// The names that may be there, with their values; none is known where anything may have been written.
+    /// The names that may exist, with their values; none is known where anything may have been written.
     pub(in crate::interpreter) fn names(&self) -> impl Iterator<Item = (&String, Value)> {
         self.names.iter().map(|(name, value)| {
             let known = (!self.anything).then(|| value.clone());
@@ -73,12 +73,12 @@ fn named(name: &str, value: Value) -> Value {
     }
 }
 
-/// What a program does with the variables that outlive programs.
+/// The use that a program makes of the variables that outlive programs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct VariableUse {
-    /// The names that it asked for without having written them before for certain.
+    /// The names that it asks for without certainly having written them before.
     pub(crate) wanted: BTreeSet<String>,
-    /// What it may have written.
+    /// The values that it may have written.
     pub(crate) written: FoundVariables,
     parameters: Parameters,
 }
@@ -97,12 +97,12 @@ impl VariableUse {
         self.written.add(&other.written);
     }
 
-    /// Anything may be written: nobody knows what the program does.
+    /// Anything may be written: the effect of the program is unknown.
     pub(crate) fn write_anything(&mut self) {
         self.written.anything = true;
     }
 
-    /// Asked for without a write before.
+    /// Notes a name that is asked for without an earlier write.
     pub(in crate::interpreter) fn want(&mut self, base: &str) {
         if self.outlives(base) && !self.wanted.contains(base) {
             self.wanted.insert(base.to_owned());

@@ -18,13 +18,16 @@ pub(in crate::interpreter) fn wrong_type(span: Span, message: &str) -> Box<Fault
     fault(Code::Fc312, span, message)
 }
 
-/// The number where a number is wanted; `None` for what only the machine knows, FC312 for a string (R2.37).
+/// The number where a number is expected; `None` for what only the machine knows, FC312 for a string (R2.37).
 pub(in crate::interpreter) fn numeric(
     value: &Value,
     span: Span,
 ) -> Result<Option<f64>, Box<Fault>> {
     match value {
-        Value::Text(_) => Err(wrong_type(span, "a string stands where a number is wanted")),
+        Value::Text(_) => Err(wrong_type(
+            span,
+            "found a string where a number is expected",
+        )),
         Value::Number(number) => Ok(Some(*number)),
         Value::Unknown(_) => Ok(None),
     }
@@ -53,7 +56,7 @@ pub(in crate::interpreter) fn binary(
     }
 }
 
-/// `&&` and `||`: one operand may decide alone, whatever the other is.
+/// `&&` and `||`: one operand alone may decide, whatever the other is.
 fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
     let deciding = operator == BinaryOperator::Or;
     let truth = |slot: &Slot| slot.as_ref().ok().and_then(Value::truth);
@@ -102,7 +105,7 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
     finite(value, span)
 }
 
-/// FC312 for a result that is no number: nothing could be computed with it, and no state be saved.
+/// FC312 for a result that is not a number: it could not be used in computations, nor saved in a state.
 pub(in crate::interpreter) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))

@@ -22,21 +22,21 @@ use crate::syntax::ast::Owner;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Memory {
     parameters: ParameterValues,
-    /// Set when some parameter was written, but it is not known which: the value that made it so.
+    /// Set when an unknown parameter was written: the value that decides which.
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
     given: PersistentMap<String, Value>,
-    /// Set when any of those that programs write may have been: the text that made it so.
+    /// Set when any of those that programs write may have been written: the text that caused it.
     unknown_names: Option<Arc<str>>,
-    /// The names that outlive programs, may be there, and were not written since for certain.
+    /// The names that outlive programs, may exist, and were not certainly written since.
     found: BTreeSet<String>,
-    /// Whether a `V.S.` variable that no program is known to write may be there all the same.
+    /// Whether a `V.S.` variable that no known program writes may still exist.
     may_find: bool,
     /// `V.L.` of each call level.
     locals: Vec<VariableNames>,
-    /// The code of each macro, or why it is not known.
+    /// The code of each macro, or the cause why it is unknown.
     macros: PersistentMap<String, Value>,
     /// Rises with every change of the macros.
     macro_version: u64,
@@ -102,12 +102,12 @@ impl Memory {
         })
     }
 
-    /// Whether a name that nothing is known of may be there.
+    /// Whether a name that nothing is known about may exist.
     fn may_find(&self, name: &str) -> bool {
         self.may_find && name.starts_with("V.S.") && self.given.get(name).is_none()
     }
 
-    /// Sets what the program finds in variables that outlive programs. What the user gave goes before it.
+    /// Sets what the program finds in variables that outlive programs. Values from the user take precedence.
     pub(in crate::interpreter) fn find(&mut self, found: &FoundVariables) {
         self.may_find = found.has_anything();
         let names = found
@@ -137,13 +137,13 @@ impl Memory {
         }
     }
 
-    /// Whether the program has not written a name for certain that may be there, with no subscripts.
+    /// Whether a name without subscripts may exist and the program has not certainly written it.
     pub(in crate::interpreter) fn is_found(&self, base: &str) -> bool {
         let is_new = || self.may_find(base) && self.variables.names.get(base).is_none();
         self.found.contains(base) || is_new()
     }
 
-    /// Whether what is read under a name, without its subscripts, is what the program found, or nothing.
+    /// Whether a name, without its subscripts, still has the value that the program found, or none.
     pub(in crate::interpreter) fn is_unwritten(&self, base: &str) -> bool {
         let holds = |index| self.parameters.get(index).is_some();
         let parameter = base.strip_prefix('P').and_then(|index| index.parse().ok());
@@ -151,7 +151,7 @@ impl Memory {
             || !(parameter.is_some_and(holds) || self.variables.names.get(base).is_some())
     }
 
-    /// A value from the user (R2.36). What programs write themselves goes before it.
+    /// A value from the user (R2.36). Values that programs write take precedence.
     pub(in crate::interpreter) fn give(&mut self, name: &str, value: Value) {
         let name = set_name(name);
         if is_written(&name) {
@@ -214,7 +214,7 @@ impl Memory {
         self.declared(name).set(name, value);
     }
 
-    /// The variable of a name that is declared, where it outlives programs and is there, or may be.
+    /// The variable of a declared name, if it outlives programs and exists, or may.
     pub(in crate::interpreter) fn before_declaration(&self, name: &str) -> Option<NamedVariable> {
         let held = self.variables.names.get(name);
         let held = held.filter(|_| name.starts_with("V.S."));
@@ -228,8 +228,8 @@ impl Memory {
         })
     }
 
-    /// A variable was declared that was there before. Whether the start value replaces the value that it has is
-    /// not documented, so it is unknown where the two differ (R2.34); the user's value decides.
+    /// A variable was declared that existed before. Whether the start value replaces its present value is not
+    /// documented, so it is unknown where the two differ (R2.34); the user's value decides.
     pub(in crate::interpreter) fn declare_anew(&mut self, name: &str, before: &NamedVariable) {
         self.variables.join_name(name, before, &name.into());
         if let Some(given) = self.given.get(name)
@@ -310,7 +310,7 @@ impl Memory {
         }
     }
 
-    /// A program is missing that may have written what the run never wrote.
+    /// A missing program may have written what the run never wrote.
     pub(in crate::interpreter) fn miss(&mut self, cause: &Arc<str>) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
@@ -359,7 +359,7 @@ impl Memory {
             parameters,
             lost,
             variables,
-            // What the user gave is the same on all ways.
+            // Values from the user are the same on all ways.
             given: _,
             unknown_names,
             found,
@@ -404,7 +404,7 @@ impl Memory {
         differing + names.len()
     }
 
-    /// The variables that others than the program read and that differ in another memory.
+    /// The variables that are read not only by the program and that differ in another memory.
     pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
         let is_read = |name: &String| {
@@ -413,7 +413,7 @@ impl Memory {
         names.into_iter().filter(is_read).collect()
     }
 
-    /// Values of the program that it is not known any more.
+    /// Values of the program that are not known any more.
     pub(in crate::interpreter) fn lose(&mut self, targets: &[RegionTarget], cause: &Arc<str>) {
         let unknown = || Value::Unknown(cause.clone());
         for target in targets {
@@ -562,7 +562,7 @@ impl Memory {
         held
     }
 
-    /// The parameters, and the variables that the program sees which runs.
+    /// The parameters, and the variables that the running program sees.
     pub(in crate::interpreter) fn all(&self) -> Vec<(String, Value)> {
         let parameters = self.parameters.iter();
         let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
@@ -584,7 +584,7 @@ fn is_kept(name: &str, parameters: Parameters) -> bool {
     !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
 }
 
-/// Whether programs write what a name stands for.
+/// Whether programs write the variable of a name.
 fn is_written(name: &str) -> bool {
     is_of_run(name) || name.starts_with("V.S.") || name.starts_with("V.L.")
 }

@@ -1,4 +1,4 @@
-//! Variables by name, with their arrays, and what they weigh.
+//! Variables by name, with their arrays, and their weight.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ pub(in crate::interpreter) struct VariableNames {
     pub(in crate::interpreter) weight: Weight,
 }
 
-/// The thing that a name stands for.
+/// The value or array that a name denotes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct NamedVariable {
     pub(in crate::interpreter) scalar: Option<Value>,
@@ -86,7 +86,7 @@ impl NamedVariable {
         }
     }
 
-    /// Appends what the next program finds.
+    /// Appends the values that the next program finds.
     pub(in crate::interpreter) fn carry(&self, name: &str, carried: &mut Carried) {
         if let Some(value) = &self.scalar {
             carried.variables.insert(name.to_owned(), value.clone());
@@ -107,7 +107,7 @@ impl NamedVariable {
         }
     }
 
-    /// Its value is no longer known, nor that of any element.
+    /// Makes its value and that of every element unknown.
     pub(in crate::interpreter) fn havoc(&mut self, cause: &Arc<str>) {
         if let Some(scalar) = &mut self.scalar {
             *scalar = Value::Unknown(cause.clone());
@@ -124,7 +124,7 @@ impl NamedVariable {
     fn join(&mut self, other: &Self, cause: &Arc<str>, weight: &mut Weight) {
         join_value(&mut self.scalar, other.scalar.as_ref(), cause);
         if self.array != other.array {
-            // An array that may have another shape holds nothing that is known.
+            // An array that may have another shape has no known contents.
             self.array = self.array.take().or_else(|| other.array.clone());
             weight.take(self.elements_weight());
             self.elements.clear();
@@ -369,7 +369,7 @@ pub(in crate::interpreter) fn compare(
 pub(in crate::interpreter) fn weight(name: &str, value: &Value) -> usize {
     let text = match value {
         Value::Text(text) => text.len(),
-        // The name of what is not known is shared.
+        // The name of an unknown value is shared.
         Value::Number(_) | Value::Unknown(_) => 0,
     };
     1 + name.len() / WEIGHT + text / WEIGHT

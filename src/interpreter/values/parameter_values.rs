@@ -66,7 +66,7 @@ impl ParameterValues {
         direct.chain(further)
     }
 
-    /// The numbers under which others have something else, or nothing, or only they have something.
+    /// The numbers whose values differ in another set, or that only one of the two has.
     pub(in crate::interpreter) fn differing(&self, other: &Self) -> Vec<u32> {
         let none = Shared::default();
         let mut found = Vec::new();

@@ -1,9 +1,9 @@
-//! A map whose copies share what does not change (R14.4).
+//! A map whose copies share unchanged entries (R14.4).
 //!
-//! Ways through a program part and meet; a copy has to cost nothing, and a comparison of two copies
-//! what was written since. The map is a treap: a search tree by keys that is a heap by ranks, and as
+//! Ways through a program part and meet; a copy has to cost nothing, and a comparison of two copies only
+//! as much as was written since. The map is a treap: a search tree by keys that is a heap by ranks, and as
 //! the rank of a key is a hash of it, equal contents have equal trees. A crate with such a comparison
-//! brings eight others with it.
+//! has eight dependencies.
 
 use std::borrow::Borrow;
 use std::cmp::Ordering;
@@ -114,7 +114,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
         K: Borrow<Q>,
         Q: Ord + ?Sized,
     {
-        // What is not there must not be copied in search of it.
+        // A search for a missing key must not copy nodes.
         self.get(key)?;
         let mut link = &mut self.root;
         while let Some(shared) = link {
@@ -197,7 +197,7 @@ impl<K: Ord + Hash + Clone, V: Clone> PersistentMap<K, V> {
 }
 
 impl<K: Ord + Hash + Clone, V: Clone + PartialEq> PersistentMap<K, V> {
-    /// The keys under which another map has something else, or nothing, or only it has something.
+    /// The keys whose values differ in another map, or that only one of the two has.
     pub(in crate::interpreter) fn differing(&self, other: &Self) -> Vec<K> {
         let mut keys = Vec::new();
         compare(&self.root, &other.root, &mut keys);
@@ -287,7 +287,7 @@ fn split<K: Ord + Clone, V: Clone>(
     }
 }
 
-/// One tree of two, where all keys of the first are below those of the second.
+/// Merges two trees, where all keys of the first are below those of the second.
 fn merge<K: Ord + Clone, V: Clone>(low: TreeLink<K, V>, high: TreeLink<K, V>) -> TreeLink<K, V> {
     let (mut low, mut high) = match (low, high) {
         (Some(low), Some(high)) => (low, high),
@@ -304,7 +304,7 @@ fn merge<K: Ord + Clone, V: Clone>(low: TreeLink<K, V>, high: TreeLink<K, V>) ->
     }
 }
 
-/// Appends the keys under which two trees differ. What they share is passed over.
+/// Appends the keys under which two trees differ. Shared nodes are skipped.
 fn compare<K: Ord + Clone, V: Clone + PartialEq>(
     mine: &TreeLink<K, V>,
     theirs: &TreeLink<K, V>,
@@ -331,7 +331,7 @@ fn compare<K: Ord + Clone, V: Clone + PartialEq>(
         compare(&one.right, &other.right, keys);
         return;
     }
-    // The key of the higher rank would stand at the top of the other tree, too, if that held it.
+    // The key of the higher rank would also be at the top of the other tree if that held it.
     let (top, rest) = if one.place() > other.place() {
         (one, theirs)
     } else {

@@ -70,7 +70,7 @@ pub(in crate::interpreter) fn conclusions(
                 found.extend(equal(block, text, [*one, *other]));
             }
             _ if truth == Truth::Fails => {
-                // |value| < 0.5 is all that is known; a switch is 0 then.
+                // Only |value| < 0.5 is known; a switch is then 0.
                 let switch = variable(block, text, part).filter(is_switch);
                 found.extend(switch.map(|target| (target, Value::Number(0.0))));
             }
@@ -83,8 +83,8 @@ pub(in crate::interpreter) fn conclusions(
     found
 }
 
-/// Whether an expression compares one variable with one number and asks nothing else, so that either
-/// answer tells whether they are equal.
+/// Whether an expression only compares one variable with one number, so that either answer tells whether
+/// they are equal.
 pub(in crate::interpreter) fn is_one_comparison(
     block: &Block,
     text: &str,
@@ -108,7 +108,7 @@ pub(in crate::interpreter) fn is_one_comparison(
     }
 }
 
-/// Whether a variable is 0 or 1 and nothing else.
+/// Whether a variable can only be 0 or 1.
 fn is_switch(target: &RegionTarget) -> bool {
     matches!(target, RegionTarget::Variable(name) if name.starts_with("V.A.") && name.contains("_COMP_ACTIVE"))
 }
@@ -131,7 +131,7 @@ fn equal(block: &Block, text: &str, pair: [Expression; 2]) -> Option<(RegionTarg
     target.or_else(|| variable(block, text, other).zip(known(one)))
 }
 
-/// The parameter or variable that an expression is, and nothing else.
+/// The parameter or variable of an expression that consists only of it.
 pub(in crate::interpreter) fn variable(
     block: &Block,
     text: &str,
@@ -156,7 +156,7 @@ fn target(node: Node, written: &str) -> Option<RegionTarget> {
     }
 }
 
-/// The last node of an expression and what it works on.
+/// The last node of an expression and its operands.
 fn root(block: &Block, part: Expression) -> Option<(Node, Vec<Expression>)> {
     let node = *block.nodes.get(part.end.checked_sub(1)? as usize)?;
     Some((node, operands_of(block, part)?))
@@ -200,14 +200,14 @@ fn popped(node: Node) -> usize {
     }
 }
 
-/// Writer of a value besides the program.
+/// Writer of a value other than the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::interpreter) enum Writer {
-    /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and what is `stable`.
+    /// Nothing: parameters, `V.P.`, `V.L.`, `V.S.`, and `stable` variables.
     Nothing,
     /// The machine at any time: `V.E.`, skip levels.
     Machine,
-    /// The control itself, by motion for instance: `V.A.`, `V.G.`.
+    /// The control itself, for example by motion: `V.A.`, `V.G.`.
     Control,
 }
 
@@ -269,7 +269,7 @@ pub(in crate::interpreter) fn reads(
     })
 }
 
-/// Whether a function of numbers gives the same for the same numbers.
+/// Whether a function of numbers always gives equal results for equal numbers.
 fn is_pure(function: Function) -> bool {
     !matches!(
         function,
@@ -277,7 +277,7 @@ fn is_pure(function: Function) -> bool {
     )
 }
 
-/// The text of an expression, with the brackets that belong to it, and where it stands.
+/// The text of an expression, with the brackets that belong to it, and its span.
 pub(in crate::interpreter) fn text_of(
     block: &Block,
     text: &str,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::target::RegionTarget;
 
-/// Different values that are kept of what was read; with more, everything counts as read.
+/// Number of different values kept as read; with more, everything counts as read.
 const MAX_READS: usize = 256;
 
 /// Values read since a loop was examined.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(in crate::interpreter) struct Shared<T>(Arc<T>);
 
 impl<T> Shared<T> {
-    /// Whether two are copies of each other of which none has changed since.
+    /// Whether two are copies of each other, neither of which has changed since.
     pub(in crate::interpreter) fn is_copy_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

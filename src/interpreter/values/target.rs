@@ -34,7 +34,7 @@ impl fmt::Display for RegionTarget {
 pub(in crate::interpreter) enum AssignedPlace {
     Parameter(Owner, u32),
     Variable(String),
-    /// Some element of an array; the value that decides which is not known.
+    /// Some element of an array; the value that decides which one is not known.
     Elements(String, Arc<str>),
     /// Some P parameter.
     Parameters(Arc<str>),

@@ -63,7 +63,7 @@ impl From<&crate::machine::Setting> for Value {
     }
 }
 
-/// A number that is a whole one from 0 on.
+/// A number that is a whole number, 0 or more.
 #[inline]
 pub(in crate::interpreter) fn exact(number: f64) -> Option<u32> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
@@ -73,14 +73,14 @@ pub(in crate::interpreter) fn exact(number: f64) -> Option<u32> {
     is_whole.then_some(whole)
 }
 
-/// A number as a whole one, rounded half away from zero; out of range is `None`.
+/// A number as a whole number, rounded half away from zero; `None` if out of range.
 pub(in crate::interpreter) fn rounded(number: f64) -> Option<i64> {
-    // 2^53: beyond it a number of the language is no whole number any more.
+    // 2^53: beyond it, numbers of the language are not exact whole numbers any more.
     const LIMIT: f64 = 9_007_199_254_740_992.0;
     if number.is_nan() || number.abs() > LIMIT {
         return None;
     }
-    // Most numbers are whole; they do without a call of the mathematics library.
+    // Most numbers are whole; they need no call of the mathematics library.
     #[allow(clippy::cast_possible_truncation)] // below 2^53
     let whole = number as i64;
     #[allow(clippy::cast_precision_loss, clippy::float_cmp)] // both are exact

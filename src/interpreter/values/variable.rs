@@ -17,7 +17,7 @@ pub(in crate::interpreter) fn canonical(text: &str) -> Cow<'_, str> {
     Cow::Owned(family.to_ascii_uppercase() + name)
 }
 
-/// The text of a variable in a program, without the blanks that may stand in it.
+/// The text of a variable in a program, without the blanks that it may contain.
 pub(in crate::interpreter) fn as_written(text: &str) -> String {
     text.split_whitespace().collect()
 }

@@ -1,8 +1,8 @@
-//! Work: what a block makes the run do beyond its own length (R2.60).
+//! Work: the effort that a block causes beyond its own length (R2.60).
 //!
-//! Work is macros that expand, texts that grow, regions that are looked through because their
-//! condition is not known, names that are compared. It is a level that rises with each unit and falls
-//! with each executed block, so that a program that loops on purpose never comes near the bound, and
+//! Work is macros that expand, texts that grow, regions that are examined because their condition is
+//! not known, names that are compared. It is a level that rises with each unit and falls
+//! with each executed block, so that a program that loops on purpose never gets near the bound, and
 //! one whose blocks do far more than is written in them soon does.
 
 use std::cell::Cell;
@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 /// The cost of looking at one block or one name, whatever its length.
 pub(in crate::interpreter) const ITEM: usize = 32;
 
-/// Units of work that an executed block brings with it.
+/// Units of work that an executed block allows.
 const PER_BLOCK: u64 = 500;
 
-/// Units of work that a byte of an executed block brings with it.
+/// Units of work that a byte of an executed block allows.
 const PER_BYTE: u64 = 4;
 
 /// Units of repeated work that a message needs, whether it is reported again or not.
@@ -28,7 +28,7 @@ const PER_WORK: u64 = 2;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct WorkBudget {
     spent: Cell<u64>,
-    /// Work beyond the share that each executed block brings with it.
+    /// Work beyond the share that each executed block allows.
     level: Cell<u64>,
     /// Work of blocks that were executed again.
     repeated: u64,
@@ -42,7 +42,7 @@ impl WorkBudget {
         self.level.set(self.level.get().saturating_add(units));
     }
 
-    /// An executed block brings work with it.
+    /// Grants the work that an executed block allows.
     #[inline]
     pub(in crate::interpreter) fn grant(&self, text: &str) {
         let level = self.level.get();

@@ -1,4 +1,4 @@
-//! FC409: friction compensation is switched while the axis moves on (R1.57).
+//! FC409: friction compensation is switched while the axis keeps moving (R1.57).
 
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
@@ -8,10 +8,9 @@ use crate::lint::memory::{SwitchAfterMove, place};
 use crate::readings::Question;
 
 impl Linter<'_> {
-    /// Notes changes of an axis that moves, and says which of them are followed by a move in the same
-    /// direction.
+    /// Records changes on a moving axis, and reports those that are followed by a move in the same direction.
     pub(super) fn jump(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
-        // R1.57: where the command itself stops the path there is no jump.
+        // R1.57: if the command itself stops the path, there is no jump.
         if self.machine.readings.takes_second(Question::LookAhead) {
             return;
         }
@@ -54,7 +53,7 @@ impl Linter<'_> {
             };
             let mut moved = executed.aside.last_moved.iter();
             let word = moved.find(|word| word.axis == axis);
-            // In a block with motion words the position is the one after them.
+            // In a block with motion words, the current position is the one after them.
             let to = executed.moved.iter().find(|word| word.axis == axis);
             let to = to.map_or_else(|| position(axis, executed), |word| word.from);
             let rises = word.and_then(|word| match &executed.aside.last_arc {
@@ -97,7 +96,7 @@ fn matters(from: State, to: State) -> bool {
         && to != State::Unknown
 }
 
-/// Whether moves at feed are in force.
+/// Whether feed moves are modal.
 fn is_feed(executed: &Executed<'_>) -> bool {
     let modal = executed.modal;
     modal.is_known(Group::Motion) && matches!(modal.functions.motion, 1..=3)
@@ -110,13 +109,13 @@ enum ArcEnd {
     Last,
 }
 
-/// Whether an axis is one of the plane of an arc.
+/// Whether an axis belongs to the plane of an arc.
 fn is_around(travel: &Travel, axis: AxisIndex) -> bool {
     matches!(travel.form, PathForm::Arc(arc) if arc.axes.contains(&axis))
 }
 
-/// Whether an axis of the plane moves to larger coordinates at an end of an arc; `None` where it
-/// reverses there, or that is not known.
+/// Whether an axis of the plane moves to larger coordinates at an end of an arc; `None` if it reverses there, or the
+/// direction is unknown.
 fn tangent(travel: &Travel, axis: AxisIndex, end: ArcEnd) -> Option<bool> {
     let PathForm::Arc(arc) = travel.form else {
         return None;
@@ -156,7 +155,7 @@ fn rises(word: &AxisWord, executed: &Executed<'_>) -> Option<bool> {
     direction(word.from, position(word.axis, executed))
 }
 
-/// Whether an axis moves to larger coordinates; `None` where it rests, or that is not known.
+/// Whether an axis moves to larger coordinates; `None` if it is at rest, or the direction is unknown.
 fn direction(from: Option<f64>, to: Option<f64>) -> Option<bool> {
     let way = to? - from?;
     (way.abs() > 1e-9).then_some(way > 0.0)

@@ -22,14 +22,14 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
             let is_told = |deed: KindEffect| match deed {
                 KindEffect::On | KindEffect::Off => end != State::Unknown,
                 KindEffect::Unknown => end == State::Unknown,
-                // FC902 has said it of every axis.
+                // FC902 already reported this for every axis.
                 KindEffect::Lost => false,
             };
             let last = did.last.as_ref().filter(|(deed, _)| is_told(*deed));
             let possible = ended.possible.iter();
             let mut possible = possible.filter(|it| (it.axis, it.kind) == (axis, kind));
             let possible = possible.next();
-            // Where ways differ, the command counts that leads away on some of them.
+            // If ways differ, the command that leads away on some of them counts.
             let command = command_to(ended, (axis, kind), &linter.history.start_up);
             let is_on = linter.history.start_up(axis, kind) != State::Inactive;
             let switched = did.switched[usize::from(!is_on)].as_ref();
@@ -39,7 +39,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
             let is_lost = matches!(did.last, Some((KindEffect::Lost, _)));
             let passed = away.filter(|_| end == State::Unknown && !is_lost);
             let passed = passed.filter(|_| has_other_ends(ended));
-            // FC902 has said what only a call decides.
+            // FC902 already reported what only a call decides.
             let parted = possible.filter(|it| !(is_lost && it.rests_on_calls()));
             let parted = parted.and(away);
             let known = command.as_ref().filter(|_| end != State::Unknown);
@@ -83,7 +83,7 @@ struct LeftAwayKind<'a> {
     axis: AxisIndex,
     kind: Kind,
     end: State,
-    /// The states that are possible, where ways differ.
+    /// The possible states, if ways differ.
     possible: Option<&'a PossibleStates>,
     /// The word that ends the program.
     ending: &'a str,
@@ -104,7 +104,7 @@ impl LeftAwayKind<'_> {
             .with_help(self.restore(&site.place))
     }
 
-    /// Says that a value that only the machine knows may leave a selection away as well.
+    /// Reports that a selection may also be left away, depending on a value that only the machine knows.
     fn may_be_left(&self, site: &BlockSite) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let start_up = self.linter.history.start_up(self.axis, self.kind);
@@ -133,8 +133,8 @@ impl LeftAwayKind<'_> {
         diagnostic
     }
 
-    /// The state that a command leaves after a motion, with the ways on which it does; `None` where that is not
-    /// known, or where the two need not come together.
+    /// Returns the state that a command leaves after a motion, with the ways on which it does; `None` if that is
+    /// unknown, or if the two need not occur together.
     fn what_is_left(&self, moved: &MovedBefore, site: &BlockSite) -> Option<String> {
         if self.end != State::Unknown {
             return Some(self.end.as_str().to_owned());
@@ -169,7 +169,7 @@ impl LeftAwayKind<'_> {
         diagnostic
     }
 
-    /// The state in which some ways leave it away.
+    /// Returns the state away from the start-up state that some ways leave.
     fn state_away(&self) -> Option<(&PossibleStates, State)> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let possible = self.possible?;
@@ -177,13 +177,13 @@ impl LeftAwayKind<'_> {
         Some((possible, states.find(|state| *state != start_up)?))
     }
 
-    /// Whether it is left away only if a value of the machine changes meanwhile (R14.1).
+    /// Whether it is left away only if a machine value changes in the meantime (R14.1).
     fn needs_change(&self) -> bool {
         let away = self.state_away();
         away.is_some_and(|(possible, away)| possible.needs_change(away))
     }
 
-    /// On which ways it is left away (R14.5).
+    /// Returns the ways on which it is left away (R14.5).
     fn ways_away(&self, file: &str) -> Option<String> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let (possible, away) = self.state_away()?;
@@ -197,7 +197,7 @@ impl LeftAwayKind<'_> {
         })
     }
 
-    /// The command that makes the state that of the start of the control.
+    /// Returns the command that restores the state at the start of the control.
     fn way_home(&self) -> String {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let way = match (self.end, start_up) {
@@ -209,14 +209,14 @@ impl LeftAwayKind<'_> {
         format!("{name}[COMP {way} {}]", self.kind.as_str())
     }
 
-    /// The ends at which the kind is, or may be, away from its start-up state.
+    /// Returns the ends at which the kind is, or may be, away from its start-up state.
     fn ends(&self) -> impl Iterator<Item = &ProgramEnd> {
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let ends = self.ended.ends.iter();
         ends.filter(move |end| end.compensation.state(self.axis, self.kind) != start_up)
     }
 
-    /// What to do about it, as seen from a file. Nothing comes after a loop that only a reset ends.
+    /// Returns the remedy, as seen from a file. Nothing runs after a loop that only a reset ends.
     fn restore(&self, site: &Place) -> String {
         let command = self.way_home();
         if self.ended.endless {
@@ -225,7 +225,7 @@ impl LeftAwayKind<'_> {
         format!("restore it before {}: `{command}`", self.place_of_end(site))
     }
 
-    /// The ends as a message names them that stands in a file.
+    /// Returns the ends as named by a message in a file.
     fn place_of_end(&self, site: &Place) -> String {
         let mut ends = self.ends().map(|end| {
             let line = end.place.start().line;
@@ -252,8 +252,8 @@ impl LeftAwayKind<'_> {
         }
     }
 
-    /// The diagnostic with the ends, and with the command in a block before the end, where there is one
-    /// place that is right on every way (R1.58).
+    /// Adds the ends to the diagnostic, and a fix with the command in a block before the end, if one place is right on
+    /// every way (R1.58).
     fn with_ends(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.ends = self.ends().map(|end| end.place.clone()).collect();
         let shown = if has_other_ends(self.ended) {
@@ -279,7 +279,7 @@ impl LeftAwayKind<'_> {
     }
 }
 
-/// The empty place at the start of a block.
+/// Returns the empty place at the start of a block.
 fn start_of(block: &Place) -> Place {
     Place {
         span: Span::default(),

@@ -7,7 +7,7 @@ use crate::lint::history::Maker;
 use crate::lint::linter::Linter;
 use crate::syntax::code_of;
 
-/// Characters of a block that a message shows.
+/// The most characters of a block that a message shows.
 const MAX_SHOWN: usize = 60;
 
 pub(super) fn lint(
@@ -84,7 +84,7 @@ fn way(kind: MotionKind) -> &'static str {
     }
 }
 
-/// Program, line and block.
+/// Returns program, line and block in words.
 fn named(maker: &Maker) -> String {
     let code: Vec<String> = maker.text.lines().map(code_of).collect();
     let code = code.join(" ");

@@ -1,4 +1,4 @@
-//! FC402: a command that repeats what the program already did, or switches off what is not
+//! FC402: a command that repeats an earlier one of the program, or switches off a kind that is not
 //! configured (R1.51).
 
 use std::sync::Arc;
@@ -11,11 +11,11 @@ use crate::lint::memory::{BlockSite, KindEffect, place};
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
     if !memory.commanded {
-        // To set at program start what one needs is the recommended habit.
+        // Setting the required state at program start is the recommended practice.
         return None;
     }
     if taken.outcome.changes > 0 {
-        // What another way switched before, this one did not.
+        // Another way switched it before; this one did not.
         return None;
     }
     let command = &taken.outcome.command;
@@ -46,7 +46,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     let said = say(format!(
         "this command repeats an earlier one: {what} of axis `{name}` is already {state}"
     ));
-    // In a loop it repeats itself.
+    // In a loop, the command repeats itself.
     let other = repeated.filter(|site| site.place != said.place);
     Some(match other {
         Some(site) => said.with_label(site.place.clone(), "the earlier one"),

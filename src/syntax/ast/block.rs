@@ -1,4 +1,4 @@
-//! A block and what stands in it.
+//! A block and its contents.
 
 use super::call::{Call, GCall, Return, SequenceCall};
 use super::expression::{Node, Operand, Target};
@@ -14,7 +14,7 @@ pub struct Block {
     pub skip: Option<u8>,
     /// The block number.
     pub number: Option<BlockNumber>,
-    /// The words in front of everything else; most blocks have nothing else.
+    /// The words before everything else; most blocks have nothing else.
     pub words: Vec<Word>,
     /// Items after them, from left to right.
     pub items: Vec<Item>,
@@ -27,14 +27,14 @@ pub struct Block {
 }
 
 impl Block {
-    /// Whether a `$GOTO` stands in the block; an `$IF` beside it opens no control block.
+    /// Whether the block contains a `$GOTO`; an `$IF` with it opens no control block.
     pub fn jumps(&self) -> bool {
         self.items
             .iter()
             .any(|item| matches!(item, Item::Flow(Flow::Goto(_), _)))
     }
 
-    /// Appends a word to what stands in the block.
+    /// Appends a word to the block.
     #[inline]
     pub(in crate::syntax) fn push_word(&mut self, word: Word) {
         if self.items.is_empty() {
@@ -133,7 +133,7 @@ pub enum Item {
     MacroDefinition(Span, Span),
     /// `"NAME"`, with its quotes.
     MacroUse(Span),
-    /// Text that has the form of the language and a meaning that is not known here (FC210, R2.70).
+    /// Text that has the form of the language, but no known meaning (FC210, R2.70).
     Unread(Effect, Span),
 }
 
@@ -164,9 +164,9 @@ impl Item {
 /// Possible effect of text of unknown meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// Whatever a program could: it may be a call.
+    /// Anything that a program could do: it may be a call.
     Everything,
-    /// Some parameter: it assigns to a place that is not known.
+    /// Some parameter: it assigns to an unknown place.
     Parameters,
     /// Nothing that is followed here: it is a word of a spindle.
     Spindle,

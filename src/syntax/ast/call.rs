@@ -28,7 +28,7 @@ pub struct Call {
 /// Form of the name of a called program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CallName {
-    /// As it stands.
+    /// Written as is.
     Literal(Span),
     /// In quotes, a macro's name or the program's; the span holds the quotes.
     Quoted(Span),
@@ -51,7 +51,7 @@ pub enum CallForm {
     /// `L file.nc`, `LL NAME`.
     #[default]
     Plain,
-    /// `L CYCLE […]`, `LL CYCLE […]`: what the cycle does to G functions and feed ends with it.
+    /// `L CYCLE […]`, `LL CYCLE […]`: its effect on G functions and feed ends with it.
     Cycle,
 }
 

@@ -31,7 +31,7 @@ pub struct Target {
     pub span: Span,
 }
 
-/// One step of an expression; operands stand in front of their operator.
+/// One step of an expression; operands come before their operator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Node {
     /// A number.
@@ -57,8 +57,8 @@ pub enum Node {
         /// Number of subscripts.
         subscripts: u8,
     },
-    /// A value, or a place to write, whose text is not known here; what is said about it is a fault
-    /// of the block.
+    /// A value, or a place to write, whose text is not known; the message about it is a fault of the
+    /// block.
     Unread,
     /// The sign is turned.
     Negate,

@@ -1,7 +1,7 @@
 //! The blocks of a program as data, compact and owned.
 //!
-//! Names are spans into the block's text. Expressions stand in one vector per block, each operand
-//! in front of its operator, so that they are evaluated with a stack and without recursion.
+//! Names are spans into the block's text. One vector per block holds its expressions, each operand
+//! before its operator, so that they are evaluated with a stack and without recursion.
 
 mod block;
 mod call;

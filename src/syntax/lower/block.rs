@@ -18,7 +18,7 @@ pub(in crate::syntax) fn block(code: &str, block: &mut Block) {
     block_as(Rule::block, code, block);
 }
 
-/// The same from another rule than the one that all blocks are parsed with.
+/// Parses the code of a block with a rule other than the one for all blocks.
 pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     let Brackets { read, unclosed } = match brackets(code) {
         Ok(brackets) => brackets,
@@ -27,7 +27,7 @@ pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     read_as(rule, code, (&read, unclosed), block);
 }
 
-/// The same of a block whose brackets are known.
+/// Parses the code of a block whose brackets are known.
 pub(in crate::syntax) fn read_as(
     rule: Rule,
     code: &str,
@@ -81,7 +81,7 @@ fn too_much_to_read(span: Span) -> Fault {
 }
 
 impl BlockLowering<'_> {
-    /// A skip mark with a level that does not exist skips nothing: it is a mistake whatever switches are on (R2.3).
+    /// A skip mark with a level that does not exist skips nothing: it is a mistake regardless of the switches (R2.3).
     fn skip_mark(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let level = pair.into_inner().next();
         let named = level.map_or("1", |level| level.as_str());

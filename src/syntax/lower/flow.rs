@@ -121,8 +121,8 @@ impl BlockLowering<'_> {
         expression::unread(rest, self.block)
     }
 
-    /// A statement that is none: a misspelt one counts for the pairing as the one that it means, any
-    /// other could be anything (R2.70).
+    /// An unknown statement: for the pairing, a misspelt one counts as the one that it means; any other
+    /// could be anything (R2.70).
     fn unknown_statement(&mut self, word: &str, span: Span) -> Option<Flow> {
         let near = nearest(word, FLOW_WORDS);
         let Some(first) = near.first().filter(|_| word.len() > 1) else {

@@ -15,7 +15,7 @@ use crate::syntax::keywords::{
 use crate::syntax::{expression, pieces::is_blank, unread::not_known};
 use crate::text::Span;
 
-/// Commands with a region behind them, whose lines are no arguments.
+/// Commands followed by a region, whose lines are not arguments.
 const REGIONS: [&str; 3] = ["#VAR", "#RT CYCLE", "#RT CYCLE DEF"];
 
 impl BlockLowering<'_> {
@@ -36,7 +36,7 @@ impl BlockLowering<'_> {
         } else {
             self.arguments(&name, behind)
         };
-        // A comment that is opened as it shall be is no block (R2.6).
+        // A correctly opened comment is not a block (R2.6).
         if name == "#COMMENT BEGIN" && rest.end == span.end {
             return self.beside("other words", span);
         }
@@ -73,7 +73,7 @@ impl BlockLowering<'_> {
         }));
     }
 
-    /// The arguments at the start of what stands behind the words of a command.
+    /// The arguments at the start of the text after the words of a command.
     fn arguments(&self, name: &str, behind: Span) -> Span {
         let is_argument = |pair: &Pair<'_, Rule>| match pair.as_rule() {
             Rule::hash_coordinate => takes_coordinates(name),
@@ -88,7 +88,7 @@ impl BlockLowering<'_> {
         trimmed(Span::new(start, start + length), self.code)
     }
 
-    /// Text beside a command, which stands alone in its block (R2.47): the control may execute it.
+    /// Text in the same block as a command, which must be alone there (R2.47): the control may execute it.
     fn beside(&mut self, what: &str, span: Span) {
         let text = span.of(self.code);
         let from = span.start as usize + text.len() - text.trim_start_matches(is_blank).len();
@@ -101,18 +101,18 @@ impl BlockLowering<'_> {
         }
         let shown: String = span.of(self.code).chars().take(40).collect();
         let message = format!(
-            "`{shown}` stands beside {what}, and it is not known whether the control executes it; whatever it could \
-             change is unknown from here on"
+            "`{shown}` is in the same block as {what}; whether the control executes it is not known, and whatever it \
+             could change is unknown from here on"
         );
         let fault = Fault::new(Code::Fc210, span, message)
-            .with_help("write it in a block of its own: a `#` command stands alone in its block");
+            .with_help("write it in a block of its own: a `#` command must be alone in its block");
         self.block.faults.push(fault);
         self.block
             .items
             .push(Item::Unread(Effect::Everything, span));
     }
 
-    /// The command that ends a region stands alone, too.
+    /// The command that ends a region must be alone, too.
     fn region_end(&mut self, region: Span) {
         let text = region.of(self.code);
         let Some(start) = text.rfind('\n') else {
@@ -128,7 +128,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// A `#` command that no table names could do anything (R2.70).
+    /// A `#` command that is in no table: it could do anything (R2.70).
     fn unknown_hash(&mut self, name: &str, length: usize, span: Span) {
         let mut fault = not_known(name, span);
         let start = span.start as usize;

@@ -1,4 +1,4 @@
-//! A block that is being lowered from pairs to its tree, and what its parts have in common.
+//! A block being lowered from pairs to its tree, and what its parts have in common.
 
 use pest::iterators::Pair;
 
@@ -26,7 +26,7 @@ pub(super) struct BlockLowering<'a> {
 }
 
 impl BlockLowering<'_> {
-    /// A label stands in front of everything else; a bracket after words is none (R2.70).
+    /// A label comes before everything else; a bracket after words is not a label (R2.70).
     pub(super) fn label(&mut self, name: Span, span: Span) {
         if self.block.words.is_empty() && self.block.items.is_empty() {
             self.block.items.push(Item::Label(name));
@@ -35,7 +35,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// Text with the form of the language that is not known here (R2.70).
+    /// Text with the form of the language, but no known meaning (R2.70).
     pub(super) fn unread(&mut self, effect: Effect, span: Span) {
         self.block.faults.push(not_known(span.of(self.code), span));
         self.block.items.push(Item::Unread(effect, span));

@@ -58,7 +58,7 @@ impl BlockLowering<'_> {
         }
     }
 
-    /// `N10` in front of plain words.
+    /// `N10` before plain words.
     fn plain_number(&mut self, span: Span) {
         let value = self.plain_value(span);
         self.block.number = Some(BlockNumber {

@@ -1,15 +1,15 @@
 """Dry runs of ISG and TwinCAT CNC programs with an eye on friction compensation.
 
-``run`` executes programs without a machine and gives their timeline: which axis has friction
-compensation active after each block. The timeline is a table that pandas, polars and DuckDB take
-without a copy. ``check`` gives the messages of whole folders, ``audit`` what the order of programs
-does. ``current``, ``contour``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
+``run`` executes programs without a machine and returns their timeline: which axis has friction
+compensation active after each block. The timeline is a table that pandas, polars and DuckDB accept
+without a copy. ``check`` returns the messages of whole folders, ``audit`` the effect of the order of
+programs. ``current``, ``contour``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
     polars.DataFrame(timeline)
 
-A state that depends on a value which only the machine knows is ``"unknown"``: a value of its own,
+A state that depends on a value that only the machine knows is ``"unknown"``: a separate value,
 never a missing one.
 """
 

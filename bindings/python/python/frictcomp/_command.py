@@ -1,4 +1,4 @@
-"""The command that the wheel brings."""
+"""The command that the wheel contains."""
 
 import signal
 import sys
@@ -8,6 +8,6 @@ from ._engine import command
 
 def main() -> int:
     """Runs the command line of frictcomp."""
-    # The command takes its unfinished files away by itself when it is stopped.
+    # The command removes its unfinished files itself when it is stopped.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return command(sys.argv)

@@ -47,11 +47,11 @@ _PossibleState: TypeAlias = dict[str, Any]
 
 @final
 class Text:
-    """The text of a program, in place of a file.
+    """The text of a program, instead of a file.
 
-    ``path`` says for which file it stands: called programs and the configuration are looked for
-    from its folder, and messages name it. Bytes are decoded as a file is: UTF-8, UTF-16 with its
-    mark, else code page 1252.
+    ``path`` names the file that it represents: called programs and the configuration are looked for
+    from its folder, and messages name it. Bytes are decoded like a file: UTF-8, UTF-16 with its
+    mark, otherwise code page 1252.
     """
 
     def __new__(cls, text: str | bytes, path: _Path | None = None) -> Text: ...
@@ -65,8 +65,8 @@ class Machine:
     """The machine that programs run on.
 
     Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
-    program upwards, as on the command line. ``config`` names another one, ``isolated`` takes none.
-    ``startup`` takes the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+    program upwards, as on the command line. ``config`` names another one, ``isolated`` uses none.
+    ``startup`` reads the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
     accepted value list for axes. ``variables`` are values that only the machine knows,
     ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
     """
@@ -85,7 +85,7 @@ class Machine:
 
 @final
 class End:
-    """An end of the program that a message at its end is about."""
+    """An end of the program that a message about program end refers to."""
 
     @property
     def file(self) -> str: ...
@@ -97,7 +97,7 @@ class End:
 
 @final
 class Fix:
-    """A change of the text that does what a message advises.
+    """A change to the text that does what a message advises.
 
     The text from ``line``, ``column`` up to ``end_line``, ``end_column`` is replaced.
     """
@@ -128,7 +128,7 @@ class Message:
 
     @property
     def program(self) -> int | None:
-        """The program of the session, from 1; None where the message is about a list."""
+        """The program of the session, from 1; None if the message is about a list."""
     @property
     def seq(self) -> int | None:
         """The executed block of the program, from 1."""
@@ -150,7 +150,7 @@ class Message:
     def end_column(self) -> int: ...
     @property
     def axis(self) -> str | None:
-        """The axis that it is about."""
+        """The axis that it refers to."""
     @property
     def message(self) -> str: ...
     @property
@@ -158,13 +158,13 @@ class Message:
         """What to do."""
     @property
     def ends(self) -> list[End]:
-        """The ends of the program that a message at its end is about."""
+        """The ends of the program that a message about program end refers to."""
     @property
     def fixes(self) -> list[Fix]:
-        """Changes of the text, each of which alone does what is advised."""
+        """Changes to the text, each of which alone does what is advised."""
     @property
     def reached_from(self) -> list[str]:
-        """The main programs that reach the place of the message in a called program, 20 at most."""
+        """The main programs that reach the place of the message in a called program, at most 20."""
     @property
     def reached_from_count(self) -> int:
         """How many main programs reach it."""
@@ -181,17 +181,17 @@ class Messages:
 
     @property
     def errors(self) -> int:
-        """How many errors there are, those that are left out included."""
+        """The number of errors, including those that are left out."""
     @property
     def warnings(self) -> int: ...
     @property
     def left_out(self) -> dict[str, int]:
-        """How many messages of a severity are not listed: the list for each file is limited."""
+        """The number of messages of a severity that are not listed: the list for each file is limited."""
     @property
     def remark(self) -> str | None:
-        """That no machine is described, where that matters."""
+        """A remark that no machine is described, where that matters."""
     def raise_for_errors(self) -> None:
-        """Raises ``Error`` where there is a message of severity error."""
+        """Raises ``Error`` if there is a message of severity error."""
     def __len__(self) -> int: ...
     @overload
     def __getitem__(self, index: int, /) -> Message: ...
@@ -220,7 +220,7 @@ class ProgramRun:
     def by(self) -> str | None:
         """Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
 
-        None where an interrupt or the end of the session came first.
+        None if an interrupt or the end of the session came first.
         """
     @property
     def blocks(self) -> int:
@@ -233,10 +233,10 @@ class ProgramRun:
         """Friction compensation after its end, by axis."""
     @property
     def possible(self) -> dict[str, list[_PossibleState]]:
-        """The states that are possible after its end, by axis, where they differ between ways.
+        """The possible states after its end, by axis, where they differ between ways.
 
         Such an axis is ``unknown`` in ``end``. Each state has its ``ways``, lists of conditions that
-        hold together, at most four, and ``more``, how many ways are not named. The state on all other
+        apply together, at most four, and ``more``, how many ways are not named. The state on all other
         ways has None for ``ways``.
         """
 
@@ -246,8 +246,8 @@ class Timeline:
 
     pandas, polars and DuckDB take it without a copy: ``polars.DataFrame(timeline)``,
     ``pandas.DataFrame.from_arrow(timeline)``, ``duckdb.sql("select * from timeline")``. The columns
-    are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON. ``branch`` says on which
-    ways a block is executed, None where on all of them; the rows of CSV that are no block, where ways
+    are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON. ``branch`` gives the
+    ways on which a block is executed, None for all of them; the CSV rows that are not a block, where ways
     meet, are left out.
     """
 
@@ -268,18 +268,18 @@ class Timeline:
         """Friction compensation of each axis at the end."""
     @property
     def possible(self) -> dict[str, list[_PossibleState]]:
-        """The states that are possible at the end, as in ``ProgramRun``."""
+        """The possible states at the end, as in ``ProgramRun``."""
     @property
     def state(self) -> State:
-        """What the next run starts with."""
+        """The state with which the next run starts."""
     @property
     def opaque(self) -> dict[str, int]:
-        """What was accepted and passed over, and how often."""
+        """What was accepted and passed over, with its count."""
     @property
     def is_assumed(self) -> bool:
         """Whether the states rest on an assumption (FC210, FC325, FC902)."""
     def raise_for_errors(self) -> None:
-        """Raises ``Error`` where there is a message of severity error."""
+        """Raises ``Error`` if there is a message of severity error."""
     def svg(self, program: int = 1) -> str:
         """The picture of the states of friction compensation over the executed blocks of a program.
 
@@ -294,13 +294,13 @@ class Timeline:
 
 @final
 class State:
-    """What a run leaves and the next one starts with: states, variables, value lists."""
+    """The result of a run with which the next one starts: states, variables, value lists."""
 
     @staticmethod
     def load(path: _Path) -> State:
-        """Reads a state file, also one of the command line."""
+        """Reads a state file, including one of the command line."""
     def save(self, path: _Path) -> None:
-        """Writes a state file, which the command line takes, too."""
+        """Writes a state file, which the command line also reads."""
     @staticmethod
     def from_json(text: str) -> State: ...
     def to_json(self) -> str:
@@ -309,19 +309,19 @@ class State:
     def axes(self) -> list[str]: ...
     @property
     def away(self) -> list[tuple[str, str]]:
-        """The axes that are not as at the start of the control, each with the kind."""
+        """The axes that are not in their start-up state, each with the kind."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class Limits:
-    """What a dry run skips and where it ends; what is left out is as on the command line.
+    """What a dry run skips and where it ends; the defaults are those of the command line.
 
     ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
-    beyond them, ``values`` the values that a program holds; ``calls``, ``nesting`` and ``macros``
-    bound the depth of calls, control blocks and macros. ``skip`` are the skip levels that are on, all
-    others are off; without it and without ``skip`` in ``frictcomp.toml`` it is unknown whether a
+    beyond them, ``values`` the values that a program keeps; ``calls``, ``nesting`` and ``macros``
+    bound the depth of calls, control blocks and macros. ``skip`` gives the skip levels that are on, all
+    others are off; without it and without ``skip`` in ``frictcomp.toml``, it is unknown whether a
     block with a skip mark is executed.
     """
 
@@ -340,7 +340,7 @@ class Limits:
 
 @final
 class Audit:
-    """What the order of programs does: one row for each program, axis and kind.
+    """The effect of the order of programs: one row for each program, axis and kind.
 
     The table has the columns of ``frictcomp audit --format csv``.
     """
@@ -352,7 +352,7 @@ class Audit:
     def columns(self) -> list[str]: ...
     @property
     def messages(self) -> Messages:
-        """What keeps the control from taking its lists."""
+        """The errors that keep the control from accepting its lists."""
     @property
     def programs(self) -> int: ...
     @property
@@ -360,14 +360,14 @@ class Audit:
         """The pairs of a program that leaves an axis away from its start-up state and one that inherits it."""
     @property
     def has_warnings(self) -> bool:
-        """Whether something needs mending, or is not known."""
+        """Whether something needs to be corrected, or is not known."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
 class AuditSequence:
-    """What programs do in an order: one row for each program, axis and kind.
+    """The effect of programs in an order: one row for each program, axis and kind.
 
     ``str(sequence)`` has the lines of ``frictcomp audit --sequence``, one for each program.
     """
@@ -379,10 +379,10 @@ class AuditSequence:
     def columns(self) -> list[str]: ...
     @property
     def messages(self) -> Messages:
-        """What keeps the control from taking its lists."""
+        """The errors that keep the control from accepting its lists."""
     @property
     def has_warnings(self) -> bool:
-        """Whether a program moves an axis in a state in which another one left it."""
+        """Whether a program moves an axis in a state that another one left."""
     def __len__(self) -> int: ...
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
@@ -404,7 +404,7 @@ class Currents:
         """What stopped the program or the trace, and what the trace simplifies."""
     @property
     def left_out(self) -> int:
-        """How many motions are not in the trace, because their start or end is not known."""
+        """The number of motions that are not in the trace, because their start or end is not known."""
     def svg(self) -> str:
         """The picture of currents, velocities, weights and states over time, as ``frictcomp current --svg``
         draws it.
@@ -420,7 +420,7 @@ class AxisCurrent:
 
     @property
     def axis(self) -> str:
-        """The name of the axis; empty where it is that of a recording."""
+        """The name of the axis; empty for a recording."""
     @property
     def t(self) -> NDArray[numpy.float64]:
         """The time of each cycle in s."""
@@ -438,10 +438,10 @@ class AxisCurrent:
         """The weight of the build-up after a reversal, 0 to 1."""
     @property
     def current(self) -> NDArray[numpy.float64]:
-        """The additive current in drive units. ``Error`` where it is not known in every cycle."""
+        """The additive current in drive units. ``Error`` if it is not known in every cycle."""
     @property
     def output(self) -> NDArray[numpy.int16]:
-        """The integer that the drive gets. ``Error`` where it is not known in every cycle."""
+        """The integer that the drive gets. ``Error`` if it is not known in every cycle."""
     @property
     def comp(self) -> NDArray[numpy.str_]:
         """The state of friction compensation in each cycle."""
@@ -449,16 +449,16 @@ class AxisCurrent:
         """The current, and the given value in the cycles in which it is not known."""
     @property
     def unknown_cycles(self) -> int:
-        """In how many cycles the current is not known."""
+        """The number of cycles in which the current is not known."""
     @property
     def saturated_cycles(self) -> int:
-        """In how many cycles the output was cut to 16 bit."""
+        """The number of cycles in which the output was limited to 16 bits."""
     @property
     def cycles_at_rest(self) -> int:
-        """In how many cycles at standstill it matters what the control adds there."""
+        """The number of cycles at standstill in which it matters what the control adds."""
     @property
     def remarks(self) -> list[str]:
-        """What was done to the rows of a recording to make cycles of them, each step a sentence."""
+        """The steps that converted the rows of a recording to cycles, a sentence each."""
     def svg(self) -> str:
         """The picture of current, velocity, weights and states over time."""
     def __len__(self) -> int: ...
@@ -507,7 +507,7 @@ class Tuned:
 
 @final
 class Identified:
-    """The friction of an axis, and the value list that is made of it."""
+    """The friction of an axis, and the value list that is made from it."""
 
     @property
     def record(self) -> Any:
@@ -517,7 +517,7 @@ class Identified:
     def svg(self) -> str:
         """The picture of the friction curve, as ``frictcomp identify --svg`` draws it.
 
-        ``Error`` where friction was found on circles, of which there is none.
+        ``Error`` if friction was found on circles, for which there is no picture.
         """
 
 def run(
@@ -534,7 +534,7 @@ def run(
 
     A program is a path, or a text: ``Text``, or ``bytes``. ``state`` is what an earlier run left;
     the path of a state file is read and, at the end, written, as ``--state`` does. An error of the
-    control stops the session unless ``keep_going``. ``kinds`` adds columns such as ``X.LEAD``,
+    control stops the session unless ``keep_going`` is set. ``kinds`` adds columns such as ``X.LEAD``,
     ``positions`` adds ``X_pos`` in mm or degrees.
     """
 
@@ -546,7 +546,7 @@ def check(
 ) -> Messages:
     """All messages of programs and of the programs below folders.
 
-    Each program runs from the start of the control. ``Error`` where one of them cannot be read.
+    Each program runs from the start of the control. ``Error`` if one of them cannot be read.
     """
 
 def audit(
@@ -565,10 +565,10 @@ def audit_sequence(
     kinds: _Kinds | None = None,
     limits: Limits | None = None,
 ) -> AuditSequence:
-    """What programs do in the order in which they are given, from a start of the control.
+    """Runs programs in the given order, from a start of the control, and reports their effect.
 
-    It says what each of them changes, and where an axis first moves outside its start-up state, with
-    the program that left it so.
+    The result shows what each of them changes, and where an axis first moves outside its start-up state,
+    with the program that left it so.
     """
 
 def current(
@@ -585,9 +585,9 @@ def current(
 ) -> Currents:
     """The additive current of axes over the path of a program, as NumPy arrays.
 
-    ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
+    ``value_list`` replaces the lists of the machine. ``start`` gives the axis positions at the start,
     ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
-    ``max_cycles``, which a message says.
+    ``max_cycles``, which a message reports.
     """
 
 def current_of_recording(
@@ -607,9 +607,9 @@ def current_of_recording(
 
     The trace is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
     s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
-    ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units where the file
-    does not. Times that are not those of CNC cycles are refused unless ``resample``. Velocities up to
-    ``dead_band`` in µm/s or 0.001°/s are standstill.
+    ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
+    does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
+    to ``dead_band`` in µm/s or 0.001°/s are standstill.
     """
 
 def contour(
@@ -630,7 +630,7 @@ def contour(
     The path is driven three times: with friction compensation as the program switches it, with all of
     it on, and with all of it off. ``plane`` is the view of the picture, ``"XY"`` or two names.
     ``value_list`` gives axes other lists than those of the machine, ``{"X": "comp_x.lis"}``. ``start``
-    says where axes stand at first, ``{"X": 0.0}``, in mm or degrees.
+    gives the axis positions at the start, ``{"X": 0.0}``, in mm or degrees.
     """
 
 def circle(
@@ -666,7 +666,7 @@ def tune(
 ) -> Tuned:
     """Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm.
 
-    With ``robust`` the list is also good where the contact is half or twice as stiff, or friction
+    With ``robust`` the list is also good if the contact is half or twice as stiff, or friction
     differs by 10 % between the directions.
     """
 
@@ -690,12 +690,12 @@ def identify(
     """Finds the friction of an axis in a recording, and the points of a value list.
 
     ``torque_kind`` says which torque was recorded and ``compensation`` whether friction compensation
-    was on meanwhile; without them the channels say it, where they do.
+    was on meanwhile; without them, the channels decide, if they show it.
 
-    ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
+    ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units if
     the file does not. With ``circles`` the recordings are circles at two or more feeds.
     ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
     """
 
 def command(arguments: Sequence[_Path]) -> int:
-    """Runs the command line, the name of the program first; gives its exit status."""
+    """Runs the command line, the name of the program first; returns its exit status."""

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 class Error(Exception):
     """Something could not be done: a file cannot be read, a configuration has a mistake.
 
-    ``str(error)`` is one sentence and, after it, what to do. What is wrong with the lines of a
-    file is in ``messages``; ``file``, ``line``, ``column`` and ``code`` are those of the first of
+    ``str(error)`` is one sentence and, after it, what to do. The errors in the lines of a
+    file are in ``messages``; ``file``, ``line``, ``column`` and ``code`` are those of the first of
     them. Lines and columns count from 1, columns in characters.
     """
 

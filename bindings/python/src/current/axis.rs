@@ -29,7 +29,7 @@ pub(crate) struct PyAxisCurrent {
     remarks: Vec<String>,
 }
 
-/// An axis, and its type where a machine says it.
+/// An axis, and its type if a machine gives it.
 #[derive(Debug, Clone)]
 pub(crate) struct NamedAxis {
     pub(super) name: String,
@@ -45,7 +45,7 @@ impl NamedAxis {
     }
 }
 
-/// Cycles in which something is to be said about the current.
+/// Cycles with a remark on the current.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Counted {
     pub(super) saturated: u64,
@@ -180,7 +180,7 @@ impl PyAxisCurrent {
         pickled::reduced(slf, arguments)
     }
 
-    /// The name of the axis; empty where it is that of a recording.
+    /// The name of the axis; empty for a recording.
     #[getter]
     fn axis(&self) -> &str {
         &self.axis.name
@@ -216,14 +216,14 @@ impl PyAxisCurrent {
         self.w_after.clone_ref(py)
     }
 
-    /// The additive current in drive units. ``Error`` where it is not known in every cycle.
+    /// The additive current in drive units. ``Error`` if it is not known in every cycle.
     #[getter]
     fn current(&self, py: Python<'_>) -> PyResult<Py<PyArray1<f64>>> {
         self.known(py)?;
         Ok(self.current.clone_ref(py))
     }
 
-    /// The integer that the drive gets. ``Error`` where it is not known in every cycle.
+    /// The integer that the drive gets. ``Error`` if it is not known in every cycle.
     #[getter]
     fn output(&self, py: Python<'_>) -> PyResult<Py<PyArray1<i16>>> {
         self.known(py)?;
@@ -249,25 +249,25 @@ impl PyAxisCurrent {
         Ok(PyArray1::from_vec(py, filled.collect()))
     }
 
-    /// In how many cycles the current is not known.
+    /// The number of cycles in which the current is not known.
     #[getter]
     fn unknown_cycles(&self) -> usize {
         self.unknown_cycles
     }
 
-    /// In how many cycles the output was cut to 16 bit.
+    /// The number of cycles in which the output was limited to 16 bits.
     #[getter]
     fn saturated_cycles(&self) -> u64 {
         self.counted.saturated
     }
 
-    /// In how many cycles at standstill it matters what the control adds there.
+    /// The number of cycles at standstill in which it matters what the control adds.
     #[getter]
     fn cycles_at_rest(&self) -> u64 {
         self.counted.at_rest
     }
 
-    /// What was done to the rows of a recording to make cycles of them, each step a sentence.
+    /// The steps that converted the rows of a recording to cycles, a sentence each.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         self.remarks.clone()
@@ -311,7 +311,7 @@ impl PyAxisCurrent {
         Ok((AxisPlot::new(&self.axis.name, self.axis.axis_type), columns))
     }
 
-    /// Refuses to give currents of which some are not known.
+    /// Refuses to return currents of which some are not known.
     fn known(&self, py: Python<'_>) -> PyResult<()> {
         if self.unknown_cycles == 0 {
             return Ok(());

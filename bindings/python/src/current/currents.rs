@@ -111,7 +111,7 @@ impl PyCurrents {
         self.messages.clone_ref(py)
     }
 
-    /// How many motions are not in the trace, because their start or end is not known.
+    /// The number of motions that are not in the trace, because their start or end is not known.
     #[getter]
     fn left_out(&self) -> u64 {
         self.left_out

@@ -39,7 +39,7 @@ pub(crate) use axis::PyAxisCurrent;
 pub(crate) use currents::PyCurrents;
 pub(crate) use recording::current_of_recording;
 
-/// What is computed, away from Python.
+/// What is computed, independent of Python.
 struct ProgramsJob {
     programs: GivenPrograms,
     machine: MachineOptions,
@@ -73,12 +73,12 @@ struct ProgramsCurrents {
 
 /// The additive current of axes over the path of a program, as NumPy arrays.
 ///
-/// ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
+/// ``value_list`` replaces the lists of the machine. ``start`` gives the axis positions at the start,
 /// ``{"X": 0.0}``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
-/// ``max_cycles``, which a message says.
+/// ``max_cycles``, which a message reports.
 #[pyfunction]
 #[pyo3(signature = (program, axes, *, machine=None, value_list=None, cycle_time_ms=None, reading=None, start=None, max_cycles=3_600_000, limits=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current(
     program: &Bound<'_, PyAny>,
@@ -108,10 +108,10 @@ pub(crate) fn current(
     PyCurrents::new(py, computed)
 }
 
-/// Refuses to compute arrays in vain, without NumPy.
+/// Refuses to compute arrays in vain if NumPy is missing.
 fn expect_numpy(py: Python<'_>) -> PyResult<()> {
     py.import("numpy").map_err(|error| {
-        // Ctrl+C while it is loaded is no reason to install it.
+        // Ctrl+C while it is loaded does not mean that it is missing.
         if !error.is_instance_of::<PyImportError>(py) {
             return error;
         }

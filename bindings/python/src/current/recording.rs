@@ -20,7 +20,7 @@ use crate::identify::given_units;
 use crate::words::meant;
 use crate::work::interruptible;
 
-/// What is computed, away from Python.
+/// What is computed, independent of Python.
 struct RecordingJob {
     trace: PathBuf,
     value_list: PathBuf,
@@ -41,12 +41,12 @@ struct RecordingCurrents {
 ///
 /// The trace is an export of TwinCAT Scope, a SINUMERIK trace or a CSV file with the columns ``t`` in
 /// s, ``x`` in 0.1 µm or 0.0001°, ``v`` in µm/s or 0.001°/s and, where it is recorded, ``comp``; or
-/// ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units where the file
-/// does not. Times that are not those of CNC cycles are refused unless ``resample``. Velocities up to
-/// ``dead_band`` in µm/s or 0.001°/s are standstill.
+/// ``time``, ``position`` and ``velocity`` name its channels, and ``units`` their units if the file
+/// does not. Times that are not those of CNC cycles are refused unless ``resample`` is set. Velocities up
+/// to ``dead_band`` in µm/s or 0.001°/s are standstill.
 #[pyfunction]
 #[pyo3(signature = (trace, value_list, *, time=None, position=None, velocity=None, units=None, cycle_time_ms=None, resample=false, dead_band=None, reading=None))]
-// Each is an argument of its own for Python.
+// Each is a separate argument in Python.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn current_of_recording(
     py: Python<'_>,

@@ -14,7 +14,7 @@ use crate::arrow::ArrowTable;
 use crate::messages::PickledWord;
 use crate::states::STATES;
 
-/// More bars of an axis are not kept apart.
+/// The maximum number of bars of an axis that are kept separate.
 const MOST_BARS: usize = 5000;
 
 /// The bars of a program.

@@ -23,7 +23,7 @@ use bars::Bars;
 pub(crate) use recorder::{RecordedSession, Recorder};
 pub(crate) use rows::ShownColumns;
 
-/// Programs that a notebook shows at once.
+/// The number of programs that a notebook shows at once.
 const SHOWN: usize = 20;
 
 /// How a program of a run went.
@@ -37,7 +37,7 @@ pub(crate) struct PyProgramRun {
     name: Option<String>,
     /// Why it ended: ``M30``, ``M02``, ``end-of-file`` without either, ``error``, ``budget``.
     ///
-    /// None where an interrupt or the end of the session came first.
+    /// None if an interrupt or the end of the session came first.
     by: Option<PickledWord>,
     /// How many blocks were executed.
     blocks: u64,
@@ -45,10 +45,10 @@ pub(crate) struct PyProgramRun {
     start: BTreeMap<String, PickledWord>,
     /// Friction compensation after its end, by axis.
     end: BTreeMap<String, PickledWord>,
-    /// The states that are possible after its end, by axis, where they differ between ways.
+    /// The possible states after its end, by axis, where they differ between ways.
     ///
     /// Such an axis is ``unknown`` in ``end``. Each state has its ``ways``, lists of conditions that
-    /// hold together, at most four, and ``more``, how many ways are not named. The state on all other
+    /// apply together, at most four, and ``more``, how many ways are not named. The state on all other
     /// ways has None for ``ways``.
     possible: JsonText,
 }
@@ -70,15 +70,15 @@ impl PyProgramRun {
     }
 }
 
-/// What a timeline is restored from: what was recorded, the blocks, the messages.
+/// The data that a timeline is restored from: the record, the blocks, the messages.
 type PickledTimeline<'py> = (String, Bound<'py, PyBytes>, Py<PyMessages>);
 
 /// The timeline of a run: one row for each executed block.
 ///
 /// pandas, polars and DuckDB take it without a copy: ``polars.DataFrame(timeline)``,
 /// ``pandas.DataFrame.from_arrow(timeline)``, ``duckdb.sql("select * from timeline")``. The columns
-/// are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON. ``branch`` says on which
-/// ways a block is executed, None where on all of them; the rows of CSV that are no block, where ways
+/// are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON. ``branch`` gives the
+/// ways on which a block is executed, None for all of them; the CSV rows that are not a block, where ways
 /// meet, are left out.
 #[pyclass(frozen, name = "Timeline", module = "frictcomp")]
 pub(crate) struct PyTimeline {
@@ -166,19 +166,19 @@ impl PyTimeline {
         self.recorded.friction.clone()
     }
 
-    /// The states that are possible at the end, as in ``ProgramRun``.
+    /// The possible states at the end, as in ``ProgramRun``.
     #[getter]
     fn possible(&self) -> JsonText {
         self.recorded.possible.clone()
     }
 
-    /// What the next run starts with.
+    /// The state with which the next run starts.
     #[getter]
     fn state(&self) -> PyState {
         self.recorded.state.clone()
     }
 
-    /// What was accepted and passed over, and how often.
+    /// What was accepted and passed over, with its count.
     #[getter]
     fn opaque(&self) -> BTreeMap<String, u64> {
         self.recorded.opaque.clone()
@@ -196,7 +196,7 @@ impl PyTimeline {
         self.recorded.unrun
     }
 
-    /// Raises ``Error`` where there is a message of severity error.
+    /// Raises ``Error`` if there is a message of severity error.
     fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
         self.messages.get().raise_for_errors(py)
     }

@@ -17,7 +17,7 @@ use crate::messages::{GivenMessages, PickledWord, PyMessage};
 use crate::state::PyState;
 use crate::work::Stop;
 
-/// What a session left behind, beside its blocks and its messages.
+/// The results of a session other than its blocks and its messages.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct RecordedSession {
     pub(crate) axes: Vec<String>,
@@ -25,7 +25,7 @@ pub(crate) struct RecordedSession {
     pub(crate) friction: BTreeMap<String, PickledWord>,
     /// Friction compensation at the start of the control, by axis.
     pub(crate) start_up: BTreeMap<String, PickledWord>,
-    /// The states that are possible where ways differ, by axis.
+    /// The possible states where ways differ, by axis.
     pub(crate) possible: JsonText,
     pub(crate) opaque: BTreeMap<String, u64>,
     pub(crate) is_assumed: bool,
@@ -127,7 +127,7 @@ impl Sink for Recorder {
                     self.messages(record);
                 }
             }
-            // It is no block; what follows has the state that the ways left.
+            // It is not a block; what follows has the state that the ways left.
             Record::Join(_) => {}
             Record::End(end) => {
                 self.messages(record);
@@ -164,7 +164,7 @@ fn friction(state: StateView<'_>) -> BTreeMap<String, PickledWord> {
     .collect()
 }
 
-/// The states of friction compensation that are possible where ways differ, by axis (R14.2).
+/// The possible states of friction compensation where ways differ, by axis (R14.2).
 fn possible(state: StateView<'_>) -> JsonText {
     let axes = state.axes().filter_map(|(axis, name)| {
         let mut split = state.possible.iter();

@@ -17,13 +17,13 @@ use frictcomp::timeline::{PositionFrame, Row, StateView};
 use crate::arrow::ArrowTable;
 use crate::states;
 
-/// Blocks of a batch at most.
+/// The maximum number of blocks in a batch.
 const ROWS: usize = 1 << 17;
 
-/// Bytes of text in a batch at most, far below what its offsets can name.
+/// The maximum number of bytes of text in a batch, far below the range of its offsets.
 const TEXT: usize = 1 << 29;
 
-/// What the columns show.
+/// The content of the columns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ShownColumns {
     /// The kinds of compensation. Friction compensation is always shown.

@@ -1,4 +1,4 @@
-//! The channels of recordings, as they are named on the command line.
+//! The channels of recordings, as named on the command line.
 
 use std::path::PathBuf;
 
@@ -13,13 +13,13 @@ use frictcomp_recordings::commission::Plan;
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
 use frictcomp_report::visible_line;
 
-/// Channels of the recordings; `%` stands for the name of the axis.
+/// Channels of the recordings; `%` stands for the axis name.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ReadingArgs {
     /// The channel of the times in a recording
     #[arg(long, value_name = "CHANNEL")]
     time: Option<String>,
-    /// The channel of the commanded positions; `%` stands for the name of the axis: `%.SetPos`
+    /// The channel of the commanded positions; `%` stands for the axis name: `%.SetPos`
     #[arg(long, value_name = "CHANNEL")]
     position: Option<String>,
     /// The channel of the commanded velocities: `%.SetVelo`
@@ -48,18 +48,18 @@ pub(super) struct ReadingArgs {
 }
 
 impl ReadingArgs {
-    /// All that decides how a recording is read.
+    /// Returns everything that affects how a recording is read.
     pub(super) fn key(&self) -> String {
         format!("{self:?}")
     }
 
-    /// All that decides how recorded circles are read.
+    /// Returns everything that affects how recorded circles are read.
     pub(super) fn circles_key(&self) -> String {
         let (time, places) = (&self.time, &self.actual_position);
         format!("{time:?} {places:?} {:?} {:?}", self.unit, self.cycle)
     }
 
-    /// Statements of the user about the recordings.
+    /// Returns the user's statements about the recordings.
     pub(super) fn said(&self) -> Vec<String> {
         let roles = self.role.iter();
         let mut said: Vec<String> = roles
@@ -93,13 +93,13 @@ impl ReadingArgs {
         })
     }
 
-    /// The CNC cycle in s.
+    /// Returns the CNC cycle in s.
     pub(super) fn cycle_time_s(&self) -> Result<f64, Failure> {
         let given = self.cycle.seconds()?;
         Ok(given.unwrap_or(Circle::default().cycle_time_s))
     }
 
-    /// The channels of circles.
+    /// Returns the channels of circles.
     pub(super) fn circle_channels(&self, plan: &Plan) -> CircleChannels {
         let of_axis = |at: usize| {
             let name = plan.axes.get(at).map(|it| it.name.as_str())?;
@@ -119,7 +119,7 @@ impl ReadingArgs {
         }
     }
 
-    /// The channels of an axis with its actual position or its following error.
+    /// Returns the channels of an axis with its actual position or its following error.
     pub(super) fn followed(&self, axis: &str) -> ChannelSelection {
         let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
         ChannelSelection {
@@ -129,7 +129,7 @@ impl ReadingArgs {
         }
     }
 
-    /// The channels of an axis.
+    /// Returns the channels of an axis.
     pub(super) fn selection(&self, axis: &str) -> ChannelSelection {
         let named = |channel: &Option<String>| channel.as_ref().map(|it| it.replace('%', axis));
         ChannelSelection {
@@ -144,7 +144,7 @@ impl ReadingArgs {
     }
 }
 
-/// `FILE=NUMBER`.
+/// Parses `FILE=NUMBER`.
 fn parse_role(text: &str) -> Result<(String, u16), String> {
     let parsed = text.rsplit_once('=').and_then(|(file, number)| {
         let number = number

@@ -1,4 +1,4 @@
-//! The friction of an axis in a recorded program, of a gantry that of all its motors (R16.2, R16.8).
+//! The friction of an axis in a recorded program; for a gantry, of all its motors (R16.2, R16.8).
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use frictcomp_recordings::identify::{
 };
 
 impl ReadingArgs {
-    /// The friction of an axis with these speeds; that of a gantry is the mean of its motors.
+    /// Returns the friction of an axis at these speeds; for a gantry, the mean of its motors.
     pub(super) fn friction(
         &self,
         path: &Path,
@@ -51,7 +51,7 @@ impl ReadingArgs {
         Ok(found)
     }
 
-    /// The recordings of the motors that follow an axis, sample by sample as its own; or why there are none.
+    /// Returns the recordings of the motors that follow an axis, with its own samples; or why there are none.
     fn followers(
         &self,
         path: &Path,
@@ -80,7 +80,7 @@ impl ReadingArgs {
         read.collect()
     }
 
-    /// The motion of an axis with the torque of one motor.
+    /// Returns the motion of an axis with the torque of one motor.
     fn motor(&self, path: &Path, axis: &str, motor: &str) -> Result<AxisRecording, Failure> {
         let cycle = self.cycle.seconds()?;
         let torque = self.selection(motor).torque;
@@ -88,11 +88,11 @@ impl ReadingArgs {
         with.torque.clone_from(&torque);
         let mut without = self.selection(axis);
         without.torque = torque;
-        // An actual position beside the commanded one is a check, and may be missing here.
+        // An actual position in addition to the commanded one is only a check, and may be missing here.
         Ok(read_axis(path, &with, cycle).or_else(|_| read_axis(path, &without, cycle))?)
     }
 
-    /// The friction in the torque of one motor.
+    /// Identifies the friction in the torque of one motor.
     fn judge(
         &self,
         recorded: RecordedProgram<'_>,
@@ -102,7 +102,7 @@ impl ReadingArgs {
     ) -> Result<FrictionFound, Failure> {
         let options = IdentifyOptions {
             measured: Measured {
-                // The program itself switches it.
+                // The program itself switches compensation.
                 compensation: Some(recorded.wanted()),
                 ..recording.measured.stated(self.kind.torque_kind, None)
             },

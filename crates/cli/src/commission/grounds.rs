@@ -1,4 +1,4 @@
-//! What results rest on besides the recordings: files, and what the user says (R16.5).
+//! The basis of the results besides the recordings: files, and the user's statements (R16.5).
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use frictcomp_physics::simulation::Preset;
 use frictcomp_report::commission::{InputFile, PlanFile};
 
 impl CommissionRunArgs {
-    /// The plans, the lists of stage 2, the earlier ones, and the file of the plant.
+    /// Returns the plans, the lists of stage 2, the earlier ones, and the file of the plant.
     pub(super) fn inputs(&self, plans: &[PlanFile]) -> Result<Vec<InputFile>, Failure> {
         let rounds = (1..).take(plans.len() + 1);
         let paths = rounds.map(|round| self.folder.join(plan_name(round)));
@@ -42,7 +42,7 @@ impl CommissionRunArgs {
             .into_iter()
             .map(input)
             .collect::<Result<Vec<_>, Failure>>()?;
-        // As they were when they were planned; one that changed since is not accepted.
+        // As they were at planning time; a list that changed since then is not accepted.
         inputs.extend(plans.iter().flat_map(|it| &it.lists).map(|it| InputFile {
             what: format!("list of {} on", it.axis),
             file: it.file.clone(),
@@ -51,7 +51,7 @@ impl CommissionRunArgs {
         Ok(inputs)
     }
 
-    /// Statements of the user that no recording shows.
+    /// Returns the user's statements that no recording shows.
     pub(super) fn said(&self) -> Vec<String> {
         let mut said = self.reading.said();
         if let Some(plant) = &self.plant {

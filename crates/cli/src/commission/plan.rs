@@ -141,7 +141,7 @@ pub(crate) fn run(args: &PlanArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// Writes the folder: all of its files, or none.
+/// Writes the folder: all of its files or none.
 fn write(
     (folder, round): (&Path, u16),
     report: &PlanReport,
@@ -173,18 +173,18 @@ fn write(
     outputs.finish()
 }
 
-/// The file of the plan of a round.
+/// Returns the file name of the plan of a round.
 pub(super) fn plan_name(round: u16) -> String {
     format!("plan-{round}.json")
 }
 
-/// The plan in a file; `None` where there is none that is understood.
+/// Reads the plan in a file; `None` if there is none that this version understands.
 fn plan_in(path: &Path) -> Option<PlanFile> {
     serde_json::from_str(&read_text(path).ok()?).ok()
 }
 
-/// The round of a plan: 1 without lists; with lists the one that has them already, or the next that the
-/// folder has not.
+/// Returns the round of a plan: 1 without lists; with lists the one that already has them, or the next that is not
+/// in the folder.
 fn round(folder: Option<&Path>, lists: &[ValueListUsed]) -> u16 {
     if lists.is_empty() {
         return 1;
@@ -204,7 +204,7 @@ fn round(folder: Option<&Path>, lists: &[ValueListUsed]) -> u16 {
 }
 
 impl PlanArgs {
-    /// An axis as the machine describes it, with its travel.
+    /// Returns an axis as the machine describes it, with its travel.
     fn measured(&self, name: &str, machine: &Machine) -> Result<MeasuredAxis, Failure> {
         let found = machine.axes.iter().find(|it| it.name == name);
         let axis = found
@@ -238,7 +238,7 @@ impl PlanArgs {
         })
     }
 
-    /// The travel of an axis: `X0..300` or `X=0..300`.
+    /// Returns the travel of an axis: `X0..300` or `X=0..300`.
     fn travel_of(&self, name: &str) -> Result<FreeTravel, Failure> {
         let of_axis = |text: &&String| {
             let rest = text.trim().strip_prefix(name);
@@ -267,12 +267,12 @@ impl PlanArgs {
             })
         });
         ends.ok_or_else(|| {
-            let message = format!("`{}` is no travel", visible_line(text));
+            let message = format!("`{}` is not a travel range", visible_line(text));
             Failure::new(message).with_help(written())
         })
     }
 
-    /// The lists of stage 2, one for each axis, each read as the control reads it.
+    /// Returns the lists of stage 2, one for each axis, each read as the control reads it.
     fn lists(&self, registry: &FileRegistry) -> Result<Vec<ValueListUsed>, Failure> {
         if self.value_list.is_empty() {
             return Ok(Vec::new());
@@ -294,7 +294,7 @@ impl PlanArgs {
     }
 }
 
-/// The value after `AXIS=` of an option that is given for each axis.
+/// Returns the value after `AXIS=` in an option that is given for each axis.
 pub(super) fn named<T: std::str::FromStr>(
     given: &[String],
     axis: &str,
@@ -320,7 +320,7 @@ pub(super) fn named<T: std::str::FromStr>(
     value.trim().parse().map(Some).map_err(|_| refused(text))
 }
 
-/// Friction compensation at the start of the control.
+/// Returns the state of friction compensation at the start of the control.
 fn installed(axis: &Axis) -> Installed {
     if !axis.configured.contains(Kind::Frict) {
         Installed::Unconfigured

@@ -1,4 +1,4 @@
-//! A recording, recognised by its signature, and the result of its program.
+//! A recording, identified by its signature, and the result of its program.
 
 use std::path::{Path, PathBuf};
 
@@ -15,8 +15,8 @@ use frictcomp_recordings::commission::{
 use frictcomp_recordings::identify::AxisRecording;
 
 impl ReadingArgs {
-    /// The number of the program and what its recording shows. What cannot be read is a result, too: the
-    /// other recordings are read all the same.
+    /// Returns the number of the program and what its recording shows. A failure to read it is a result, too; the
+    /// other recordings are read nevertheless.
     pub(super) fn read(&self, path: &Path, plans: &[&Plan]) -> (Option<u16>, RecordingOutcome) {
         let recorded = match self.recognise(path, plans) {
             Ok(recorded) => recorded,
@@ -45,8 +45,8 @@ impl ReadingArgs {
         (Some(recorded.program.number), found)
     }
 
-    /// Says whether the recorded state of the compensation, where there is one, is that of the program, from the
-    /// end of its signature to shortly before its own end: what was before and after is switched back there.
+    /// Checks that the recorded state of the compensation, if there is one, matches that of the program, from the
+    /// end of its signature to shortly before its own end: outside this range the earlier state is in effect.
     fn compare_states(
         &self,
         path: &Path,
@@ -89,7 +89,7 @@ impl ReadingArgs {
         Ok(())
     }
 
-    /// The program of a recording, by its signature or by what the user says.
+    /// Identifies the program of a recording, by its signature or by the user's statement.
     fn recognise<'a>(
         &self,
         path: &Path,
@@ -140,7 +140,7 @@ impl ReadingArgs {
         };
         let number = first.signature.number();
         if let Some(said) = said.filter(|it| *it != number) {
-            let message = format!("its strokes are the number {number}, and `--role` says {said}");
+            let message = format!("its strokes give the number {number}, but `--role` says {said}");
             return Err(Failure::new(message));
         }
         if signed
@@ -174,7 +174,7 @@ impl ReadingArgs {
         })
     }
 
-    /// The following error of an axis alone in a recorded program of strokes.
+    /// Returns the following error of a single axis in a recorded program of strokes.
     fn strokes(
         &self,
         path: &Path,
@@ -216,7 +216,7 @@ impl ReadingArgs {
         Ok(RecordingOutcome::Strokes(found))
     }
 
-    /// The turns of a recorded program of circles, in the units of their plan.
+    /// Returns the turns of a recorded program of circles, in the units of their plan.
     pub(super) fn turns(
         &self,
         path: &Path,
@@ -226,7 +226,7 @@ impl ReadingArgs {
         Ok(read_turns(path, &self.circle_channels(plan), Some(radius))?)
     }
 
-    /// The circles of a recorded program.
+    /// Returns the circles of a recorded program.
     fn circles(
         &self,
         path: &Path,

@@ -1,9 +1,9 @@
-//! A program that was recorded.
+//! A recorded program.
 
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
 
-/// A program that was recorded, with its plan.
+/// A recorded program with its plan.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RecordedProgram<'a> {
     pub(super) program: &'a MeasuringProgram,
@@ -13,7 +13,7 @@ pub(super) struct RecordedProgram<'a> {
 }
 
 impl RecordedProgram<'_> {
-    /// The state to which the program switches compensation.
+    /// Returns the state to which the program switches compensation.
     pub(super) fn wanted(self) -> Switched {
         match self.plan.stage {
             Stage::Off => Switched::Off,

@@ -67,7 +67,7 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
     }
     let mut outputs = Outputs::new(&registry, console);
     outputs.print("the result")?;
-    // What one recording says about another is said anew each time.
+    // What one recording shows about another is determined anew each time.
     let read = results.clone();
     refuse_strangers(&mut results);
     let axes = lists(args, &plans, &results, &mut outputs)?;
@@ -170,7 +170,7 @@ fn acceptance(
 /// The file of the results.
 const RESULTS: &str = "results.json";
 
-/// The plans of stage 1, where it is there, and of each round of stage 2.
+/// Returns the plans of stage 1, if it exists, and of each round of stage 2.
 fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failure> {
     let mut plans = Vec::new();
     for round in 1.. {
@@ -183,7 +183,7 @@ fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failur
         }
         registry.reads("plan", &path);
         let plan: PlanFile = serde_json::from_str(&read_text(&path)?).map_err(|error| {
-            let message = format!("`{}` is no plan: {error}", shown(&path));
+            let message = format!("`{}` is not a plan: {error}", shown(&path));
             Failure::new(message).with_help("`frictcomp commission plan` writes it")
         })?;
         if plan.schema != PlanFile::SCHEMA {
@@ -205,7 +205,7 @@ fn plans(folder: &Path, registry: &FileRegistry) -> Result<Vec<PlanFile>, Failur
     Ok(plans)
 }
 
-/// The results of an earlier run; none where they are not there or not understood.
+/// Returns the results of an earlier run; none if they do not exist or this version does not understand them.
 fn known(path: &Path) -> Results {
     let text = read_text(path).ok();
     let read = text.and_then(|text| serde_json::from_str::<Results>(&text).ok());
@@ -213,8 +213,8 @@ fn known(path: &Path) -> Results {
         .unwrap_or_default()
 }
 
-/// The SHA-256 of all that decides how a recording is read, but the recording itself: version, options and
-/// the plan of its program, all plans where its program is not known.
+/// Returns the SHA-256 of everything that affects how a recording is read, except the recording itself: version,
+/// options and the plan of its program, or all plans if its program is not known.
 fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>) -> String {
     let has = |plan: &&PlanFile| {
         let mut programs = plan.plan.programs.iter();
@@ -225,7 +225,7 @@ fn read_with(args: &CommissionRunArgs, plans: &[PlanFile], program: Option<u16>)
     sha256_of_text(&format!("{version} {} {plans:?}", args.reading.key()))
 }
 
-/// A provisional list for each axis of stage 1 whose friction was recorded and that has no reason against it.
+/// Writes a provisional list for each axis of stage 1 whose friction was recorded and that has no reason against it.
 fn lists(
     args: &CommissionRunArgs,
     plans: &[PlanFile],
@@ -254,7 +254,7 @@ fn lists(
     Ok(verdicts)
 }
 
-/// The text of the list of an axis.
+/// Returns the text of the list of an axis.
 fn list_text(
     args: &CommissionRunArgs,
     axis: &MeasuredAxis,
@@ -275,7 +275,7 @@ fn list_text(
     render_identified(&found.list(), made, args.cnc_build)
 }
 
-/// The rounds of stage 2, each judged by its own recordings and by the lists that were accepted before it.
+/// Returns the rounds of stage 2, each judged by its own recordings and by the lists accepted before it.
 fn rounds(
     plans: &[PlanFile],
     results: &[RecordingResult],
@@ -306,8 +306,8 @@ fn rounds(
     Ok(rounds)
 }
 
-/// Feeds at which the lists of a round leave more than there was without them, or than those that were
-/// accepted last, feeds that are not recorded, and lists that show no effect.
+/// Returns the feeds at which the lists of a round leave more than without them, or than those accepted
+/// last, feeds that are not recorded, and lists that show no effect.
 fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
     let unit = glitch_unit(&plan.plan);
     let accepted = earlier.iter().rev().find(|it| it.is_accepted());
@@ -350,7 +350,7 @@ fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -
     against
 }
 
-/// Lists of a round that are no longer those that were recorded, or add too much.
+/// Returns the lists of a round that differ from the recorded ones, or add too much.
 fn lists_against(
     plan: &PlanFile,
     plans: &[PlanFile],
@@ -384,7 +384,7 @@ fn lists_against(
         let strongest = friction.strongest(&list);
         if let Some((speed, part)) = strongest.filter(|it| it.1 > MOST_CURRENT) {
             against.push(format!(
-                "at {speed:.3} mm/s the list of {} adds {part:.2} times the measured friction; {MOST_CURRENT} are the most",
+                "at {speed:.3} mm/s the list of {} adds {part:.2} times the measured friction; the limit is {MOST_CURRENT}",
                 used.axis
             ));
         }
@@ -392,7 +392,7 @@ fn lists_against(
     Ok(against)
 }
 
-/// What the recordings say about the plants on which the lists of a round were tuned.
+/// Returns what the recordings show about the plants on which the lists of a round were tuned.
 fn plants_against(plan: &PlanFile, fitted: &Plants) -> Result<Vec<String>, Failure> {
     let mut keys = BTreeSet::new();
     for used in &plan.lists {

@@ -1,4 +1,4 @@
-//! The recordings that lists are made of, and the files of lists.
+//! The recordings from which lists are made, and the list files.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use frictcomp_recordings::commission::{
 };
 use frictcomp_report::commission::PlanFile;
 
-/// The stage of the program with a number.
+/// Returns the stage of the program with a number.
 pub(super) fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
     let plan = plans
         .iter()
@@ -18,7 +18,7 @@ pub(super) fn stage_of(plans: &[PlanFile], number: u16) -> Option<Stage> {
     plan.map(|it| it.plan.stage)
 }
 
-/// Writes a list under a name that its content decides, so that no list takes the place of another one.
+/// Writes a list under a name derived from its content, so that no list replaces another one.
 pub(super) fn write_list(
     folder: &Path,
     name: &str,
@@ -36,7 +36,7 @@ pub(super) fn write_list(
     Ok(path)
 }
 
-/// The recording that the list of an axis is made of, the last one by its name; or the reasons against a list.
+/// Returns the recording from which the list of an axis is made, the last by name; or the reasons against a list.
 pub(super) fn source_of<'a>(
     axis: &MeasuredAxis,
     plans: &[PlanFile],

@@ -115,7 +115,7 @@ const OF_PROGRAMS: [&str; 15] = [
 ];
 
 impl CurrentArgs {
-    /// Returns the options of the way from rows of a trace to cycles.
+    /// Returns the options for converting rows of a trace to cycles.
     pub(super) fn trace_options(&self) -> Result<TraceOptions, Failure> {
         let resampling = if self.resample {
             Resampling::Done
@@ -129,7 +129,7 @@ impl CurrentArgs {
     }
 }
 
-/// A velocity from 0 on.
+/// Parses a velocity, 0 or above.
 fn parse_dead_band(text: &str) -> Result<DeadBand, String> {
     let limit = text.trim().parse().ok();
     let limit = limit.filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
@@ -146,7 +146,7 @@ pub(super) enum CurrentFormat {
     Csv,
 }
 
-/// Columns that the currents of a program have only where they are asked for.
+/// Columns for the currents of a program, written only on request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum CurrentColumn {
     /// The compensation state.

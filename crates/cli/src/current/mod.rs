@@ -19,7 +19,7 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     match (&args.program, &args.trace, &args.value_list) {
         (Some(program), ..) => program::run(program, args, console),
         (None, Some(trace), Some(list)) => recorded::run(trace, list, args, console),
-        // The arguments are declared so that one of them is there.
+        // The argument declaration ensures that one of them is given.
         _ => Err(Failure::new("give a program or a trace")),
     }
 }

@@ -11,14 +11,14 @@ use frictcomp_physics::current::{Reading, Standstill};
 use frictcomp_report::pictures::{AxisPlot, CurrentPlot};
 use frictcomp_report::svg::Frame;
 
-/// A picture that is drawn while the cycles come in, and the file that it goes into.
+/// A picture that is drawn as the cycles arrive, and its output file.
 pub(super) struct Plot {
     file: OutputFile,
     pub(super) traces: CurrentPlot,
 }
 
 impl Plot {
-    /// The picture that the user asked for.
+    /// Creates the picture that the user asked for.
     pub(super) fn create(
         path: Option<&Path>,
         outputs: &mut Outputs,
@@ -37,7 +37,7 @@ impl Plot {
     }
 }
 
-/// `1 cycle`, `2 cycles`.
+/// Returns `1 cycle`, `2 cycles`.
 fn counted(cycles: u64) -> String {
     match cycles {
         1 => "1 cycle".to_owned(),
@@ -45,7 +45,7 @@ fn counted(cycles: u64) -> String {
     }
 }
 
-/// Says where it matters what is added at standstill (C11).
+/// Reports, where it matters, what is added at standstill (C11).
 pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
     if cycles == 0 {
         return;
@@ -60,7 +60,7 @@ pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
     ));
 }
 
-/// Says on which reading of the documents the sign of the currents depends (C12).
+/// Reports on which reading of the documents the sign of the currents depends (C12).
 pub(super) fn say_sign(list: &FrictionList) {
     if list.table.iter().any(|point| point.output != 0.0) {
         Console::talk(
@@ -70,7 +70,7 @@ pub(super) fn say_sign(list: &FrictionList) {
     }
 }
 
-/// Says which outputs were cut to 16 bit.
+/// Reports which outputs were limited to 16 bits.
 pub(super) fn say_saturated(axis: &str, cycles: u64) {
     if cycles > 0 {
         Console::talk(&format!(

@@ -119,12 +119,12 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }
 
-/// Returns the reading: options of the command line over the selection of the machine.
+/// Returns the reading: options of the command line take precedence over the selection of the machine.
 fn reading(args: &CurrentArgs, loaded: &LoadedMachine) -> Reading {
     args.reading.over(Reading::from(&loaded.machine.readings))
 }
 
-/// The cycle of the command line, else that of the machine.
+/// Returns the cycle of the command line, else that of the machine.
 fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions, Failure> {
     let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
     let cycle = args.cycle.seconds()?.or(of_machine);
@@ -135,7 +135,7 @@ fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions,
     Ok(CurrentOptions::from(planner).with_reading(reading(args, loaded)))
 }
 
-/// By what the outputs are multiplied on their way to the drives, where it is not 1 (R7.8).
+/// Reports the factor of the outputs on their way to the drives, if it is not 1 (R7.8).
 fn say_scaling(loaded: &LoadedMachine) {
     for axis in &loaded.machine.axes {
         let scale = axis.torque_scale;
@@ -146,14 +146,14 @@ fn say_scaling(loaded: &LoadedMachine) {
     }
 }
 
-/// The axes of the picture.
+/// Returns the axes of the picture.
 fn plotted(loaded: &LoadedMachine, followed: &[AxisIndex]) -> Vec<AxisPlot> {
     let axes = followed.iter().map(|axis| loaded.machine.axis(*axis));
     axes.map(|axis| AxisPlot::new(&axis.name, Some(axis.axis_type)))
         .collect()
 }
 
-/// The diagnostics with the severities of the user.
+/// Returns the diagnostics with the user's severities.
 fn levelled(diagnostics: &[Diagnostic], loaded: &LoadedMachine) -> Vec<Diagnostic> {
     let levelled = diagnostics.iter().filter_map(|said| {
         let severity = loaded.levels.severity(said.code)?;
@@ -165,7 +165,7 @@ fn levelled(diagnostics: &[Diagnostic], loaded: &LoadedMachine) -> Vec<Diagnosti
     levelled.collect()
 }
 
-/// Says how many motions are not in the trace.
+/// Reports how many motions are not in the trace.
 fn say_left_out(motions: u64) {
     match motions {
         0 => {}
@@ -182,7 +182,7 @@ fn nothing(names: &[String]) -> String {
     )
 }
 
-/// Says where the trace begins, and where an axis has no current.
+/// Reports where the trace begins, and where an axis has no current.
 fn say_table(names: &[String], table: &CurrentRows) {
     for (at, (time, line)) in table.begins().iter().enumerate() {
         let anew = if at == 0 { "begins" } else { "restarts" };

@@ -1,4 +1,4 @@
-//! Writing of the currents of a program as CSV.
+//! Writing the currents of a program as CSV.
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -12,14 +12,14 @@ use frictcomp_physics::current::{CurrentCycle, CurrentSample, CurrentSink};
 use frictcomp_physics::motion::Simplification;
 use frictcomp_report::pictures::AxisSample;
 
-/// Cycles between two looks at the clock.
+/// Number of cycles between two looks at the clock.
 const STEP: u64 = 1 << 16;
 
 /// Subject and columns of a table.
 pub(super) struct TableOptions<'a> {
     pub(super) names: &'a [String],
     pub(super) columns: &'a [CurrentColumn],
-    /// The program as it is named in records.
+    /// The name of the program in records.
     pub(super) program: String,
     pub(super) watch: Arc<Watch>,
 }
@@ -33,17 +33,17 @@ pub(super) struct CurrentRows {
     watch: Arc<Watch>,
     program: String,
     tracker: LineTracker,
-    /// Times and lines at which the trace begins, and begins again.
+    /// Times and lines at which the trace begins and resumes.
     begins: Vec<(f64, u32)>,
-    /// The states that each axis was in, other than active.
+    /// The states of each axis, other than active.
     seen: Vec<Vec<State>>,
     plot: Option<Plot>,
-    /// The block that is followed: program and executed block.
+    /// The current block: program and executed block.
     block: Option<(u32, u64)>,
 }
 
 impl CurrentRows {
-    /// A table with its header.
+    /// Creates a table with its header.
     pub(super) fn new(
         writer: Box<dyn Write + Send>,
         options: TableOptions<'_>,
@@ -66,28 +66,28 @@ impl CurrentRows {
         table
     }
 
-    /// Returns the times and lines at which the trace begins, and begins again.
+    /// Returns the times and lines at which the trace begins and resumes.
     pub(super) fn begins(&self) -> &[(f64, u32)] {
         &self.begins
     }
 
-    /// The states that each axis was in, other than active.
+    /// Returns the states of each axis, other than active.
     pub(super) fn seen(&self) -> &[Vec<State>] {
         &self.seen
     }
 
-    /// The picture of what went out.
+    /// Takes the picture of the output.
     pub(super) fn take_plot(&mut self) -> Option<Plot> {
         self.plot.take()
     }
 
-    /// Writes what is left, or says why a row could not be written.
+    /// Writes the rest, or returns why a row could not be written.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         std::mem::replace(&mut self.written, Ok(()))?;
         self.writer.flush()
     }
 
-    /// `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
+    /// Writes `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
     fn header(&mut self, names: &[String]) {
         let mut header = vec!["t".to_owned()];
         for name in names {
@@ -176,7 +176,7 @@ fn write_row(
         let (x, v) = (commanded.position_units, commanded.velocity_units);
         write!(writer, ",{x},{v},{},{}", added.w_before, added.w_after)?;
         match commanded.friction {
-            // It is not known.
+            // The current is unknown.
             State::Unknown => write!(writer, ",,")?,
             _ => write!(writer, ",{},{}", added.current_units, added.output)?,
         }

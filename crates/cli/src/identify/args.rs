@@ -1,4 +1,4 @@
-//! The arguments of `identify`, and what one recording gives with them.
+//! The arguments of `identify`, and the values of one recording with them.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub(crate) struct IdentifyArgs {
     /// The recorded trace; with `--circles` one or more
     #[arg(required_unless_present = "recording", conflicts_with = "recording")]
     pub(super) traces: Vec<PathBuf>,
-    /// The recording of a state of the axis, cold or warm for instance: `warm=FILE`; give one for each
+    /// The recording of a state of the axis, for example cold or warm: `warm=FILE`; give one for each
     #[arg(long, value_name = "STATE=FILE", value_parser = parse_state)]
     #[arg(conflicts_with_all = ["circles", "html"])]
     pub(super) recording: Vec<(String, PathBuf)>,
@@ -102,7 +102,7 @@ impl IdentifyArgs {
         })
     }
 
-    /// The value list of a report, with further remarks at its head.
+    /// Returns the value list of a report, with further remarks at its head.
     pub(super) fn list_of(&self, report: &IdentifyReport, remarks: &[String]) -> String {
         let made = IdentifiedFrom {
             axis: report.axis.as_deref(),
@@ -114,14 +114,14 @@ impl IdentifyArgs {
     }
 }
 
-/// Why nothing was identified, with what the channels themselves show.
+/// Returns why nothing was identified, with findings about the channels themselves.
 pub(crate) fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
     findings.iter().fold(error.into(), |failure: Failure, it| {
         failure.with_help(format!("{}: {}", it.code, it.message))
     })
 }
 
-/// `STATE=FILE`.
+/// Parses `STATE=FILE`.
 fn parse_state(text: &str) -> Result<(String, PathBuf), String> {
     match text.split_once('=') {
         Some((name, path)) if !name.trim().is_empty() && !path.is_empty() => {

@@ -98,7 +98,7 @@ fn circles(
     let measured = recordings
         .iter()
         .map(|it| args.torque.measured(it.measured));
-    // What is known least of any recording.
+    // The least that is known of any recording.
     let measured = measured.reduce(Measured::common).unwrap_or_default();
     let report = OnCirclesReport {
         names: args.traces.iter().map(|path| shown_path(path)).collect(),

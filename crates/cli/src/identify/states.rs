@@ -14,10 +14,10 @@ use frictcomp_report::states::{StatesReport, render_json, render_text};
 use frictcomp_report::svg::Frame;
 use frictcomp_report::visible_line;
 
-/// The state for which the list is, where none is named.
+/// The state for which the list is made, unless another one is named.
 const WORKING: &str = "warm";
 
-/// Identifies each state; the list is that of the one in which the machine works.
+/// Identifies each state; the list is made for the state in which the machine works.
 pub(super) fn run(
     args: &IdentifyArgs,
     options: &IdentifyOptions,
@@ -63,7 +63,7 @@ pub(super) fn run(
     Ok(exit::CLEAN)
 }
 
-/// The place of the state for which the list is.
+/// Returns the position of the state for which the list is made.
 fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
     let names: Vec<&str> = args
         .recording
@@ -73,7 +73,7 @@ fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
     let twice = names.iter().enumerate();
     if let Some((_, name)) = twice.clone().find(|(at, name)| names[..*at].contains(name)) {
         let message = format!("the state `{}` was given twice", visible_line(name));
-        return Err(Failure::new(message).with_help("give each state a name of its own"));
+        return Err(Failure::new(message).with_help("give each state its own name"));
     }
     let wanted = args.working.as_deref().unwrap_or(WORKING);
     let found = names.iter().position(|name| *name == wanted);
@@ -83,7 +83,7 @@ fn working(args: &IdentifyArgs) -> Result<usize, Failure> {
             visible_line(wanted)
         );
         let help = format!(
-            "say with `--working` in which state the machine works: {}",
+            "name the state in which the machine works with `--working`: {}",
             names.join(", ")
         );
         Failure::new(message).with_help(visible_line(&help))

@@ -74,7 +74,7 @@ pub(crate) struct LearnArgs {
 }
 
 impl LearnArgs {
-    /// An axis of the plant, with the bounds of its lists.
+    /// Returns an axis of the plant, with the limits of its lists.
     pub(super) fn learner(&self, axis: PlaneAxis, plant: &Plant, file: &LearningFile) -> Learner {
         let (drive, friction) = match axis {
             PlaneAxis::X => (&plant.x, &file.friction[0]),

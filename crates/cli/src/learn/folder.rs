@@ -25,12 +25,12 @@ const AXES: [&str; 2] = ["X", "Y"];
 pub(super) struct LearningFolder {
     path: PathBuf,
     pub(super) file: LearningFile,
-    /// The recordings of each round that are there.
+    /// The existing recordings of each round.
     pub(super) recordings: Vec<Vec<RecordedFile>>,
 }
 
 impl LearningFolder {
-    /// A folder that has no rounds yet.
+    /// Creates a folder without rounds.
     pub(super) fn new(path: &Path, friction: [MeasuredFriction; 2]) -> Self {
         Self {
             path: path.to_owned(),
@@ -43,8 +43,8 @@ impl LearningFolder {
         }
     }
 
-    /// The folder as it was left; `None` where nothing was begun. Every file is still the one that later rounds
-    /// came from.
+    /// Opens the folder as it was left; `None` if it was not begun. Every file must still be the one from which later
+    /// rounds were made.
     pub(super) fn open(path: &Path, registry: &FileRegistry) -> Result<Option<Self>, Failure> {
         let json = path.join(FILE);
         if !json.exists() {
@@ -72,29 +72,29 @@ impl LearningFolder {
         Ok(Some(folder))
     }
 
-    /// The file that records the rounds.
+    /// Returns the file that records the rounds.
     pub(super) fn json(&self) -> PathBuf {
         self.path.join(FILE)
     }
 
-    /// The folder of a round, by its index.
+    /// Returns the folder of a round, by its index.
     pub(super) fn round(&self, at: usize) -> PathBuf {
         self.path.join(format!("round-{}", at + 1))
     }
 
-    /// The list of an axis in a round.
+    /// Returns the list of an axis in a round.
     pub(super) fn list(&self, at: usize, axis: usize) -> PathBuf {
         self.round(at).join(LISTS[axis])
     }
 
-    /// Keeps which recordings of the last round the next one comes from.
+    /// Notes from which recordings of the last round the next one was made.
     pub(super) fn keep_recordings(&mut self) {
         if let (Some(round), Some(there)) = (self.file.rounds.last_mut(), self.recordings.last()) {
             round.recordings.clone_from(there);
         }
     }
 
-    /// Adds a round with the texts of its lists, which take the place of no file.
+    /// Adds a round with the texts of its lists, which do not replace any file.
     pub(super) fn add_round(
         &mut self,
         texts: &[String; 2],
@@ -107,7 +107,7 @@ impl LearningFolder {
         for (axis, text) in texts.iter().enumerate() {
             let path = self.list(at, axis);
             if path.exists() && read_text(&path)? != *text {
-                let message = format!("`{}` is there and is another list", shown(&path));
+                let message = format!("`{}` already exists and is a different list", shown(&path));
                 return Err(Failure::new(message).with_help("move it to another folder"));
             }
             write_text(&mut outputs.list("the list", &path)?, text)?;
@@ -124,7 +124,7 @@ impl LearningFolder {
         Ok(())
     }
 
-    /// Forgets rounds from the first whose folder was removed on, and what they came from: the user wants them
+    /// Forgets the rounds from the first one whose folder was removed, and their recordings: the user wants them
     /// made again.
     fn forget_removed(&mut self) {
         let removed = (1..self.file.rounds.len()).find(|&at| !self.round(at).exists());
@@ -154,7 +154,7 @@ impl LearningFolder {
         Ok(())
     }
 
-    /// The recordings in the folder of a round.
+    /// Returns the recordings in the folder of a round.
     fn recorded(&self, at: usize, registry: &FileRegistry) -> Result<Vec<RecordedFile>, Failure> {
         let mut found = Vec::new();
         for path in recordings_in(&self.round(at))? {
@@ -168,7 +168,7 @@ impl LearningFolder {
         Ok(found)
     }
 
-    /// Refuses recordings that are no longer those that the next round came from (R16.9).
+    /// Refuses recordings that differ from those from which the next round was made (R16.9).
     fn check_recordings(&self, at: usize, there: &[RecordedFile]) -> Result<(), Failure> {
         let kept = &self.file.rounds[at].recordings;
         if kept.is_empty() || kept == there {
@@ -191,7 +191,7 @@ impl LearningFolder {
         Err(Failure::new(message).with_help(help))
     }
 
-    /// Refuses a recording that is there twice: as two of one list it would show no spread.
+    /// Refuses a recording that occurs twice: as two recordings of one list it would show no spread.
     fn check_copies(&self) -> Result<(), Failure> {
         let mut seen: Vec<(&RecordedFile, PathBuf)> = Vec::new();
         for (at, recordings) in self.recordings.iter().enumerate() {
@@ -200,7 +200,7 @@ impl LearningFolder {
                 let same = seen.iter().find(|(it, _)| it.sha256 == recording.sha256);
                 if let Some((_, first)) = same {
                     let message = format!("`{}` is a copy of `{}`", shown(&path), shown(first));
-                    let help = "record each circle twice, and each round anew";
+                    let help = "record each circle twice, and again in each round";
                     return Err(Failure::new(message).with_help(help));
                 }
                 seen.push((recording, path));

@@ -1,4 +1,4 @@
-//! `frictcomp learn`: recorded circles with a list give the next list (R16.4).
+//! `frictcomp learn`: from recorded circles with a list to the next list (R16.4).
 
 mod args;
 mod folder;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &LearnArgs, console: Console) -> Result<u8, Failure> {
     Ok(if is_over { exit::CLEAN } else { exit::FOUND })
 }
 
-/// Writes the lists of the next round: a step from the best one, or the best one itself where an axis is done.
+/// Writes the lists of the next round: a step from the best one, or the best one itself for an axis that is done.
 fn next_round(
     args: &LearnArgs,
     plant: &Plant,
@@ -98,7 +98,7 @@ fn next_round(
     folder.add_round(&texts, predictions, outputs)
 }
 
-/// The result of a call.
+/// Returns the result of a call.
 fn report(plant: &Plant, folder: &LearningFolder, learned: &Learned, is_over: bool) -> LearnReport {
     let circles = learned.rounds[0].first().map(|it| it.circles.iter());
     let feeds = circles.into_iter().flatten();

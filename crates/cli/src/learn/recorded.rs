@@ -12,7 +12,7 @@ use frictcomp_physics::circle::{Circle, LearnedRound, LearningProgress};
 use frictcomp_recordings::commission::{LearnError, LearnedCircles, RecordedTurn};
 use frictcomp_recordings::trace::ChannelSelection;
 
-/// The rounds that were recorded, of X and of Y, and what they gained.
+/// The recorded rounds of X and of Y, and their improvement.
 pub(super) struct Learned {
     pub(super) rounds: [Vec<LearnedRound>; 2],
     pub(super) progress: [LearningProgress; 2],
@@ -59,7 +59,7 @@ pub(super) fn learned(
 }
 
 impl LearnArgs {
-    /// All turns of recordings, in the order of the files.
+    /// Returns all turns of recordings, in the order of the files.
     fn turns(&self, paths: &[PathBuf]) -> Result<Vec<RecordedTurn>, Failure> {
         let channels = CircleChannels {
             names: [self.x_channel.clone(), self.y_channel.clone()],

@@ -14,7 +14,7 @@ use frictcomp_recordings::commission::MOST_CURRENT;
 use frictcomp_report::commission::ValueListUsed;
 use frictcomp_report::learn::MeasuredFriction;
 
-/// Begins in a folder: copies the lists of the first round into it, each within the bound of the friction.
+/// Begins in a folder: copies the lists of the first round into it, each within the limit set by the friction.
 pub(super) fn begin(
     args: &LearnArgs,
     registry: &FileRegistry,
@@ -46,7 +46,7 @@ pub(super) fn begin(
     Ok(folder)
 }
 
-/// The measured friction of an axis.
+/// Returns the measured friction of an axis.
 fn measured(
     axis: PlaneAxis,
     path: &Path,
@@ -71,9 +71,9 @@ fn measured(
     })
 }
 
-/// A folder in which learning has begun.
+/// Returns the failure for a folder in which learning has begun.
 pub(super) fn already(folder: &Path) -> Failure {
     let message = format!("learning has begun in `{}` already", shown(folder));
     Failure::new(message)
-        .with_help("leave `--friction` and `--value-list` out to go on, or name another folder")
+        .with_help("leave `--friction` and `--value-list` out to continue, or name another folder")
 }

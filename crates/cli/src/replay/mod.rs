@@ -1,4 +1,4 @@
-//! `frictcomp replay`: a recording of what the machine did, compared with the dry run.
+//! `frictcomp replay`: compares a recording of what the machine did with the dry run.
 
 mod page;
 mod shown;
@@ -138,7 +138,7 @@ impl ReplayArgs {
     }
 }
 
-/// `X=CHANNEL`.
+/// Parses `X=CHANNEL`.
 fn parse_axis(text: &str) -> Result<(String, String), String> {
     let pair = text.split_once('=');
     let pair = pair.map(|(axis, channel)| (axis.trim(), channel.trim()));

@@ -21,7 +21,7 @@ pub(super) fn text(replayed: &Replayed) -> String {
     text
 }
 
-/// Returns what concerns all axes, in sentences.
+/// Returns the remarks on all axes, in sentences.
 pub(super) fn remarks(replayed: &Replayed) -> Vec<String> {
     let decided = replayed.decided.iter();
     let decided = decided.map(|it| format!("decided by the recording: {}", condition(it)));
@@ -45,11 +45,11 @@ pub(super) fn remarks(replayed: &Replayed) -> Vec<String> {
     let unrecorded = replayed.unrecorded.iter();
     let unrecorded = unrecorded.map(|axis| {
         let axis = visible_line(axis);
-        format!("{axis}: switched by the programs and not recorded; nothing is said about it")
+        format!("{axis}: switched by the programs but not recorded, so not compared")
     });
     let gap = replayed.gap.map(|gap| {
         format!(
-            "no samples for {:.3} s after {:.3} s: a change there and back is not seen",
+            "no samples for {:.3} s after {:.3} s: a change that is undone meanwhile is not seen",
             gap.length_s, gap.at_s
         )
     });
@@ -89,7 +89,7 @@ fn write_axis(text: &mut String, axis: &ReplayedAxis, replayed: &Replayed) {
     }
 }
 
-/// Returns the verdict on an axis, with the number of changes in which both agree.
+/// Returns the verdict on an axis, with the number of changes on which both agree.
 pub(super) fn verdict_of(axis: &ReplayedAxis, replayed: &Replayed) -> String {
     let count = axis.changes.len();
     let changes = if count == 1 { "change" } else { "changes" };

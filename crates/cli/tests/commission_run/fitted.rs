@@ -28,14 +28,14 @@ const FAST: Circles = Circles {
     plan: planned_at("500,1600,2400,3600,5000", "40"),
 };
 
-/// The same on a radius of 25 mm, so slow that an unshaped list is better than the provisional one at each feed.
+/// A plan on a radius of 25 mm, so slow that an unshaped list is better than the provisional one at each feed.
 const SLOW: Circles = Circles {
     feeds: &[250.0, 500.0, 800.0, 1400.0, 2500.0],
     radius: 25.0,
     plan: planned_at("250,500,800,1400,2500", "25"),
 };
 
-/// The machine: the friction that is recorded, and a contact and a speed loop that differ from `mid`.
+/// The machine: the recorded friction, and a contact and a speed loop that differ from `mid`.
 fn machine(contact: f64) -> Plant {
     let mut plant = Preset::Mid.plant();
     for drive in [&mut plant.x, &mut plant.y] {
@@ -50,7 +50,7 @@ fn machine(contact: f64) -> Plant {
     plant
 }
 
-/// Records the circles of a round at feeds, with the lists of X and Y that are on.
+/// Records the circles of a round at feeds, with the active lists of X and Y.
 fn record(
     folder: &Path,
     (round, circles): (usize, &Circles),
@@ -106,7 +106,7 @@ pub(super) fn lists(folder: &Path, kind: &str) -> [PathBuf; 2] {
     })
 }
 
-/// Plans a round with lists on.
+/// Plans a round with active lists.
 fn plan(folder: &Path, circles: &Circles, lists: &[PathBuf; 2]) {
     let [x, y] = [0, 1].map(|at| format!("{}={}", ["X", "Y"][at], lists[at].display()));
     let arguments = [
@@ -129,13 +129,13 @@ fn record_of(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", said(&output)))
 }
 
-/// What is read: with compensation on the torque has to be the actual one.
+/// The options for reading: with compensation on, the torque has to be the actual one.
 const KIND: [&str; 2] = ["--torque-kind", "actual"];
 
 const PLANT: [&str; 5] = ["--plant", "mid", "--no-shaping", KIND[0], KIND[1]];
 
 /// R16.2, R16.3, R16.7, R16.9: from recordings off and on to the plant of a machine that the command does not see,
-/// and to lists that are tuned on it; a recording of another machine with them rejects the plant.
+/// and to lists tuned on it; a recording of another machine with them rejects the plant.
 #[test]
 fn from_circles_to_the_plant_and_its_lists() {
     let folder = planned_with(&FAST.plan);
@@ -197,8 +197,8 @@ fn two_rounds(folder: &Path, circles: &Circles, own: &Plant) {
     record(folder, (2, circles), own, Some(&provisional));
 }
 
-/// R16.5: the report has the figures of ISO 230-4 of each circle, and what the plant was not fitted to, recorded beside
-/// predicted, as the record has them.
+/// R16.5: the report has the figures of ISO 230-4 of each circle and, for what the plant was not fitted to, recorded
+/// next to predicted values, as in the record.
 fn check_tables(folder: &Path, found: &Value) {
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
     let row = |heading: &str, cells: &[String]| {
@@ -233,7 +233,7 @@ fn check_tables(folder: &Path, found: &Value) {
         assert!(has(row(&program, &figures)), "{program}: {figures:?}");
     }
     assert!(page.contains("Figures of ISO 230-4 in µm, recorded; a row for each circle"));
-    assert!(page.contains("Glitches that the plant was not fitted to, recorded beside predicted"));
+    assert!(page.contains("Glitches that the plant was not fitted to, recorded and predicted"));
     let compared = found["plants"][0]["compared"].as_array().expect("compared");
     assert_eq!(compared.len(), 4, "one feed, off and on, of two axes");
     for it in compared {
@@ -245,7 +245,7 @@ fn check_tables(folder: &Path, found: &Value) {
     }
 }
 
-/// R16.5: the pictures in the documents are those of the report; `UPDATE_DOCS=1` takes them out of it again.
+/// R16.5: the pictures in the documents are those of the report; `UPDATE_DOCS=1` extracts them again.
 fn check_pictures(folder: &Path) {
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
     let pictures = page.split("<svg ").skip(1);
@@ -275,7 +275,7 @@ fn check_pictures(folder: &Path) {
 }
 
 /// R16.9: a held-out feed that the recording misses and a value at the bound of its search reject the plant, each with
-/// exit status 1 where nothing else is open.
+/// exit status 1 if nothing else is open.
 fn a_plant_is_rejected(folder: &Path) {
     let path = folder.join("m/results.json");
     let whole = std::fs::read_to_string(&path).expect("results");
@@ -309,8 +309,8 @@ fn a_plant_is_rejected(folder: &Path) {
     std::fs::write(&path, whole).expect("written");
 }
 
-/// R16.2, R16.5, R16.9: tuned lists are accepted by their recordings, with the same plant; a list that changed leaves
-/// everything but the plant.
+/// R16.2, R16.5, R16.9: tuned lists are accepted by their recordings, with the same plant; a changed list leaves
+/// everything except the plant.
 #[test]
 #[ignore = "a minute"]
 fn tuned_lists_are_accepted_by_their_recordings() {
@@ -347,7 +347,7 @@ fn tuned_lists_are_accepted_by_their_recordings() {
     );
 }
 
-/// The contact is found within 15 %, Kp within 7 %, each within its range; the delay is never better known than to
+/// The contact is found within 15 %, Kp within 7 %, each within its range; the delay is never known better than to
 /// ±0.5 ms.
 fn check_plant(found: &Value, own: &Plant) {
     for (axis, own) in [(0, &own.x), (1, &own.y)] {

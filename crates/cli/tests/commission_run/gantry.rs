@@ -13,7 +13,7 @@ fn gantry() -> tempfile::TempDir {
     folder
 }
 
-/// The recorded speeds of X, the torque of its second motor being a part of that of the first and a constant more.
+/// The recorded speeds of X; the torque of its second motor is a share of that of the first plus a constant.
 fn both_motors(part: f64, more: f64) -> String {
     let recorded = friction(0, 1.0).replacen("torque", "torque_X,torque_X2", 1);
     let rows = recorded.lines().map(|line| {
@@ -31,7 +31,7 @@ fn both_motors(part: f64, more: f64) -> String {
 
 const BOTH: [&str; 2] = ["--torque", "torque_%"];
 
-/// R16.8, R16.9: of one motor nothing is concluded for both.
+/// R16.8, R16.9: one motor allows no conclusion for both.
 #[test]
 fn a_gantry_gets_no_list_of_one_motor() {
     let folder = gantry();
@@ -58,7 +58,7 @@ fn a_gantry_gets_no_list_of_one_motor() {
     assert!(!folder.path().join("m/lists").exists());
 }
 
-/// R16.8: motors that share the friction get the list of their mean; what they push against each other is none of it.
+/// R16.8: motors that share the friction get the list of their mean; the force between them is not part of it.
 #[test]
 fn motors_that_share_the_friction_get_one_list() {
     let folder = gantry();
@@ -92,7 +92,7 @@ fn motors_that_share_the_friction_get_one_list() {
     }
 }
 
-/// R16.8: motors whose friction differs are not given one list.
+/// R16.8: motors whose friction differs do not get one list.
 #[test]
 fn motors_with_different_friction_get_no_list() {
     let folder = gantry();

@@ -15,7 +15,7 @@ const RADIUS_MM: f64 = 100.0;
 
 const FEEDS: [f64; 6] = [500.0, 800.0, 1300.0, 2000.0, 3200.0, 5000.0];
 
-/// Feeds at which the lists are judged: between the recorded ones, too.
+/// Feeds at which the lists are judged, including some between the recorded ones.
 const JUDGED: [f64; 11] = [
     500.0, 630.0, 800.0, 1000.0, 1300.0, 1600.0, 2000.0, 2500.0, 3200.0, 4000.0, 5000.0,
 ];
@@ -36,7 +36,7 @@ const PLAN: [&str; 11] = [
 ];
 
 /// R16.2, R16.3, R16.9: on a machine of the tests the lists of the loop are accepted, and leave at most 1.35 times
-/// what lists with knowledge of the machine leave.
+/// as much as lists tuned with knowledge of the machine.
 #[allow(clippy::print_stdout, reason = "the figures are what it is for")]
 fn comes_close_to_the_best_known_lists(name: &str) {
     let mut machines = Machine::all().into_iter();
@@ -127,7 +127,7 @@ fn looped(folder: &Path, machine: &Machine) -> [[PathBuf; 2]; 2] {
     [provisional, tuned]
 }
 
-/// The contact, Kp and Fc of X as parts of the true ones, with their ranges; the delay in ms.
+/// The contact, Kp and Fc of X relative to the true ones, with their ranges; the delay in ms.
 fn told_plant(found: &Value, machine: &Machine) -> String {
     let axis = &found["predicted_axes"][0];
     let own = &machine.plant.x;
@@ -183,7 +183,7 @@ fn record(folder: &Path, (round, machine): (usize, &Machine), lists: Option<&[Pa
     }
 }
 
-/// A recording of the constant speeds of an axis: friction, what the mass needs, ripple over the pitch and noise.
+/// A recording of the constant speeds of an axis: friction, the torque for the mass, ripple over the pitch and noise.
 fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     const NOISE_N: f64 = 20.0;
     const RIPPLE_N: f64 = 20.0;
@@ -214,7 +214,7 @@ fn friction_of(folder: &Path, axis: usize, drive: &DriveParameters) -> String {
     text
 }
 
-/// What the lists leave that are tuned with knowledge of the machine: three searches of up to 3600 lists.
+/// The glitches left by lists tuned with knowledge of the machine: three searches of up to 3600 lists.
 fn best_known(machine: &Machine) -> [f64; 2] {
     let tuned = tune(&machine.task(&FEEDS), &Watch::default()).expect("circles");
     let lists = tuned.axes.each_ref().map(|it| it.list());

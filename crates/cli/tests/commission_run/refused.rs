@@ -1,4 +1,4 @@
-//! Recordings and lists that `frictcomp commission run` does not take, each with its reason (R16.9).
+//! Recordings and lists that `frictcomp commission run` does not accept, each with its reason (R16.9).
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use super::{
     run, said,
 };
 
-/// A recording with other rows under another head.
+/// A recording with other rows under another header.
 fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> String {
     let mut text = format!("{head}\n");
     for line in recording.lines().skip(1) {
@@ -21,7 +21,7 @@ fn changed(recording: &str, head: &str, change: &dyn Fn(&[f64]) -> String) -> St
     text
 }
 
-/// The same from the end of the strokes on.
+/// A recording from the end of the strokes on.
 fn without_signature(recording: &str) -> String {
     let rows = recording.lines().enumerate();
     let after = rows.filter(|(at, _)| *at == 0 || *at > 18_000);
@@ -48,7 +48,7 @@ fn what_speaks_against_a_list_is_named() {
     );
     let unsigned = without_signature(&good);
     let torqueless = rows(&|it| format!("{},{},{}", it[0], it[1], it[2]), "t,v,x");
-    // One direction is heavier the faster it goes; friction rises by a third from row to row.
+    // One direction is heavier the faster it moves; friction rises by a third from row to row.
     let heavier = |it: &[f64]| 1.0 + 0.8 * (-it[1] / 50_000.0).clamp(0.0, 1.0);
     let uneven = rows(
         &|it| format!("{},{},{},{}", it[0], it[1], it[2], it[3] * heavier(it)),
@@ -118,7 +118,7 @@ fn what_speaks_against_a_list_is_named() {
     }
 }
 
-/// R16.5: a recorded state that is that of the program is named, and so is a unit that only the user says.
+/// R16.5: a recorded state that matches the program is named, and so is a unit that only the user gives.
 #[test]
 fn what_is_recorded_and_what_is_said_are_told_apart() {
     let recording = changed(&friction(0, 1.0), "t,v,x,torque,comp", &|it| {
@@ -145,8 +145,8 @@ fn what_is_recorded_and_what_is_said_are_told_apart() {
     assert!(!text.contains("is recorded, and off"), "{text}");
 }
 
-/// R16.1, R16.2: the program of a recording without a signature is said; a signature counts more, and the recording has
-/// to be there.
+/// R16.1, R16.2: an option names the program of a recording without a signature; a signature takes precedence, and the
+/// recording has to exist.
 #[test]
 fn a_role_is_said_of_a_recording_without_a_signature() {
     let good = friction(0, 1.0);
@@ -164,18 +164,18 @@ fn a_role_is_said_of_a_recording_without_a_signature() {
     );
     let (_, text) = run(folder.path(), &["--role", "a.csv=2"]);
     assert!(
-        text.contains("its strokes are the number 1, and `--role` says 2")
+        text.contains("its strokes give the number 1, but `--role` says 2")
             && text.contains("Y: no list"),
         "{text}"
     );
 }
 
-/// R16.8, R16.9: neither does a recording in which samples are missing, nor one of directions that differ by a part of
-/// the friction, which is no weight.
+/// R16.8, R16.9: neither does a recording with missing samples, nor one whose directions differ by a share of the
+/// friction, which is not weight.
 #[test]
 fn gaps_and_leaning_friction_make_no_list() {
     let good = friction(0, 1.0);
-    // Ten seconds in the middle are not there.
+    // Ten seconds in the middle are missing.
     let half = good.lines().count() / 2;
     let pierced = good.lines().enumerate();
     let pierced = pierced.filter(|(at, _)| !(half..half + 10_000).contains(at));
@@ -203,8 +203,8 @@ fn gaps_and_leaning_friction_make_no_list() {
     }
 }
 
-/// R16.2, R16.9: channels of both axes in one file are told by the name of the axis; those of two axes that
-/// are exchanged are found by the strokes.
+/// R16.2, R16.9: channels of both axes in one file are distinguished by the axis name; swapped channels of two
+/// axes are found by the strokes.
 #[test]
 fn channels_of_the_wrong_axis_are_found() {
     let track = friction(0, 1.0);
@@ -246,7 +246,7 @@ fn without_a_plan_there_is_nothing_to_read() {
     );
     std::fs::write(folder.path().join("m/plan-1.json"), "{}").expect("written");
     let (status, text) = run(folder.path(), &[]);
-    assert!(status == Some(2) && text.contains("is no plan"), "{text}");
+    assert!(status == Some(2) && text.contains("not a plan"), "{text}");
     let folder = planned();
     std::fs::remove_dir(folder.path().join("m/recordings")).expect("removed");
     let (status, text) = run(folder.path(), &[]);
@@ -256,7 +256,7 @@ fn without_a_plan_there_is_nothing_to_read() {
     );
 }
 
-/// R16.8: what is the same in both directions, as a weight is, is said and stays out of the list.
+/// R16.8: what is the same in both directions, such as weight, is reported and kept out of the list.
 #[test]
 fn a_weight_is_no_part_of_the_list() {
     let table_of = |recording: &str| {
@@ -268,19 +268,19 @@ fn a_weight_is_no_part_of_the_list() {
     };
     let level = friction(0, 1.0);
     let (expected, _) = table_of(&level);
-    // The bench has 35 of its own.
+    // The bench itself has 35.
     let heavy = changed(&level, "t,v,x,torque", &|it| {
         format!("{},{},{},{}", it[0], it[1], it[2], it[3] + 300.0)
     });
     let (found, text) = table_of(&heavy);
     assert_eq!(found, expected);
     assert!(
-        text.contains("the offset of 335") && text.contains("it is no part of the list"),
+        text.contains("the offset of 335") && text.contains("it is not part of the list"),
         "{text}"
     );
 }
 
-/// R16.2: what the programs switch is not said on the command line.
+/// R16.2: what the programs switch is not given on the command line.
 #[test]
 fn the_programs_say_whether_compensation_is_on() {
     let folder = planned();
@@ -314,8 +314,8 @@ fn counter_clockwise(recording: &str) -> String {
     kept
 }
 
-/// R16.9: circles of one direction or that end early, with exchanged columns, about another centre, too coarse, with
-/// an override that was turned, and copies are not used; those at another feed count with what was driven.
+/// R16.9: circles of one direction or that end early, with swapped columns, about another centre, too coarse, with
+/// a changed override, and copies are not used; those at another feed count with the driven feed.
 #[test]
 fn circles_count_with_what_was_driven() {
     let folder = planned();
@@ -341,7 +341,7 @@ fn circles_count_with_what_was_driven() {
     let middle_s = count as f64 / 1000.0 - direction_s - 1.5;
     let pierced = ((middle_s - direction_s / 2.0) * 1000.0) as usize;
     let exchanged = row(&|it| [it[0], it[2] + 50.0, it[1] - 50.0]);
-    // In the last turn the crossings leave three times what they do in the others.
+    // In the last turn the crossings leave three times as much as in the others.
     let worse = row(&|it| {
         let before_s = (middle_s - it[0]) / (direction_s / 3.0);
         let (x, y) = (it[1] - 50.0, it[2]);
@@ -369,7 +369,7 @@ fn circles_count_with_what_was_driven() {
         (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
         (worse, "not used: its turns are not alike: at "),
         (
-            // In the turn that is evaluated, as wide as what a reversal does.
+            // In the evaluated turn, as wide as the effect of a reversal.
             rows(&|at| !(pierced..pierced + 60).contains(&at)),
             "not used: 61 ms without a sample in a turn ccw: what a reversal does may be missing",
         ),
@@ -455,7 +455,7 @@ fn lists_that_are_not_accepted_say_why() {
     assert_eq!(status, Some(1), "{text}");
     for words in [
         "the list of X adds 2.0",
-        "times the measured friction; 1.3 are the most",
+        "times the measured friction; the limit is 1.3",
         "the friction of Y is not known",
         "F3000 is not recorded both off and on",
         "off and on hardly differ at any feed: the lists were not on, or on in both",

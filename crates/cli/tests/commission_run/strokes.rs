@@ -1,4 +1,4 @@
-//! Strokes of an axis alone: the following error after reversals, off and on (R16.1, R16.9).
+//! Strokes of a single axis: the following error after reversals, off and on (R16.1, R16.9).
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::plant::{Bench, Recorded};
 use super::{AXIS, ZERO, call, provisional, put, run, said};
 
-/// A rotary and a linear axis, whose plans are the same but for the unit.
+/// A rotary and a linear axis, whose plans differ only in the unit.
 const MACHINE: [(&str, &str); 2] = [("C", "type = \"R\"\n"), ("U", "")];
 
 const FEEDS: [f64; 4] = [1000.0, 2000.0, 3000.0, 4000.0];
@@ -56,7 +56,7 @@ fn plan(folder: &Path, axis: &str, more: &[&str]) {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
 }
 
-/// What the axis did in a program, with the current that the list of the machine adds.
+/// The motion of the axis in a program, with the current that the list of the machine adds.
 fn driven(folder: &Path, axis: &str, program: &str) -> Recorded {
     let start = format!("{axis}0");
     let arguments = ["--axis", axis, "--start", &start, "--cycle-time-ms", "1"];
@@ -102,7 +102,7 @@ fn text(recorded: &Recorded) -> String {
     text
 }
 
-/// A recording whose actual position is half as far from the commanded one.
+/// A recording whose actual position deviates half as much from the commanded one.
 fn with_half_the_error(mut recorded: Recorded) -> Recorded {
     for (actual, commanded) in recorded.x.iter_mut().zip(&recorded.commanded) {
         *actual = f64::midpoint(*actual, *commanded);
@@ -110,8 +110,8 @@ fn with_half_the_error(mut recorded: Recorded) -> Recorded {
     recorded
 }
 
-/// R16.1, R16.2: the strokes of an axis alone are judged by the following error after reversals, off and on; the
-/// result is called motor side and no contour, and has the unit of the axis.
+/// R16.1, R16.2: the strokes of a single axis are judged by the following error after reversals, off and on; the
+/// result is called motor side, not contour, and has the unit of the axis.
 #[test]
 fn strokes_are_judged_by_their_following_error() {
     for (axis, unit) in [("C", "0.001°"), ("U", "µm")] {
@@ -180,7 +180,7 @@ fn strokes_are_judged_by_their_following_error() {
 }
 
 /// R16.9: the actual position has to follow the commanded one; strokes that end early, are too coarse, or whose
-/// following error is missing or that of another axis show nothing.
+/// following error is missing or belongs to another axis show nothing.
 #[test]
 fn strokes_that_show_nothing_are_refused() {
     let folder = planned("U");

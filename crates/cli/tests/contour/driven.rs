@@ -1,4 +1,4 @@
-//! What the library finds on a program: deviations by line, and reversals.
+//! The findings of the library on a program: deviations by line, and reversals.
 
 use std::collections::BTreeMap;
 
@@ -16,23 +16,23 @@ use frictcomp_physics::simulation::Plant;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extremes(pub(crate) PerRun<[f64; 2]>);
 
-/// So long what the line before has left settles.
+/// The time in which the residue of the previous line settles.
 pub(crate) const SETTLING_S: f64 = 0.004;
 
-/// What is found on a program.
+/// The findings on a program.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     pub(crate) lines: BTreeMap<u32, Extremes>,
     pub(crate) reversals: Vec<ContourReversal>,
     /// The largest deviation in space, as programmed, in µm.
     pub(crate) largest_um: f64,
-    /// What the first seconds of a line show is not kept.
+    /// The first seconds of a line are not kept.
     settling_s: f64,
-    /// The line that is cut, and since when.
+    /// The line that is cut, and the start of the cut.
     since: (u32, f64),
 }
 
-/// The smallest and the largest of what is known and one value more.
+/// The smallest and the largest of the known values and one more.
 pub(crate) fn widened(extremes: [f64; 2], deviation: f64) -> [f64; 2] {
     [extremes[0].min(deviation), extremes[1].max(deviation)]
 }
@@ -80,7 +80,7 @@ impl ContourSink for Found {
 }
 
 impl Found {
-    /// Nothing yet; what the first cycles of a line show is left by the line before, and not kept.
+    /// Nothing yet; the first cycles of a line show the residue of the previous line and are not kept.
     pub(crate) fn settled() -> Self {
         Self {
             settling_s: SETTLING_S,
@@ -104,7 +104,7 @@ impl Found {
     }
 }
 
-/// Where axes stand before a program.
+/// The axis positions before a program.
 type Stand<'a> = &'a [(&'a str, f64)];
 
 /// Runs a program.
@@ -116,7 +116,7 @@ fn run(machine: &Machine, program: &str, (at, sink): (Stand<'_>, &mut dyn Sink))
     let _ = session.program("part.nc", Program::Whole(source), &mut NoFiles, sink);
 }
 
-/// The contour of a program in the plane XY, from where the axes stand.
+/// The contour of a program in the plane XY, from the given axis positions.
 pub(crate) fn drive(
     machine: &str,
     plant: &Plant,
@@ -127,7 +127,7 @@ pub(crate) fn drive(
     drive_on(machine, plant, program, found)
 }
 
-/// The same on a machine that is read.
+/// The contour of a program on a machine that is read.
 pub(crate) fn drive_on(
     mut machine: Machine,
     plant: &Plant,

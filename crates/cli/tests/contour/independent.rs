@@ -1,6 +1,6 @@
-//! A simulation of its own, straight from the equations of chapter 5.2: its motion in time, its drives
-//! in small steps, its distance from the path. It shares nothing with that of the library; only the
-//! additive current, which chapter 4 holds, is the same.
+//! An independent simulation, straight from the equations of chapter 5.2: its motion in time, its drives
+//! in small steps, its distance from the path. It shares nothing with that of the library except the
+//! additive current of chapter 4.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -15,10 +15,10 @@ const CYCLE_S: f64 = 0.001;
 const POSITION_LOOP_S: f64 = 250e-6;
 const SPEED_LOOP_S: f64 = 125e-6;
 
-/// A ramp of the feed takes so long.
+/// The duration of a feed ramp.
 const RAMP_S: f64 = 0.05;
 
-/// The nearest point of the path is not further along it from the commanded one, in mm.
+/// The maximum distance along the path of the nearest point from the commanded one, in mm.
 const NEAR: f64 = 0.5;
 
 /// The acceleration of a rapid motion, in mm/s².
@@ -56,7 +56,7 @@ struct Axis {
 }
 
 impl Equations {
-    /// The friction at a steady speed in m/s, in drive units: what a fitting value list holds.
+    /// The friction at a steady speed in m/s, in drive units: the content of a fitting value list.
     pub(crate) fn units_at(&self, speed: f64) -> f64 {
         (level(speed) + VISCOUS * speed) / self.unit
     }
@@ -80,7 +80,7 @@ impl Equations {
     fn step(&self, axis: &mut Axis, command: f64, step: f64) {
         let v = axis.v;
         axis.force = command + (axis.force - command) * (-step / TT).exp();
-        // The bristle bends towards its steady state as long as the speed stays what it is.
+        // The bristle bends towards its steady state as long as the speed does not change.
         let loss = self.stiffness * v.abs() / level(v);
         let steady = level(v) / self.stiffness * v.signum();
         if v != 0.0 {
@@ -94,18 +94,18 @@ impl Equations {
     }
 }
 
-/// The friction that slips at a speed.
+/// The friction at which the contact slips at a speed.
 fn level(v: f64) -> f64 {
     COULOMB + (BREAKAWAY - COULOMB) * (-v.abs() / STRIBECK).exp()
 }
 
-/// What is commanded at the beginning of a CNC cycle, in mm and mm/s.
+/// The commanded values at the beginning of a CNC cycle, in mm and mm/s.
 #[derive(Debug, Clone, Copy)]
 struct Command {
     place: [f64; 2],
     velocity: [f64; 2],
     line: u32,
-    /// The number of the piece in the path, where one is cut, and how far along it in mm.
+    /// The number of the piece of the path that is cut, if any, and the distance along it in mm.
     piece: Option<(usize, f64)>,
     compensated: [bool; 2],
 }
@@ -118,7 +118,7 @@ struct Motion {
     judged: Vec<u32>,
 }
 
-/// How far a motion from rest to rest is and how fast: ramps like half a turn of a cosine.
+/// The distance and speed of a motion from rest to rest: ramps like half a turn of a cosine.
 fn pace(length: f64, feed: f64, ramp: f64, time: f64) -> Option<(f64, f64)> {
     let steady = length / feed - ramp;
     assert!(steady >= 0.0, "{length} mm at {feed} mm/s are too short");
@@ -240,7 +240,7 @@ impl Motion {
         }
     }
 
-    /// The additive current of an axis, cycle by cycle, with compensation as it is switched.
+    /// The additive current of an axis, cycle by cycle, with compensation as switched.
     fn currents(
         &self,
         axis: usize,
@@ -268,7 +268,7 @@ impl Motion {
         self.commands.iter().enumerate().map(cycle).collect()
     }
 
-    /// How long the line of a cycle has lasted, as far as it matters.
+    /// How long the line of a cycle has lasted, up to the relevant limit.
     fn seconds_in_line(&self, at: usize) -> f64 {
         let line = self.commands[at].line;
         let before = self.commands[..at].iter().rev().take(10);
@@ -297,7 +297,7 @@ pub(crate) struct Reversal {
     pub(crate) axis: usize,
 }
 
-/// What a run gives.
+/// The result of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Simulated {
     /// The innermost and the outermost deviation by line, in µm.

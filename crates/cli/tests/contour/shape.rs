@@ -52,7 +52,7 @@ impl Piece {
         }
     }
 
-    /// How far a place is from the piece in mm, and to the left of it by how much.
+    /// The distance of a place from the piece in mm, and the signed distance to its left.
     pub(crate) fn distance(&self, place: [f64; 2]) -> (f64, f64) {
         match self {
             Self::Line { .. } => {
@@ -73,7 +73,7 @@ impl Piece {
                 let angle = offset[1].atan2(offset[0]);
                 let side = turn.signum();
                 let gone = ((angle - from) * side).rem_euclid(2.0 * PI);
-                // Before its beginning and after its end it is the nearer end that counts.
+                // Before its beginning and after its end the nearer end counts.
                 let after = gone - turn.abs();
                 let before = 2.0 * PI - gone;
                 let beyond = after.min(before).max(0.0) * radius;
@@ -83,7 +83,7 @@ impl Piece {
         }
     }
 
-    /// To which side it turns.
+    /// The side to which it turns.
     pub(crate) fn side(&self) -> Option<f64> {
         match self {
             Self::Line { .. } => None,
@@ -92,10 +92,10 @@ impl Piece {
     }
 }
 
-/// What a line of the program does.
+/// The function of a line of the program.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Line {
-    /// The pieces follow each other smoothly; what is judged is compared.
+    /// The pieces join smoothly; what is judged is compared.
     Cut { piece: Piece, judged: bool },
     /// A rapid motion, from rest to rest.
     Rapid { to: [f64; 2] },
@@ -122,7 +122,7 @@ impl Shape {
         }
     }
 
-    /// Where the path ends.
+    /// The end of the path.
     pub(crate) fn end(&self) -> [f64; 2] {
         let ends = self.lines.iter().rev().find_map(|line| match line {
             Line::Cut { piece, .. } => Some(piece.at(piece.length()).0),
@@ -138,7 +138,7 @@ impl Shape {
         self.lines.push(Line::Cut { piece, judged });
     }
 
-    /// An arc about a centre by degrees, to the left if they are positive.
+    /// An arc about a centre by an angle in degrees, to the left if it is positive.
     pub(crate) fn arc(&mut self, centre: [f64; 2], degrees: f64, judged: bool) {
         let from = self.end();
         let offset = [from[0] - centre[0], from[1] - centre[1]];

@@ -1,4 +1,4 @@
-//! The contour against what is known otherwise: the circular test, and a simulation of its own.
+//! The contour compared with independent results: the circular test, and an independent simulation.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -42,7 +42,7 @@ fn standing([x, y]: [f64; 2]) -> [(&'static str, f64); 2] {
     [("X", x), ("Y", y)]
 }
 
-/// A circle in one or the other sense, as arcs or as chords.
+/// A circle in either direction, as arcs or as chords.
 #[derive(Debug, Clone, Copy)]
 struct Round {
     radius: f64,
@@ -90,7 +90,7 @@ impl Round {
         (text, 3 + chords..=2 + 2 * chords)
     }
 
-    /// How far a chord is from the circle in the middle: the program itself deviates by as much.
+    /// The sagitta of a chord: the program itself deviates by as much.
     fn bulge_um(self) -> f64 {
         match self.chords {
             0 => 0.0,
@@ -165,7 +165,7 @@ fn a_circle_gives_f_max_and_f_min_of_the_circular_test() {
             };
             extremes(path.as_ref())
         };
-        // Where a reversal falls within a CNC cycle shows in what the compensation leaves.
+        // The place of a reversal within its CNC cycle affects what the compensation leaves.
         for (what, found, known, um) in [
             ("off", found.0.all_off, of(&reference.off.figures), 0.01),
             ("on", found.0.all_on, of(&reference.on.figures), 0.1),
@@ -182,7 +182,7 @@ fn a_circle_gives_f_max_and_f_min_of_the_circular_test() {
     }
 }
 
-/// What fits the friction of the equations, as a value list of the machine and for the simulation.
+/// The compensation that fits the friction of the equations, as a value list of the machine and for the simulation.
 fn list(equations: &Equations) -> (String, FrictionList) {
     let inputs = [
         0.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0, 40_000.0, 100_000.0, 200_000.0,
@@ -210,7 +210,7 @@ fn list(equations: &Equations) -> (String, FrictionList) {
     (value, list)
 }
 
-/// How far two figures may be apart: a share, and some µm.
+/// The permitted difference between two figures: a share, and some µm.
 #[derive(Debug, Clone, Copy)]
 struct Tolerance(f64, f64);
 
@@ -319,7 +319,7 @@ fn pocket() -> Shape {
         ([-12.0, 0.0], 6.0, "X[COMP OFF FRICT]"),
         ([12.0, 2.0], 9.0, "X[COMP ON FRICT]"),
     ] {
-        // In by a diagonal, so that both axes carry the friction of their motion.
+        // The entry is a diagonal, so that both axes carry the friction of their motion.
         let diagonal = 0.5_f64.sqrt();
         let on = [centre[0] - radius * diagonal, centre[1] + radius * diagonal];
         shape.lines.push(Line::Rapid {
@@ -338,11 +338,11 @@ fn pocket() -> Shape {
     shape
 }
 
-/// With the steps of the rules only the motion in time and the measuring differ: reversals fall
-/// elsewhere in the CNC cycle, which shows in what the compensation leaves.
+/// With the steps of the rules, only the motion in time and the measuring differ: reversals are
+/// elsewhere in the CNC cycle, which affects what the compensation leaves.
 const SAME_STEPS: (u32, Tolerance) = (2, Tolerance(0.01, 0.25));
 
-/// Thirty times smaller steps tell how much those of 62.5 µs matter.
+/// Thirty times smaller steps show how much those of 62.5 µs matter.
 const SMALL_STEPS: (u32, Tolerance) = (64, Tolerance(0.08, 1.0));
 
 #[test]
@@ -361,7 +361,7 @@ fn a_pocket_with_islands_is_as_a_simulation_of_its_own() {
 
 #[test]
 fn a_reversal_after_a_corner_is_measured_on_the_way_out_of_it() {
-    // R11.2: the overshoot of X has Z as its normal; of Z itself nothing is beside the path.
+    // R11.2: the overshoot of X has Z as its normal; Z itself has no component normal to the path.
     let machine = machine("") + "[[axis]]\nname = \"Z\"\n";
     let program = "G90 F6000\nG01 Z5\nG01 X60\nG01 Z-5\nG01 X20\nG01 Z5\nM30\n";
     let plant = Preset::Stiff.plant();

@@ -1,4 +1,4 @@
-//! What a contour comes to, and what its figures rest on.
+//! The verdict on a contour, and what its figures rest on.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -95,16 +95,16 @@ fn a_feed_that_assumed_limits_do_not_reach_is_not_judged() {
     let assumed = found["assumed_limits"].as_array().expect("limits");
     assert_eq!(assumed.len(), 2, "{assumed:?}");
     assert_eq!(assumed[1]["max_jerk"], 20.0);
-    // The other limit is no better.
+    // The other limit does no better.
     let (status, ..) = contour(&bench, &["--fail-above-due", "500"]);
     assert_eq!(status, Some(1));
-    // Without a limit it is said, and nothing fails.
+    // Without a limit it is reported, and nothing fails.
     assert_eq!(contour(&bench, &[]).0, Some(0));
 }
 
 #[test]
 fn what_is_slow_for_another_reason_is_judged() {
-    // R11.23: the jerk is that of the machine, or the limits that are assumed do not matter.
+    // R11.23: the jerk is that of the machine, or the assumed limits do not matter.
     let given = NO_LIMITS.replace(
         "frict_comp = true\n",
         "frict_comp = true\nmax_acceleration = 1.0\nmax_jerk = 20.0\n",
@@ -138,7 +138,7 @@ fn what_is_slow_for_another_reason_is_judged() {
 
 #[test]
 fn only_axes_that_move_have_limits_that_matter() {
-    // R11.23: Z has none, and stands still.
+    // R11.23: Z has none, and is at standstill.
     let bench = bench(&circle("G03", "OFF"), MACHINE);
     let found = document(&bench, &[]);
     let assumed = found["assumed_limits"].as_array().expect("limits");
@@ -257,7 +257,7 @@ fn every_figure_has_its_line_and_block() {
 
 #[test]
 fn what_was_left_out_does_not_count_as_no_reversal() {
-    // R11.24: whether X turns in the motion that is left out is not known.
+    // R11.24: it is not known whether X reverses in the motion that is left out.
     let program = "G01 X10 Y5 F1000\nG01 X=V.E.A\nG90 G00 X0 Y0\nG01 X5 Y5\nM30\n";
     let left_out = bench(program, MACHINE);
     let (status, text, said) = contour(&left_out, &["--fail-above-due", "50"]);
@@ -288,7 +288,7 @@ fn a_program_that_cuts_nothing_is_not_judged() {
 
 #[test]
 fn a_reversal_along_the_path_is_called_so() {
-    // R11.26: X goes back and forth on its own line, so that nothing of it is normal to the path.
+    // R11.26: X moves back and forth on its own line, so that it has no component normal to the path.
     let forth_and_back = "G90 G01 X20 F2000\nN20 G01 X5\nN30 G01 X20\nM30\n";
     for command in ["", "X[COMP OFF FRICT] "] {
         let bench = bench(&format!("{command}{forth_and_back}"), MACHINE);

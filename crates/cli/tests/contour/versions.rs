@@ -83,7 +83,7 @@ fn a_peak_is_not_hidden_by_another_one_that_both_versions_have() {
 
 #[test]
 fn contours_that_do_not_deviate_more_are_clean() {
-    // R9.83: lines that moved, and less deviation, are no difference.
+    // R9.83: lines that moved, and less deviation, are not a difference.
     let bench = bench(&OLD.replace("N20", "; moved\n\nN20"));
     let (status, text) = diff(&bench, &START);
     assert_eq!(status, Some(0), "{text}");
@@ -150,7 +150,7 @@ fn an_agreed_contour_has_a_tolerance() {
     assert_eq!(golden(&[]), (Some(0), String::new()));
     let agreed = bench.read("a.nc.contour");
     assert!(agreed.contains(" µm  N40 G03 X25 Y0 I-25 J0\n"), "{agreed}");
-    // 0.2 µm are within the tolerance, and --update leaves them as they were agreed on.
+    // 0.2 µm are within the tolerance, and --update leaves them as agreed.
     let turned = agreed.replace(".0 µm", ".2 µm").replace(".1 µm", ".3 µm");
     assert_ne!(turned, agreed);
     bench.write("a.nc.contour", &turned);

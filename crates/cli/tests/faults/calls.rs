@@ -1,4 +1,4 @@
-//! The calls of the tool that write, and what becomes of the files when one of them fails.
+//! The calls of the tool that write, and the files after one of them fails.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -27,10 +27,10 @@ impl Range {
     }
 }
 
-/// What a call gives in place of its result.
+/// The value that a call returns instead of its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Fault {
-    /// The number of the error; 0 lets a write take half of its bytes.
+    /// The number of the error; 0 makes a write take half of its bytes.
     number: i32,
     /// The words of the system, in any case of letters.
     cause: &'static str,
@@ -102,7 +102,7 @@ fn files(folder: &Path) -> Files {
     found
 }
 
-/// Makes a folder what it was.
+/// Restores a folder.
 fn restore(folder: &Path, before: &Files) {
     for name in files(folder).keys() {
         fs::remove_file(folder.join(name)).expect("removed");
@@ -118,7 +118,7 @@ fn restore(folder: &Path, before: &Files) {
     }
 }
 
-/// A command that writes, in a folder that holds what it needs.
+/// A command that writes, in a folder with the files that it needs.
 struct Trial<'a> {
     bench: &'a Bench,
     shim: &'a Path,
@@ -134,7 +134,7 @@ impl Trial<'_> {
         command
     }
 
-    /// What the command does where nothing fails, and the calls that write.
+    /// The effect of the command if nothing fails, and the calls that write.
     fn undisturbed(&self) -> (Output, Files, Vec<String>) {
         let log = tempfile::NamedTempFile::new().expect("a file");
         let mut command = self.command();
@@ -158,8 +158,8 @@ impl Trial<'_> {
     }
 }
 
-/// Lets each call of a command that writes fail in each way. Each file is the old one or the new one,
-/// whole; nothing else is left; what could not be done is said, with the file, the cause and what to do.
+/// Makes each call of a command that writes fail in each way. Each file is completely the old one or the new
+/// one; nothing else is left; failures are reported with the file, the cause and what to do.
 #[track_caller]
 pub(crate) fn survives(bench: &Bench, range: Range, call: &[&str]) {
     let Some((_, shim)) = &*SHIM else {

@@ -1,12 +1,12 @@
 /*
  * Makes one call of a process fail: preloaded before the C library, it counts the calls that write below
- * a folder or to standard output, and gives one of them the result that is asked for.
+ * a folder or to standard output, and gives one of them the requested result.
  *
  *   FAULT_ROOT    the folder
  *   FAULT_LOG     a file that gets a line for each call that is counted
  *   FAULT_AT      the number of the call that fails, from 1
- *   FAULT_RESULT  the error, as a number; 0 lets a write take half of its bytes
- *   FAULT_LASTS   where it is set, every later call fails, too
+ *   FAULT_RESULT  the error, as a number; 0 makes a write take half of its bytes
+ *   FAULT_LASTS   if set, every later call fails, too
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -140,7 +140,7 @@ int fdatasync(int file)
     return of_file("fdatasync", file) == FAILS ? -1 : 0;
 }
 
-/* What cannot be closed is closed all the same. */
+/* A failing close closes all the same. */
 int close(int file)
 {
     enum verdict verdict = file > STDERR_FILENO ? of_file("close", file) : GOES_ON;

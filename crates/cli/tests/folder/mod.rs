@@ -82,8 +82,8 @@ impl Bench {
     }
 }
 
-/// What a start of the tool gives. Wine, where it starts many processes at once, refuses a start now and
-/// then with `ERROR_INTERNAL_ERROR`, before anything of the tool has run; such a start is tried again.
+/// The result of starting the tool. When it starts many processes at once, Wine refuses a start now and
+/// then with `ERROR_INTERNAL_ERROR`, before the tool has run at all; such a start is tried again.
 pub(crate) fn starting<T>(mut start: impl FnMut() -> io::Result<T>) -> T {
     const ERROR_INTERNAL_ERROR: i32 = 1359;
     for _ in 0..3 {
@@ -99,7 +99,7 @@ pub(crate) fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// The same state as a file of schema 2, which has no checksum and can be edited.
+/// A state as a file of schema 2, which has no checksum and can be edited.
 pub(crate) fn of_schema_2(state: &str) -> String {
     let (content, _) = state.split_once(",\n  \"checksum\"").expect("a checksum");
     let content = content.replacen("\"schema\": 3", "\"schema\": 2", 1);

@@ -1,4 +1,4 @@
-//! Faults of recordings × what is said of them (R6.21). The table stands in docs/identification.md;
+//! Faults of recordings × the messages about them (R6.21). The table is in docs/identification.md;
 //! `UPDATE_DOCS=1` writes it again.
 
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use super::{DOUBTS, both, found, said, velocities};
 /// A fault that is put into a recording.
 type Fault = fn(&mut Track);
 
-/// What is wrong, how it comes into the recording, and the code that has to come first.
+/// The fault, how it is put into the recording, and the code that has to come first.
 const FAULTS: [(&str, Fault, Option<Code>); 10] = [
     ("none", |_| (), None),
     (

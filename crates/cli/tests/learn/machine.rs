@@ -1,4 +1,4 @@
-//! Machines of the tests, whose parameters no command sees, and what is recorded on them.
+//! Machines of the tests, whose parameters no command sees, and their recordings.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ pub(crate) struct Machine {
 pub(crate) type Row = [f64; 3];
 
 impl Machine {
-    /// A machine that differs from a preset by what `change` does to both drives.
+    /// A machine that differs from a preset by the `change` to both drives.
     fn of(name: &'static str, reference: Preset, change: fn(&mut DriveParameters)) -> Self {
         let mut plant = reference.plant();
         for drive in [&mut plant.x, &mut plant.y] {
@@ -138,7 +138,7 @@ impl Machine {
         }
     }
 
-    /// A recording at a feed: more than a turn in each direction, a row a ms. The friction is a little different
+    /// A recording at a feed: more than a turn in each direction, one row per ms. The friction is a little different
     /// each time.
     pub(crate) fn recorded(
         &self,

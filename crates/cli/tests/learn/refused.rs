@@ -1,4 +1,4 @@
-//! What is no round, and what changed since.
+//! Invalid rounds, and files that changed since.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ fn circle(feed: f64, bulge_um: f64, place: (f64, u64)) -> Vec<Row> {
     turns(feed, &[bulge_um], place)
 }
 
-/// The same with the bulges of each turn, and a fifth of a turn more.
+/// A recorded circle with the bulges of each turn, and a fifth of a turn more.
 fn turns(feed: f64, of_turns_um: &[f64], (centre, seed): (f64, u64)) -> Vec<Row> {
     let mut random = fastrand::Rng::with_seed(seed);
     let turning = feed / 60.0 / 40.0;
@@ -54,8 +54,8 @@ fn round(bulge_um: f64) -> LearnedRound {
     LearnedRound { list, circles }
 }
 
-/// R16.4: a round counts where it gains more than the spread; else the step is halved and the best stays; two such
-/// rounds end it.
+/// R16.4: a round counts if it gains more than the spread; otherwise the step is halved and the best remains; two
+/// such rounds end it.
 #[test]
 fn only_what_gains_more_than_the_spread_is_accepted() {
     let rounds = [6.0, 4.0, 3.99, 2.5, 4.5, 2.49].map(round);
@@ -101,7 +101,7 @@ fn take_of(feed: f64, take: u64) -> String {
     format!("learning/round-1/F{feed}-{take}.csv")
 }
 
-/// Each wrong input, what it does to a recorded round, and what has to be said.
+/// Each wrong input, its change to a recorded round, and the expected message.
 #[test]
 fn recordings_that_are_no_round_are_refused() {
     // R16.4: a missing second recording, too few feeds, no positions, another axis, another list, two machines, no
@@ -205,7 +205,7 @@ fn recordings_that_are_no_round_are_refused() {
 }
 
 /// R16.9: no list adds more than 1.3 times the measured friction, the first one included; nothing begins without
-/// it, or twice.
+/// it or twice.
 #[test]
 fn a_beginning_that_is_not_safe_is_refused() {
     let bench = Bench::new(Machine::small(), &SMALL);
@@ -227,7 +227,7 @@ fn a_beginning_that_is_not_safe_is_refused() {
     assert!(text.contains("learning has begun"), "{text}");
 }
 
-/// R16.9: what came from a recording falls with it.
+/// R16.9: results from a recording are dropped with it.
 pub(crate) fn changed_after_a_round(bench: &Bench) {
     let name = take_of(1200.0, 0);
     let rows = bench.read(&name);

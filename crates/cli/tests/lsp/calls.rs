@@ -53,7 +53,7 @@ fn the_tree_of_callers_is_shown() {
     assert_eq!(names(&callers, "from"), ["a.nc:0,1", "b.nc:0"]);
     let called = client.ask("callHierarchy/outgoingCalls", &of(&items[0]));
     assert_eq!(names(&called, "to"), ["deep.nc:0"]);
-    // Beside a call it is the program itself.
+    // Outside a call it is the program itself.
     let place = json!({ "textDocument": { "uri": a }, "position": { "line": 2, "character": 0 } });
     let items = client.ask("textDocument/prepareCallHierarchy", &place);
     assert_eq!(items[0]["name"], "a.nc");
@@ -61,7 +61,7 @@ fn the_tree_of_callers_is_shown() {
         client.ask("callHierarchy/incomingCalls", &of(&items[0])),
         json!([])
     );
-    // A save is heard of.
+    // A save is noticed.
     bench.write("deep.nc", "L a.nc\nM17\n");
     client.tell(
         "textDocument/didSave",

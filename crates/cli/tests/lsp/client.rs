@@ -1,4 +1,4 @@
-//! A client in memory. It expects every message that the server sends: what nobody asked for fails the
+//! A client in memory. It expects every message that the server sends: an unexpected one fails the
 //! test at the end.
 
 use std::collections::VecDeque;
@@ -16,13 +16,13 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub(crate) struct Client {
     connection: Connection,
     server: JoinHandle<Shutdown>,
-    /// What came while something else was awaited.
+    /// Messages that arrived while another one was awaited.
     kept: VecDeque<Message>,
     next: i32,
 }
 
 impl Client {
-    /// A client that can do nothing special.
+    /// A client without special capabilities.
     pub(crate) fn new() -> Self {
         Self::with(&json!({ "capabilities": {} }))
     }
@@ -36,7 +36,7 @@ impl Client {
         client
     }
 
-    /// A client that has said nothing yet.
+    /// A client that has not sent anything yet.
     pub(crate) fn raw() -> Self {
         let (connection, other) = Connection::memory();
         let server = std::thread::spawn(move || serve(&other).expect("threads"));
@@ -60,7 +60,7 @@ impl Client {
             .expect("a server");
     }
 
-    /// Asks and returns at once.
+    /// Sends a request and returns at once.
     pub(crate) fn begin(&mut self, method: &str, params: &Value) -> RequestId {
         self.next += 1;
         let id = RequestId::from(self.next);
@@ -77,14 +77,14 @@ impl Client {
         }
     }
 
-    /// Asks and waits for the result.
+    /// Sends a request and waits for the result.
     #[track_caller]
     pub(crate) fn ask(&mut self, method: &str, params: &Value) -> Value {
         let id = self.begin(method, params);
         self.answer(&id).response_result.expect("a result")
     }
 
-    /// Asks and waits for the refusal: its number.
+    /// Sends a request and waits for the refusal: its number.
     #[track_caller]
     pub(crate) fn refused(&mut self, method: &str, params: &Value) -> i32 {
         let id = self.begin(method, params);
@@ -111,7 +111,7 @@ impl Client {
         }
     }
 
-    /// The next message of a kind; what comes before is kept.
+    /// The next message of a kind; earlier ones are kept.
     #[track_caller]
     fn take(&mut self, wanted: impl Fn(&Message) -> bool) -> Message {
         if let Some(at) = self.kept.iter().position(&wanted) {
@@ -127,7 +127,7 @@ impl Client {
         }
     }
 
-    /// Opens a text and returns what is said about it.
+    /// Opens a text and returns the messages about it.
     pub(crate) fn open(&mut self, uri: &str, text: &str) -> Value {
         self.open_as(uri, "isg-cnc", text);
         self.diagnostics(uri)
@@ -156,7 +156,7 @@ impl Client {
         );
     }
 
-    /// What is said next about a text.
+    /// The next messages about a text.
     #[track_caller]
     pub(crate) fn diagnostics(&mut self, uri: &str) -> Value {
         let is_it = |it: &Notification| {
@@ -168,7 +168,7 @@ impl Client {
         }
     }
 
-    /// Asks for the messages on a text.
+    /// Requests the messages on a text.
     #[track_caller]
     pub(crate) fn pull(&mut self, uri: &str, known: Option<&Value>) -> Value {
         let mut params = json!({ "textDocument": { "uri": uri } });
@@ -185,7 +185,7 @@ impl Client {
         self.send(Response::new_ok(id, Value::Null));
     }
 
-    /// Waits until a text is checked: a question about it is answered after that.
+    /// Waits until a text is checked: a request about it is answered after that.
     pub(crate) fn settle(&mut self, uri: &str) {
         self.ask(
             "textDocument/codeLens",
@@ -193,7 +193,7 @@ impl Client {
         );
     }
 
-    /// What is said last about a text, once it is checked; `None` where nothing new was said.
+    /// The last messages about a text, once it is checked; `None` if there are no new ones.
     pub(crate) fn settled(&mut self, uri: &str) -> Option<Value> {
         self.settle(uri);
         while let Ok(message) = self.connection.receiver.try_recv() {
@@ -214,7 +214,7 @@ impl Client {
         last
     }
 
-    /// Takes leave. Nothing may be left that nobody expected.
+    /// Shuts down. No unexpected message may be left.
     pub(crate) fn leave(mut self) {
         self.ask("shutdown", &Value::Null);
         self.tell("exit", &Value::Null);
@@ -223,14 +223,14 @@ impl Client {
         assert!(self.kept.is_empty(), "nobody expected {:?}", self.kept);
     }
 
-    /// Takes leave, whatever is left.
+    /// Shuts down, whatever is left.
     pub(crate) fn drop_all(mut self) {
         self.ask("shutdown", &Value::Null);
         self.tell("exit", &Value::Null);
         assert_eq!(self.server.join().expect("no panic"), Shutdown::Proper);
     }
 
-    /// Is gone without a word.
+    /// Disconnects without notice.
     pub(crate) fn vanish(self) {
         drop(self.connection);
         assert_eq!(self.server.join().expect("no panic"), Shutdown::Abrupt);
@@ -240,7 +240,7 @@ impl Client {
 /// The URI of a file.
 pub(crate) fn uri(path: &Path) -> String {
     let path = path.display().to_string().replace('\\', "/");
-    // A drive of Windows stands after a slash, which other paths begin with.
+    // A Windows drive follows a slash, with which other paths begin.
     format!("file:///{}", path.trim_start_matches('/'))
 }
 

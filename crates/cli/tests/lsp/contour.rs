@@ -1,4 +1,4 @@
-//! The contour of an open program, on which blocks are found by their places (R12.17).
+//! The contour of an open program, in which blocks are found by their places (R12.17).
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::lsp_client::{Client, uri};
 const REQUEST_FAILED: i32 = -32803;
 const CANCELLED: i32 = -32800;
 
-/// X turns round in lines 4 and 5, without compensation in line 7.
+/// X reverses in lines 4 and 5, without compensation in line 7.
 const PART: &str = "\
 G90 G01 F2000
 ; the outline
@@ -59,14 +59,14 @@ fn each_block_has_its_place_in_the_picture() {
     // R12.17
     let (_bench, contour, uri) = contour(PART, &start());
     assert_eq!(contour["files"], json!([uri]));
-    // As it stands in the editor: the file on the disk moves nothing.
+    // As in the editor: the file on the disk moves nothing.
     assert_eq!(lines(&contour), [3, 4, 6, 10]);
     let svg = contour["svg"].as_str().expect("a picture");
     assert!(svg.starts_with("<svg ") && svg.contains("Contour of a.nc"));
     let stretches = contour["stretches"].as_array().expect("a list");
     let points = |at: usize| stretches[at]["points"].as_array().expect("points");
     for at in 1..stretches.len() {
-        // The path goes on where it was.
+        // The path continues where it was.
         assert_eq!(points(at - 1).last(), points(at).first(), "{at}");
     }
     let first = points(0).first().expect("a point");
@@ -184,7 +184,7 @@ fn a_contour_that_nobody_waits_for_is_stopped() {
     let bench = Bench::new(&[("a.nc", "M30\n")]);
     let uri = uri(&bench.folder().join("a.nc"));
     let mut client = Client::with(&start());
-    // Hours of machine time in one pass, and as often as the budget has cycles.
+    // Hours of machine time in one pass, repeated up to the budget of cycles.
     let long = "G90 G01 F1\nP1=0\n$WHILE P1<9\nX1000\nX0\n$ENDWHILE\nM30\n";
     client.open(&uri, long);
     let id = client.begin("frictcomp/contour", &of(&uri));

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::folder::Bench;
 use crate::lsp_client::{Client, codes, uri};
 
-/// What a client with versions of edits says of itself.
+/// The capabilities of a client that supports versioned edits.
 fn versions() -> Value {
     json!({ "capabilities": { "workspace": { "workspaceEdit": { "documentChanges": true } } } })
 }
@@ -119,7 +119,7 @@ fn a_fix_takes_its_message_away() {
             assert!(is.get(&code) < was.get(&code), "{name}: {title}");
             let is_unsafe = action["isPreferred"].is_null();
             for (other, times) in &is {
-                // What works now may be said to be left, unused or not configured.
+                // Working code may now be reported as left, unused or not configured.
                 let follows =
                     is_unsafe && ["FC401", "FC490", "P-ERR-70495"].contains(&other.as_str());
                 let more = *times > was.get(other).copied().unwrap_or_default();
@@ -163,7 +163,7 @@ fn safe_fixes_are_preferred_and_applied_together() {
     let all = actions(&mut client, &uri, &["source"]);
     assert_eq!(all.len(), 1, "{said}");
     assert_eq!(all[0]["kind"], "source.fixAll");
-    // A client that knows no versions gets its changes by text.
+    // A client without version support gets its changes by text.
     let edits = &all[0]["edit"]["changes"][&uri];
     let expected = "N10 x[COMP OFF FRICT]\r\nN15 X[COMP ON FRICT]\r\nN20 G1 X1 F100\r\nN30 M30\r\n";
     assert_eq!(applied(text, edits), expected);

@@ -1,4 +1,4 @@
-//! From the first request to the last, with clients of all manners.
+//! From the first request to the last, with all kinds of clients.
 
 use std::io::Write as _;
 
@@ -103,7 +103,7 @@ fn what_is_not_known_is_refused_and_what_is_wrong_is_said() {
     }
     client.change("untitled:never", 2, &json!([{ "text": "M30" }]));
     client.told("window/logMessage");
-    // What need not be known.
+    // Methods that the server need not support.
     client.tell("$/setTrace", &json!({ "value": "off" }));
     client.tell(
         "textDocument/didSave",

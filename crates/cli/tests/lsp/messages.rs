@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::folder::Bench;
 use crate::lsp_client::{Client, codes, uri};
 
-/// What `check` says about a program, in the manner of the editor: code, severity, range, message.
+/// The messages of `check` about a program, in the form of the editor: code, severity, range, message.
 fn checked(bench: &Bench, name: &str) -> Vec<(String, String, [u64; 4], String)> {
     let path = bench.folder().join(name).display().to_string();
     let path = path.replace('\\', "/");
@@ -28,7 +28,7 @@ fn checked(bench: &Bench, name: &str) -> Vec<(String, String, [u64; 4], String)>
     said
 }
 
-/// The same from the server.
+/// The messages of the server about a program.
 fn shown(diagnostics: &Value) -> Vec<(String, String, [u64; 4], String)> {
     let all = diagnostics.as_array().expect("a list").iter();
     let mut said: Vec<_> = all
@@ -86,7 +86,7 @@ fn the_editor_says_what_check_says() {
             if !["nc", "cnc"].iter().any(|it| name.ends_with(it)) {
                 continue;
             }
-            // The file does not hold the text any more.
+            // The file no longer contains the text.
             let expected = checked(&bench, &name);
             fs::write(&path, "M30\n").expect("written");
             let uri = uri(&path);
@@ -284,7 +284,7 @@ fn lists_and_configurations_are_checked_and_what_they_mean() {
         codes(&client.settled(&list).expect("news")),
         [("FC120".to_owned(), 2)]
     );
-    // A configuration that cannot be read is an error of the program, too: it is no all-clear.
+    // A configuration that cannot be read is also an error of the program: it is not an all-clear.
     client.open_as(&toml, "toml", configuration);
     client.diagnostics(&toml);
     client.replace(&toml, 2, "[[axis]\n");

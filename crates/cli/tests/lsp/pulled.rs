@@ -1,5 +1,5 @@
-//! Messages that a client asks for (`textDocument/diagnostic`). What is pushed or asked without need fails
-//! each test at its end.
+//! Messages that a client requests (`textDocument/diagnostic`). Anything that is pushed or requested without
+//! need fails each test at its end.
 
 use serde_json::{Value, json};
 
@@ -43,7 +43,7 @@ fn a_client_that_can_asks_and_nothing_is_pushed() {
     client.open_as("untitled:a", "isg-cnc", "X[COMP ON FRIKT]\nM30\n");
     let first = client.pull("untitled:a", None);
     assert_eq!(full(&first), [("FC202".to_owned(), 0)]);
-    // A question comes after the change that the client has told before.
+    // A request follows the change that the client sent before.
     client.replace("untitled:a", 2, "M30\n");
     let second = client.pull("untitled:a", Some(&first));
     assert_eq!(full(&second), []);
@@ -82,7 +82,7 @@ fn what_has_not_changed_is_not_sent_again() {
     client.replace("untitled:a", 3, "\nX[COMP ON FRIKT]\nM30\n");
     let moved = client.pull("untitled:a", Some(&first));
     assert_eq!(full(&moved), [("FC202".to_owned(), 1)]);
-    // An answer of an earlier server is known to the next one, but no other name is.
+    // The next server recognises an answer of an earlier one, but no other name.
     client.leave();
     let mut next = pulling();
     next.open_as("untitled:a", "isg-cnc", "X[COMP ON FRIKT]\nM30\n");
@@ -99,17 +99,17 @@ fn messages_on_a_called_program_are_told_once_whether_it_is_open_or_not() {
     let mut client = pulling();
     client.open_as(&main, "isg-cnc", CALLER);
     assert_eq!(full(&client.pull(&main, None)), []);
-    // It is not open, so nobody asks for it.
+    // It is not open, so it is not requested.
     let pushed = client.diagnostics(&sub);
     assert_eq!(codes(&pushed), [("FC202".to_owned(), 0)]);
     assert_eq!(full(&client.pull(&sub, None)), []);
-    // Once it is open, what was pushed goes away and is part of the answer.
+    // Once it is open, the pushed messages disappear and are part of the answer.
     client.open_as(&sub, "isg-cnc", WRONG);
     assert_eq!(client.diagnostics(&sub), json!([]));
     let asked = client.pull(&sub, None);
     assert_eq!(full(&asked), codes(&pushed));
     assert!(asked.to_string().contains("called from here"), "{asked}");
-    // Closed again, it has what its caller says.
+    // Closed again, it has the messages of its caller.
     client.close(&sub);
     assert_eq!(codes(&client.diagnostics(&sub)), codes(&pushed));
     client.settle(&main);
@@ -133,11 +133,11 @@ fn the_client_asks_again_where_another_text_changes_what_it_shows() {
     client.replace(&sub, 2, "X[COMP ON FRICT]\nM17\n");
     client.does(REFRESH);
     assert_eq!(full(&client.pull(&main, Some(&known))), []);
-    // A change that no message shows asks nothing.
+    // A change that affects no message sends no request.
     client.replace(&sub, 3, "X[COMP ON FRICT]\n(as before)\nM17\n");
     client.settle(&sub);
     client.settle(&main);
-    // What the caller says of the open subprogram goes with the caller.
+    // The caller's messages on the open subprogram disappear with the caller.
     client.replace(
         &main,
         2,

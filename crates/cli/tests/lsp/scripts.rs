@@ -1,5 +1,5 @@
-//! Random edits: after each, the server says what a fresh check and a fresh run of the text say
-//! (R12.2, R12.3), and holds no more than before (R12.7).
+//! Random edits: after each, the server reports the same as a fresh check and a fresh run of the text
+//! (R12.2, R12.3), and uses no more memory than before (R12.7).
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -139,7 +139,7 @@ fn shown_messages(said: &Value, path: &str) -> Vec<(String, u32, String)> {
     shown
 }
 
-/// A random change of a text, as the client tells it, in units of UTF-16.
+/// A random change of a text, as the client sends it, in units of UTF-16.
 fn change(rng: &mut Rng, text: &mut String) -> Value {
     let lines: Vec<&str> = text.split('\n').collect();
     let line = rng.usize(..lines.len());
@@ -226,7 +226,7 @@ fn after_random_edits_the_server_knows_what_a_fresh_run_knows() {
     }
 }
 
-/// What a process holds of memory, in KiB.
+/// The memory of a process in KiB.
 #[cfg(target_os = "linux")]
 fn held(process: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).expect("a process");
@@ -240,7 +240,7 @@ fn held(process: u32) -> u64 {
         .expect("a number")
 }
 
-/// Types letters into a program of so many blocks, and returns what the server holds after ten of them,
+/// Types letters into a program of so many blocks, and returns the memory of the server after ten of them
 /// and after all.
 #[cfg(target_os = "linux")]
 fn typed(blocks: usize, edits: i32) -> (u64, u64) {

@@ -274,7 +274,7 @@ fn a_status_bar_asks_for_the_states_at_the_cursor() {
         (&states["line"], &states["executed"], &states["times"]),
         (&json!(2), &json!(true), &json!(3))
     );
-    // A line that is no block shows the block before it.
+    // A line that is not a block shows the block before it.
     let states = client.ask("frictcomp/states", &at(&uri, 8));
     assert_eq!(
         (&states["line"], &states["executed"]),
@@ -426,7 +426,7 @@ N70 $GOTO [HERE]
 N80 M17
 ";
 
-/// A client that says whether ISG's extension is there.
+/// A client that says whether ISG's extension is installed.
 fn beside(isg: &Value) -> (Bench, Client, String) {
     let bench = Bench::new(&[("other.nc", "M17\n")]);
     let uri = uri(&bench.folder().join("a.nc"));
@@ -488,7 +488,7 @@ fn names_are_found_and_changed_where_nobody_else_does_it() {
     assert_eq!(edit["changes"][&uri].as_array().map(Vec::len), Some(2));
     let edit = renamed(&mut client, (1, 1), "N25");
     assert_eq!(edit["changes"][&uri][1]["newText"], "N25");
-    // R12.17: what cannot be done is an error with its reason.
+    // R12.17: an impossible request is an error with its reason.
     for ((line, character), new) in [
         ((1, 1), "25"),
         ((1, 1), "HERE"),
@@ -524,7 +524,7 @@ fn names_are_found_and_changed_where_nobody_else_does_it() {
 
 #[test]
 fn beside_the_extension_of_isg_nothing_is_offered_twice() {
-    // R12.6, R12.12: it has definitions and references, but no outline, folding and renaming.
+    // R12.6, R12.12: it has definitions and references, but no outline, folding or renaming.
     for isg in [json!(true), json!(null)] {
         let (_bench, mut client, uri) = beside(&isg);
         let text = json!({ "uri": uri });

@@ -1,4 +1,4 @@
-//! What is offered while one types (R12.6, R12.11), and for which texts (R12.12, R12.14).
+//! Suggestions while typing (R12.6, R12.11), and the texts that get them (R12.12, R12.14).
 
 use std::fs;
 
@@ -95,8 +95,8 @@ fn an_item_says_what_it_replaces_and_where_it_stands() {
     client.drop_all();
 }
 
-/// The text that a user gets who presses Enter at the end of each line, in an editor that takes for
-/// Enter the first item that it shows.
+/// The text that results from pressing Enter at the end of each line, in an editor that accepts
+/// the first item that it shows on Enter.
 fn typed(client: &mut Client, uri: &str, program: &str) -> String {
     let (mut text, mut version) = (String::new(), 1);
     for line in program.lines() {

@@ -1,4 +1,4 @@
-//! Random archives, and what each of their programs does, worked out from how it was made: without
+//! Random archives, and the effect of each of their programs, derived from how it was made: without
 //! a parser and without an interpreter.
 
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ impl XorShift {
     }
 }
 
-/// What a block of a program does.
+/// The effect of a block of a program.
 #[derive(Debug, Clone)]
 enum Block {
     Switch {
@@ -55,7 +55,7 @@ enum Block {
     },
 }
 
-/// A program, how it is written, and what it does.
+/// A program, how it is written, and its effect.
 pub(crate) struct Program {
     pub(crate) name: String,
     pub(crate) bytes: Vec<u8>,
@@ -63,7 +63,7 @@ pub(crate) struct Program {
     main: Vec<Block>,
 }
 
-/// What a program does to an axis.
+/// The effect of a program on an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Expected {
     pub(crate) effect: &'static str,
@@ -74,7 +74,7 @@ pub(crate) struct Expected {
 }
 
 struct Style {
-    /// The first number and the step, where blocks have numbers.
+    /// The first number and the step, if blocks have numbers.
     numbers: Option<(usize, usize)>,
     zeros: bool,
     end: &'static str,
@@ -263,7 +263,7 @@ impl Program {
         }
     }
 
-    /// What the program does to each axis, from how it was made.
+    /// The effect of the program on each axis, from how it was made.
     pub(crate) fn expected(&self) -> BTreeMap<char, Expected> {
         let mut walk = Walk {
             subs: &self.subs,

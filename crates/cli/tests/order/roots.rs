@@ -7,7 +7,7 @@ use crate::folder::Bench;
 
 const HOME: &str = "X[COMP ON FRICT]";
 
-/// What `audit` shows and says.
+/// The output and the messages of `audit`.
 fn audited(bench: &Bench, arguments: &[&str]) -> (String, String) {
     let output = bench.call(&[&["audit"], arguments].concat());
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
@@ -203,7 +203,7 @@ fn a_motion_in_a_subprogram_is_mended_there() {
 
 #[test]
 fn the_only_caller_is_mended_in_its_own_text() {
-    // R10.8: nothing says that the subprogram is at fault.
+    // R10.8: no output blames the subprogram.
     let bench = bench(&[
         ("a.nc", "G01 X10 F200\nL tool.nc\nM30\n"),
         ("tool.nc", "X[COMP OFF FRICT]\nM17\n"),

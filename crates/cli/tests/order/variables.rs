@@ -3,7 +3,7 @@
 use super::folder::Bench;
 use super::{axis, bench, records, text};
 
-/// A program that switches X off where a condition holds.
+/// A program that switches X off if a condition is true.
 fn switches_if(before: &str, condition: &str) -> String {
     format!("{before}\n$IF {condition}\nX[COMP OFF FRICT]\n$ENDIF\nM30\n")
 }
@@ -44,7 +44,7 @@ fn another_program_may_have_written_what_a_program_asks_for() {
         } else {
             writer
         };
-        // One value that every program writes is known once the variable is there.
+        // One value that every program writes is known once the variable exists.
         let is_known = matches!(
             (before, condition),
             ("", "V.S.FLAG == 1") | ("P1 = V.S.FLAG", _)
@@ -99,7 +99,7 @@ fn writes_behind_other_writes_are_found() {
     let q = switches_if(DECLARED, "V.S.FLAG == 1");
     assert_eq!(effect(&q, &[mode]), "keeps");
     assert_eq!(effect(&q, &[mode, "V.S.MODE = 1\nM30\n"]), "depends");
-    // A called program that is not at hand may write anything.
+    // A called program that is not available may write anything.
     assert_eq!(effect(&q, &["L gone.nc\nM30\n"]), "depends");
     let unread = [
         "V.S.NAME[V.E.N] = 1\nM30\n",

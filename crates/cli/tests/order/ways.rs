@@ -1,4 +1,4 @@
-//! What programs do on some ways only (R14.6).
+//! The effects of programs on some ways only (R14.6).
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::folder::Bench;
 
 const MOVER: (&str, &str) = ("moves.nc", "N10 G01 X1 F100\nN20 M30\n");
 
-/// What stands of `X` in the record of a program.
+/// The entry of `X` in the record of a program.
 fn of_x(bench: &Bench, file: &str, arguments: &[&str]) -> Value {
     let format = ["audit", "--format", "ndjson"];
     let shown = text(bench, &[&format, arguments, &["."]].concat());
@@ -103,7 +103,7 @@ fn a_block_before_the_end_takes_a_program_out_of_the_hazards_on_every_way() {
         let found = of_x(&bench, "a.nc", &[]);
         let now = bench.read("a.nc");
         assert_eq!(found["possible"], Value::Null, "{now}");
-        // The cut of the other way keeps its state.
+        // The cut on the other way keeps its state.
         assert!(
             now.find("G01")
                 .is_none_or(|cut| cut < now.find("COMP ON").expect("a mend")),

@@ -1,4 +1,4 @@
-//! Everything public can be sent to another thread: the compiler checks each type, a test that none
+//! Everything public can be sent to another thread: the compiler checks each type, and a test checks that none
 //! is missing.
 
 use std::ops::ControlFlow;
@@ -42,7 +42,7 @@ macro_rules! sent {
             $(is_send::<$name>();)+
         }
 
-        /// The types that were checked, as they are written here.
+        /// The checked types, as they are written here.
         pub(super) const SENT: &[&str] = &[$(stringify!($name)),+];
     };
 }

@@ -1,4 +1,4 @@
-//! Every output says on which readings of open questions its results rest (R15.3).
+//! Every output names the readings of open questions on which its results rest (R15.3).
 
 use super::folder::{Bench, json};
 use super::machine::LIST;
@@ -9,7 +9,7 @@ use serde_json::{Value, json as value};
 const AXES: &str =
     "\n[[axis]]\nname = \"Y\"\nnumber = 2\n\n[[axis]]\nname = \"Z\"\nnumber = 3\nenable = true\n";
 
-/// What the summary of a run says that its results rest on.
+/// The readings on which results rest, from the summary of a run.
 fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> {
     let records = bench.records(arguments);
     let summary = json(records.last().expect("a summary"));
@@ -21,7 +21,7 @@ fn rests_on(bench: &Bench, arguments: &[&str]) -> Vec<(String, String, String)> 
         .collect()
 }
 
-/// R15.3: a result rests on a question where its answer decides something, and only there.
+/// R15.3: a result rests on a question only where its answer decides something.
 #[test]
 fn a_result_names_the_readings_that_decide_it() {
     let bench = bench();
@@ -43,7 +43,7 @@ fn a_result_names_the_readings_that_decide_it() {
             "G1 X1 F100\nX2\nX[COMP OFF FRICT]\nX3\nX[COMP ON FRICT]\nM30\n",
             &["R1.29", "R1.57"],
         ),
-        // What the control starts with decides how the axis moves, and nothing after the command.
+        // The initial state of the control decides how the axis moves, but nothing after the command.
         ("G1 X1 F100\nX[COMP ON FRICT]\nM30\n", &["R1.29"]),
         ("X[COMP ON FRICT]\nG1 X1 F100\nM30\n", &[]),
         ("X[COMP ON FRICT]\nM30\n", &[]),
@@ -52,7 +52,7 @@ fn a_result_names_the_readings_that_decide_it() {
             "X[COMP OFF FRICT]\n#PUT AX [X]\n#CALL AX [X,1]\nX[COMP ON FRICT]\nM30\n",
             &["R2.70"],
         ),
-        // Neither reading is taken.
+        // Neither reading is assumed.
         (
             "#MACHINE DATA [AX=X P-AXIS-00001=1]\nX[COMP ON FRICT]\nM30\n",
             &[],
@@ -66,7 +66,7 @@ fn a_result_names_the_readings_that_decide_it() {
 }
 
 /// R15.3, R1.29, R1.40: the start of the control decides where no program has switched a kind before the
-/// axis moves; that of a kind with manual activation is a question of its own.
+/// axis moves; that of a kind with manual activation is a separate question.
 #[test]
 fn the_start_of_the_control_is_named_where_it_decides() {
     let bench = bench();
@@ -95,7 +95,7 @@ fn the_start_of_the_control_is_named_where_it_decides() {
     assert_eq!(rules(&["sets.nc", "moves.nc"]), ["R1.40"]);
 }
 
-/// R15.3: what programs do to each other rests on what a reset keeps, once one of them leaves something.
+/// R15.3: the effect of programs on each other rests on what a reset keeps, once one of them leaves something.
 #[test]
 fn an_audit_names_the_readings_that_decide_it() {
     let bench = bench();
@@ -124,8 +124,8 @@ fn an_audit_names_the_readings_that_decide_it() {
     assert_eq!(last["rests_on"][0]["rule"], "R1.9");
 }
 
-/// R15.3, R4.2 to R4.7: a current rests on what its list makes of the readings, and on what switched it; an option
-/// that says otherwise is no reading of the machine.
+/// R15.3, R4.2 to R4.7: a current rests on the readings that its list makes relevant, and on what switched it; an
+/// option that selects otherwise is not a reading of the machine.
 #[test]
 fn currents_and_contours_name_the_readings_that_decide_them() {
     let bench = bench();
@@ -177,7 +177,7 @@ fn a_selected_reading_of_a_search_is_named() {
         "N10 X[COMP OFF FRICT]\nN20 G1 X5 F100\nN30 X[COMP ON FRICT]\nM30\n",
     );
     let searched = ["--from", "N20", "a.nc"];
-    // Where the search passes the command by, the axis moves as at the start of the control.
+    // If the search skips the command, the axis moves as at the start of the control.
     let start = ("R1.29", "start-up", "assumed");
     let owned = |all: &[(&str, &str, &str)]| -> Vec<(String, String, String)> {
         let all = all.iter();
@@ -191,7 +191,7 @@ fn a_selected_reading_of_a_search_is_named() {
     assert_eq!(rests_on(&bench, &searched), owned(&[start, search]));
 }
 
-/// R15.3, R2.90: a selected reading of a level that two blocks ask for decides what follows.
+/// R15.3, R2.90: a selected reading of a level that two blocks depend on decides what follows.
 #[test]
 fn a_selected_reading_of_a_turned_level_is_named() {
     let bench = bench();
@@ -214,7 +214,7 @@ fn a_selected_reading_of_a_turned_level_is_named() {
     }
 }
 
-/// R15.3: text, JSON and SARIF of `check` say whether a reading is assumed, selected or confirmed, and
+/// R15.3: text, JSON and SARIF of `check` show whether a reading is assumed, selected or confirmed, and
 /// on which build.
 #[test]
 fn every_format_says_the_basis() {

@@ -1,5 +1,5 @@
-//! A small control of its own, to which the programs of `frictcomp ask` are given. It knows nothing of
-//! the dry run, and follows the one or the other reading of a question.
+//! A small independent control that runs the programs of `frictcomp ask`. It does not use
+//! the dry run, and follows either reading of a question.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ pub(crate) struct Control {
     pub(crate) asked: (&'static str, bool),
     /// P-AXIS-00522.
     pub(crate) configured: bool,
-    /// Whether it took a value list.
+    /// Whether it accepted a value list.
     pub(crate) has_list: bool,
     /// Whether skip level 2 is on.
     pub(crate) level_2: bool,
@@ -54,7 +54,7 @@ impl Control {
         }
     }
 
-    /// Runs a program, from a block on where a search for it is asked for. The number of the error that
+    /// Runs a program, from a block on if a search for it is requested. Returns the number of the error that
     /// stopped it.
     pub(crate) fn start(&mut self, text: &str, search: Option<&str>) -> Option<u32> {
         let level_at_start = self.level_2;

@@ -1,5 +1,5 @@
-//! A small machine of its own: it moves one axis as the programs of `frictcomp ask` say, adds a current by
-//! one or the other reading of a question, and is recorded. It knows nothing of the dry run.
+//! A small independent machine: it moves one axis as the programs of `frictcomp ask` command, adds a current
+//! under either reading of a question, and is recorded. It does not use the dry run.
 
 /// The CNC cycle in seconds.
 pub(crate) const CYCLE_S: f64 = 0.001;
@@ -7,7 +7,7 @@ pub(crate) const CYCLE_S: f64 = 0.001;
 /// In mm/s².
 const ACCELERATION: f64 = 500.0;
 
-/// The value list: distance of the build-up in mm, cycles of the decay and of the delay, and points in mm/s
+/// The value list: build-up distance in mm, cycles of the decay and of the delay, and points in mm/s
 /// and drive units.
 pub(crate) const LIST: &str = "[axis.value]\nmode = 3\nposition_delay = 10\nreversal_lookahead = 4\n\
     delay_cycles = 9\ntable = [[100, 200], [1000, 300], [20000, 380]]\n";
@@ -16,7 +16,7 @@ const DECAY: usize = 4;
 const DELAY: usize = 9;
 const POINTS: [(f64, f64); 3] = [(0.1, 200.0), (1.0, 300.0), (20.0, 380.0)];
 
-/// What the axis does in a cycle.
+/// The motion of the axis in a cycle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Cycle {
     /// In mm.
@@ -33,7 +33,7 @@ pub(crate) struct Machine<'a> {
     pub(crate) second: Option<&'a str>,
 }
 
-/// A move, or a wait of so many seconds where it goes nowhere.
+/// A move, or a wait of so many seconds without motion.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     by: f64,
@@ -41,7 +41,7 @@ struct Step {
     waits_s: f64,
     /// The state during it.
     is_on: bool,
-    /// Whether the path stands before it, whatever follows.
+    /// Whether the path stops before it, whatever follows.
     stands_before: bool,
 }
 
@@ -206,7 +206,7 @@ fn drive(steps: &[Step]) -> Vec<Cycle> {
             cycles.extend(vec![cycle; count]);
             continue;
         }
-        // Speed at the end of the step: that of the next one where the path goes on.
+        // Speed at the end of the step: that of the next one if the path continues.
         let next = steps.get(at + 1);
         let next = next.filter(|next| next.by * step.by > 0.0 && !next.stands_before);
         let end = next.map_or(0.0, |next| next.feed.min(step.feed));

@@ -2,7 +2,7 @@
 
 use super::bench;
 
-/// R15.2: a line that is marked as an answer and cannot be read as one is named with its place.
+/// R15.2: a line that is marked as an answer but cannot be read as one is named with its place.
 #[test]
 fn lines_that_are_no_answers_are_named() {
     let bench = bench();
@@ -22,7 +22,7 @@ fn lines_that_are_no_answers_are_named() {
     }
 }
 
-/// R15.2: the lines to copy name both readings of a question and are no answer, nor are both of them in
+/// R15.2: the lines to copy name both readings of a question and are not an answer, nor are both of them in
 /// one note.
 #[test]
 fn the_lines_to_copy_are_no_answers() {

@@ -55,7 +55,7 @@ fn the_list_of_cases_is_that_of_the_files() {
     agrees("docs/conformance-cases.md", &text);
 }
 
-/// R15.12: one row a difference from the control, made from the questions, the cases and the table of
+/// R15.12: one row per difference from the control, made from the questions, the cases and the table of
 /// what is not modelled.
 #[test]
 fn the_page_of_differences_is_that_of_the_data() {
@@ -93,7 +93,7 @@ fn the_page_of_differences_is_that_of_the_data() {
         .expect("text");
     }
     text.push_str(
-        "\n## Open questions\n\nfrictcomp knows both readings; `[reading]` selects one, and `frictcomp ask` tests it on the \
+        "\n## Open questions\n\nfrictcomp supports both readings; `[reading]` selects one, and `frictcomp ask` tests it on the \
          control.\n\n| rule | question | readings | taken | why | depends on it | asked by |\n\
          |---|---|---|---|---|---|---|\n",
     );

@@ -1,4 +1,4 @@
-//! Answers that recordings give (R15.2, R15.4): made by a small machine, through the layouts in which they come.
+//! Answers that recordings give (R15.2, R15.4): made by a small machine, in the layouts of real recordings.
 
 use std::fs;
 
@@ -23,7 +23,7 @@ fn noise(at: usize) -> f64 {
     (bits >> 40) as f64 / f64::from(1 << 23) - 1.0
 }
 
-/// The channels of a recording, one sample in so many cycles, with noise of 2 % on the current.
+/// The channels of a recording, one sample every so many cycles, with noise of 2 % on the current.
 fn task(cycles: &[Cycle], every: usize, axis: u32) -> Task {
     let kept: Vec<&Cycle> = cycles.iter().step_by(every).collect();
     let signal = |name: &str, unit: &str, value: &dyn Fn(usize, &Cycle) -> f64| Signal {
@@ -120,7 +120,7 @@ fn record(bench: &Bench, name: &str, bytes: &[u8]) {
     fs::write(bench.folder().join(name), bytes).expect("written");
 }
 
-/// What is said about a question, on one line.
+/// The result for a question, on one line.
 fn said_of(bench: &Bench, rule: &str, arguments: &[&str]) -> String {
     let said = bench.stdout(&[&["ask", "--read"], arguments].concat());
     let mut found = String::new();
@@ -145,7 +145,7 @@ fn recorded_questions() -> impl Iterator<Item = (usize, Question)> {
         .enumerate()
 }
 
-/// R15.2, R15.4: a machine of either kind is recorded with noise, and read rightly.
+/// R15.2, R15.4: a machine of either kind is recorded with noise, and read correctly.
 #[test]
 fn a_machine_of_either_kind_is_read_from_its_recording() {
     for (place, question) in recorded_questions() {

@@ -1,4 +1,4 @@
-//! One fact is said once: the closing advice beside the lints, and comments that allow them.
+//! Each fact is reported once: the closing advice with the lints, and comments that allow them.
 
 use crate::folder::Bench;
 

@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use super::program::machine_text;
 use crate::support::{Bench, SourceMode};
 
-/// What is said under each program of a session: code, place, message, advice.
+/// The messages under each program of a session: code, place, message, advice.
 fn said(programs: &[&str]) -> String {
     Bench::on(&machine_text())
         .keep_going()
@@ -21,7 +21,7 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
     FC401 3:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30 in line 4: `X[COMP ON FRICT]`
     ");
-    // What a program found and did not touch, or brought back to its start-up state, is none of its business.
+    // A state that a program found and did not touch, or brought back to its start-up state, does not concern it.
     let left = "X[COMP OFF FRICT]\nM30";
     assert_snapshot!(said(&[left, "G90\nM30", "X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]\nM30"]), @"
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
@@ -29,7 +29,7 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
     b.nc
     c.nc
     ");
-    // Set to what it is already, and left.
+    // Set to its current state, and left.
     assert_snapshot!(said(&[left, "X[COMP OFF FRICT]\nX1\nM30"]), @"
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30 in line 2: `X[COMP ON FRICT]`
@@ -41,7 +41,7 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
 
 #[test]
 fn every_kind_counts_by_itself() {
-    // R1.50 R1.53: CROSS of X falls off at program end and is in its start-up state there.
+    // R1.50 R1.53: CROSS of X is switched off at program end and is in its start-up state there.
     assert_snapshot!(said(&["X[COMP OFF FRICT LEAD]\nX1\nX[COMP ON FRICT CROSS]\nM30"]), @"
     FC401 1:1 `LEAD` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30 in line 4: `X[COMP ON LEAD]`
@@ -68,9 +68,9 @@ fn a_repeat_is_one_of_the_same_program() {
       3:1: the earlier one
     b.nc
     ");
-    // Off what is not configured, but never the first command on an axis.
+    // Switching off an unconfigured axis, but never the first command on an axis.
     assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"FC402 4:1 this command changes nothing: `CROSS` of axis `Z` is not configured");
-    // A refused command is as if it were not there; something unknown lies between.
+    // A refused command counts as absent; something unknown is in between.
     assert_snapshot!(said(&[
         "Z[COMP ON FRICT]\nZ[COMP OFF FRICT]\nX[COMP ON FRICT]\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30",
     ]), @"
@@ -123,7 +123,7 @@ fn who_made_it_so_is_named() {
 
 #[test]
 fn motion_before_the_first_command_makes_the_second_run_differ() {
-    // R1.53: also where the axis was found away from its start-up state; FC403 stands beside it.
+    // R1.53: also where the axis was found away from its start-up state; FC403 is given with it.
     let program = "X1\nX[COMP OFF FRICT]\nX2\nM30";
     assert_snapshot!(said(&[program, program]), @"
     FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
@@ -165,7 +165,7 @@ fn remarks_on_the_text_of_a_command() {
 
 #[test]
 fn an_error_ends_without_blame() {
-    // R1.50 R1.53: the program is not blamed for what it did not come to; who made it so is known.
+    // R1.50 R1.53: the program is not blamed for blocks that it did not reach; the cause is known.
     let bench = Bench::on(&machine_text());
     assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
     P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
@@ -179,7 +179,7 @@ fn an_allow_comment_that_stands_above_no_block_is_said() {
     // R9.24
     let off = "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n";
     for (program, unused) in [
-        // Lines one above the other speak of one block, in any number.
+        // Any number of lines directly above each other apply to one block.
         (
             "X[COMP ON FRICT]\n; frictcomp: allow FC402\n; frictcomp: allow FC401\nX[COMP ON FRICT]\n",
             "3:",
@@ -212,7 +212,7 @@ fn an_allow_comment_that_stands_above_no_block_is_said() {
         .check_all()
         .said("; frictcomp: alow FC402\n\nX1\nM30\n");
     assert!(misspelt.contains("FC491 1:14"), "{misspelt}");
-    // Other lines may speak of anything.
+    // Other lines may contain anything.
     let other = Bench::new()
         .check_all()
         .said("; frictcomp: hall 2\n\nX1\nM30\n");
@@ -221,7 +221,7 @@ fn an_allow_comment_that_stands_above_no_block_is_said() {
 
 #[test]
 fn the_command_is_named_that_leaves_a_state_on_the_way_that_has_it() {
-    // R1.50 R1.53 R14.5: the way through line 4 ends with what the control starts with.
+    // R1.50 R1.53 R14.5: the way through line 4 ends with the initial state of the control.
     let program = "X[COMP OFF FRICT]\n$IF V.E.A == 1\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n\
                    $ELSE\nX10\n$ENDIF\nM30";
     let left = said(&[program]);

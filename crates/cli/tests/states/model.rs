@@ -1,8 +1,8 @@
-//! The lints on use once more, as plainly as the rules say them, to compare with.
+//! The lints on use once more, implemented as literally as the rules state them, for comparison.
 
 use super::program::{AXES, Block, Command, KINDS, Program};
 
-/// What is said: program, executed block, line, code, axis.
+/// A message: program, executed block, line, code, axis.
 pub(crate) type Said = (usize, u64, u32, &'static str, &'static str);
 
 /// Whether the machine has a kind on an axis.
@@ -27,7 +27,7 @@ struct Done {
     allows: [bool; 2],
 }
 
-/// What one program did to a kind.
+/// The effect of one program on a kind.
 #[derive(Clone, Copy, Default)]
 struct Kind {
     first: Option<u64>,
@@ -50,7 +50,7 @@ impl Model {
         }
     }
 
-    /// Runs a program as `--keep-going` does: a refused command is as if it were not there.
+    /// Runs a program as `--keep-going` does: a refused command counts as absent.
     pub(crate) fn run(&mut self, program: &Program) {
         self.programs += 1;
         let mut run = Run {
@@ -136,7 +136,7 @@ impl Run<'_> {
     }
 
     fn end(&mut self) {
-        // CROSS falls off.
+        // CROSS is switched off.
         self.model.on[0][2] = false;
         for axis in 0..AXES.len() {
             // The tool goes through the kinds in the order of its own table: FRICT comes last.

@@ -11,7 +11,7 @@ pub(crate) const AXES: [&str; 4] = ["X", "Y", "Z", "B"];
 /// Kinds that commands name.
 pub(crate) const KINDS: [&str; 3] = ["FRICT", "LEAD", "CROSS"];
 
-/// The machine of the other tests, where X has all three kinds, of which CROSS falls off at program
+/// The machine of the other tests, where X has all three kinds, of which CROSS is switched off at program
 /// end, and Z has LEAD.
 pub(crate) fn machine_text() -> String {
     let x = "compensations = [\"FRICT\", \"LEAD\", \"CROSS\"]\nmanual_activation = [\"CROSS\"]";
@@ -20,12 +20,12 @@ pub(crate) fn machine_text() -> String {
         .replace("name = \"Z\"", "name = \"Z\"\ncompensations = [\"LEAD\"]")
 }
 
-/// The same, read.
+/// The machine of the other tests, read.
 pub(crate) fn machine() -> Machine {
     Machine::from_toml(&machine_text()).expect("the machine")
 }
 
-/// What a command says of an axis.
+/// The content of a command for an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Command {
     pub(crate) axis: usize,
@@ -80,7 +80,7 @@ impl Program {
         program.add("%PROGRAM");
         let mut sub: Option<Vec<Block>> = None;
         if rng.bool() {
-            // A local subprogram stands in front, so that its lines are known.
+            // A local subprogram comes first, so that its lines are known.
             program.text.clear();
             program.lines = 0;
             program.add("%L SUB");

@@ -1,4 +1,4 @@
-//! The state file: what it holds, what it refuses, what it reads of older versions.
+//! The state file: its content, refused files, and files of older versions.
 
 use fastrand::Rng;
 use frictcomp::interpreter::Value;
@@ -40,7 +40,7 @@ fn it_says_who_made_a_state() {
     );
 }
 
-/// What a resumed session says about a state that was changed.
+/// The output of a resumed session about a changed state.
 fn refusal(change: impl FnOnce(&mut SavedState)) -> String {
     let mut saved = left_off().save();
     change(&mut saved);
@@ -165,7 +165,7 @@ fn the_demo_says_fc403_twice_in_two_processes() {
         "{apart}"
     );
     assert!(!apart.contains("Nothing to do"), "{apart}");
-    // Nobody in this output has said how to bring them back to its start-up state.
+    // This output has not said how to bring them back to their start-up state.
     assert!(apart.contains("X stays inactive"), "{apart}");
 }
 

@@ -118,7 +118,7 @@ fn last_records(session: &mut Session, program: (&str, &str)) -> String {
     })
 }
 
-/// Goes on where a session ended, by way of the text of a state file.
+/// Continues where a session ended, through the text of a state file.
 pub(crate) fn resumed(machine: Machine, session: &Session) -> Session {
     let text = serde_json::to_string_pretty(&session.save()).expect("JSON");
     let saved: SavedState = serde_json::from_str(&text).expect("a state");
@@ -179,7 +179,7 @@ fn a_state_file_carries_a_session_on_to_the_byte() {
 
 #[test]
 fn the_recommended_style_is_silent_in_every_order() {
-    // R1.50 R1.51 R1.52 R1.53: what is needed is set first, what is not in its start-up state is brought back to it.
+    // R1.50 R1.51 R1.52 R1.53: required states are set first, and states away from start-up are restored.
     let mut rng = Rng::with_seed(13);
     let mut style = || {
         let (mut first, mut last) = (String::from("%PART\n"), String::new());

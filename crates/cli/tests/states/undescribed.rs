@@ -1,4 +1,4 @@
-//! Where no machine is described.
+//! Sessions without a described machine.
 
 use crate::folder::{Bench, json};
 

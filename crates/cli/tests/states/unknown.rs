@@ -1,4 +1,4 @@
-//! The lints where a state is not known offline.
+//! The lints if a state is not known offline.
 
 use super::program::machine_text;
 use crate::support::Bench;
@@ -11,7 +11,7 @@ fn said(programs: &[&str]) -> String {
 
 #[test]
 fn what_a_program_finds_counts_until_its_own_command() {
-    // R1.52: a branch that may not be executed is no command.
+    // R1.52: a branch that may not be executed is not a command.
     let left = "X[COMP OFF FRICT]\nM30";
     let branch = "$IF V.E.A == 1\nX[COMP ON FRICT]\n$ENDIF\nX1\nM30";
     let both = said(&[left, branch]);
@@ -62,7 +62,7 @@ fn a_loop_without_an_end_is_left_by_a_reset() {
 
 #[test]
 fn a_program_that_never_ended_was_not_judged() {
-    // R9.24: the comment may be of use once the error is mended.
+    // R9.24: the comment may be useful once the error is corrected.
     let allow = "; frictcomp: allow FC401 FC407\nX[COMP OFF FRICT]\n";
     let stopped = Bench::on(&machine_text()).said(&format!("{allow}S[COMP ON FRICT]\nM30"));
     assert!(!stopped.contains("FC490"), "{stopped}");

@@ -1,4 +1,4 @@
-//! `diff`: versions that cannot be compared as a whole are said to be so.
+//! `diff`: versions that cannot be compared as a whole are reported as such.
 
 use crate::folder::Bench;
 
@@ -87,7 +87,7 @@ fn a_silenced_message_makes_nothing_comparable() {
     let (status, shown) = diff("assumed.nc", &[]);
     assert_eq!(status, Some(1), "{shown}");
     assert!(shown.contains("not comparable: "), "{shown}");
-    // What switches nothing does not depend on the machine.
+    // A program that switches nothing does not depend on the machine.
     assert_eq!(diff("still.nc", &["--isolated"]).0, Some(0));
 }
 
@@ -146,7 +146,7 @@ fn a_comparison_is_a_document_and_a_page() {
 
 #[test]
 fn differences_are_shown_beside() {
-    // R9.26: a lint that the user made an error stops nothing.
+    // R9.26: a lint that the user turned into an error stops nothing.
     let stops = "X[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30\n";
     let (status, shown) = diff("M30\n", stops, &[]);
     assert_eq!(status, Some(1));

@@ -1,4 +1,4 @@
-//! What messages say of ways: on which they hold (R14.5), and whether only a value that changes meanwhile
+//! The ways in messages: those to which they apply (R14.5), and whether only a value that changes in between
 //! leads to them (R14.1).
 
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ fn of_code(said: &str, code: Code) -> Vec<&str> {
     said.lines().filter(|line| line.contains(&word)).collect()
 }
 
-/// Two commands under conditions, and what FC401 says of the axis.
+/// Two commands under conditions, and the FC401 of the axis.
 fn left_by(between: &str, [first, second]: [&str; 2]) -> String {
     let off = format!("$IF {first}\nX[COMP OFF FRICT]\n$ENDIF\n");
     let on = format!("$IF {second}\nX[COMP ON FRICT]\n$ENDIF\n");
@@ -97,7 +97,7 @@ fn a_way_that_some_value_gives_stays_a_warning() {
             "V.E.A == 1",
             "V.E.A == 1",
         ),
-        // What the control does changes what it is asked for.
+        // The actions of the control change the values that it is asked for.
         ("G01 X5 F100\n", "V.G.TX == 1", "V.G.TX == 1"),
     ] {
         let left = left_by(between, [first, second]);
@@ -203,7 +203,7 @@ fn no_setting_raises_what_needs_a_change_and_errors_stay_errors() {
     assert!(refused.starts_with("error"), "{refused}");
 }
 
-/// A block that a message of a code is about, and what stands before it on all ways.
+/// The block of a message with a code, and the text before it on all ways.
 const IN_A_BRANCH: [(Code, &str, &str); 22] = [
     (Code::PErr21301, "", "X[COMPP ON FRICT]"),
     (

@@ -1,5 +1,5 @@
-//! How many states stay unknown in the programs of `programs/`, where a condition makes unknown what it
-//! could change (R2.51) and where both of its sides are followed (R14.1).
+//! The number of states that remain unknown in the programs of `programs/`, if a condition makes unknown what it
+//! could change (R2.51) and if both of its sides are followed (R14.1).
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -22,14 +22,14 @@ const HEAD: &str = "| programs | lines before | lines now | ends before | ends n
 /// A line and an axis.
 type Place = (String, u32, usize);
 
-/// What one run of a program finds.
+/// The findings of one run of a program.
 #[derive(Default)]
 struct Found {
-    /// Where axes are looked at.
+    /// The lines at which axes are checked.
     executed: BTreeSet<Place>,
-    /// Where friction compensation of an axis is unknown.
+    /// The lines at which friction compensation of an axis is unknown.
     unknown: BTreeSet<Place>,
-    /// Axes of which it is unknown at program end, and those of them of which no way is named.
+    /// Axes whose compensation is unknown at program end, and those of them without a named way.
     ends: usize,
     unnamed: usize,
 }

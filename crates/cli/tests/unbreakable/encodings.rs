@@ -1,5 +1,5 @@
-//! Old and new encodings, every line end: what is said points at the right characters, in every
-//! format and on every way that a text takes into the tool.
+//! Old and new encodings, every line end: messages point at the right characters, in every
+//! format and on every way in which a text reaches the tool.
 
 use std::io::Write;
 use std::process::Stdio;
@@ -10,8 +10,8 @@ use crate::folder::{Bench, json};
 
 const MISTAKE: &str = "X[COMP ON FRIKT]";
 
-/// What stands in front of the mistake in its line, and what marks it in text output: blanks as
-/// many as the columns of a terminal, a tab being four.
+/// The text before the mistake in its line, and its marker in text output: as many blanks as
+/// terminal columns, a tab being four.
 const LEADS: [(&str, usize); 7] = [
     ("", 0),
     ("N10 ", 4),
@@ -38,7 +38,7 @@ enum Way {
 const WAYS: [Way; 4] = [Way::Streamed, Way::Whole, Way::Stdin, Way::Called];
 
 impl Way {
-    /// The name of the text in what is said about it.
+    /// The name of the text in messages about it.
     fn file(self) -> &'static str {
         match self {
             Self::Streamed | Self::Whole => "a.nc",
@@ -47,7 +47,7 @@ impl Way {
         }
     }
 
-    /// What is said about a text by `check`.
+    /// The messages of `check` about a text.
     fn check(self, text: &[u8], format: &str) -> String {
         let mut text = text.to_owned();
         if self == Self::Whole {

@@ -1,5 +1,5 @@
-//! Runs that are killed at any moment, two writers at once: the state is always whole, and what a
-//! completed run left is never lost.
+//! Runs that are killed at any moment, two writers at once: the state is always complete, and the result
+//! of a completed run is never lost.
 //!
 //! `cargo test --release --test unbreakable -- --ignored kill` kills 500 runs.
 
@@ -15,7 +15,7 @@ use crate::folder::{Bench, json, starting};
 const COUNT: &str = "V.S.RUNS = V.S.RUNS + 1\nX[COMP OFF FRICT]\nM30\n";
 const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
 
-/// The exit status of a run that was killed: none, but on Windows the one that its killer says.
+/// The exit status of a killed run: none, but on Windows the one that its killer sets.
 const KILLED: Option<i32> = if cfg!(windows) { Some(1) } else { None };
 
 /// What happened to the runs so far.
@@ -32,7 +32,7 @@ impl Tally {
     }
 }
 
-/// How many runs the state has counted; it must be whole.
+/// The number of runs that the state has counted; it must be complete.
 fn counted(bench: &Bench) -> u64 {
     let state = json(&bench.read("s.json"));
     let runs = state["variables"]["V.S.RUNS"]["Number"].as_f64();
@@ -85,7 +85,7 @@ fn kill_two_writers(kills: u64) {
         completed <= counted && counted <= started,
         "{completed} {counted} {started}"
     );
-    // Nothing of the killed runs stands in the way, or lies around for long.
+    // Nothing from the killed runs is in the way or is left for long.
     assert_eq!(bench.status(&RUN), Some(0));
     let files = std::fs::read_dir(bench.folder()).expect("a folder").count();
     assert_eq!(files, 5, "two programs, a machine, the state and its lock");
@@ -132,7 +132,7 @@ fn two_processes_take_turns() {
         bench.status(&["run", "--state", "s.json", "zero.nc"]),
         Some(0)
     );
-    // The names begin alike: what one process has not finished is not taken for the other's.
+    // The names begin alike: an unfinished file of one process is not mistaken for the other's.
     let commands: [&[&str]; 2] = [
         &["run", "--state", "s.json", "a.nc", "-o", "s.json-out"],
         &[

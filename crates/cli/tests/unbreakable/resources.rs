@@ -1,4 +1,4 @@
-//! What the system refuses: memory, disk space, rights, a reader for the output.
+//! Resources that the system refuses: memory, disk space, permissions, a reader for the output.
 
 use std::fs;
 use std::io::{Read, Write};
@@ -14,7 +14,7 @@ const SWITCH_ON: &str = "X[COMP ON FRICT]\nM30\n";
 const FORMATS: [&str; 4] = ["text", "ndjson", "json", "csv"];
 const LISTINGS: [&str; 6] = ["text", "concise", "json", "ndjson", "github", "sarif"];
 
-/// The user `nobody`, for whom rights count also where the tests run as root.
+/// The user `nobody`, to whom permissions apply even if the tests run as root.
 const NOBODY: u32 = 65534;
 
 fn said(output: &Output) -> &str {
@@ -98,7 +98,7 @@ fn ten_million_blocks_need_no_more_memory() {
 
 #[test]
 fn too_little_memory_for_a_program_with_flow_leaves_the_state_alone() {
-    // R9.31: a program with flow is read whole; without memory for it the process is ended.
+    // R9.31: a program with flow is read as a whole; without memory for it the process is ended.
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
     let good = bench.read("s.json");
@@ -153,7 +153,7 @@ fn what_is_too_big_to_be_kept_is_refused() {
 
 #[test]
 fn a_state_is_no_pipe() {
-    // R9.30: reading one would wait for ever.
+    // R9.30: reading one would wait forever.
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
     let made = Command::new("mkfifo")
         .arg(bench.folder().join("pipe"))
@@ -253,7 +253,7 @@ fn a_full_disk_under_a_file_leaves_the_old_one() {
     let files = || fs::read_dir(bench.folder()).expect("a folder").count();
     for (call, file) in calls {
         let (good, count) = (bench.read(file), files());
-        // Ignored, the signal becomes an error of the write; else it ends the process.
+        // If ignored, the signal becomes an error of the write; otherwise it ends the process.
         let limit = "trap '' XFSZ; ulimit -f 0";
         let output = limited(&bench, limit, &call).output().expect("it starts");
         assert_eq!(output.status.code(), Some(2), "{call:?}: {}", said(&output));
@@ -305,7 +305,7 @@ fn a_closed_pipe_is_quiet_in_every_format() {
 
 #[test]
 fn a_closed_pipe_leaves_the_state_alone() {
-    // R9.31: a run that was cut short is no completed run.
+    // R9.31: a run that was cut short is not a completed run.
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
     let good = bench.read("s.json");
@@ -361,7 +361,7 @@ fn a_program_that_is_cut_while_it_is_read_is_refused() {
     assert!(!bench.folder().join("s.json").exists());
 }
 
-/// A call as somebody who has no rights; `None` where the tests cannot become somebody else.
+/// A call as a user without permissions; `None` if the tests cannot change the user.
 fn as_nobody(bench: &Bench, arguments: &[&str]) -> Option<Output> {
     let mut command = bench.command(arguments);
     let is_root = fs::metadata("/proc/self").is_ok_and(|it| {
@@ -460,7 +460,7 @@ fn a_file_without_the_right_to_read_is_said() {
         assert_eq!(output.status.code(), Some(2), "{call:?}: {}", said(&output));
         assert!(said(&output).contains(file), "{call:?}: {}", said(&output));
     }
-    // A called program is a matter of the program that calls it.
+    // A called program is the responsibility of the program that calls it.
     set_mode(&bench.folder().join("sub.nc"), 0o000);
     if let Some(output) = as_nobody(&bench, &["run", "b.nc"]) {
         let text = String::from_utf8(output.stdout).expect("text");
@@ -468,7 +468,7 @@ fn a_file_without_the_right_to_read_is_said() {
     }
 }
 
-/// The KiB of address space in which the tool just starts, which depends on how it was built.
+/// The KiB of address space in which the tool just starts; it depends on how the tool was built.
 fn least_space(bench: &Bench) -> u32 {
     let starts = |space: &u32| {
         let limit = format!("ulimit -v {space}");

@@ -1,4 +1,4 @@
-//! The state file: damaged anywhere, it is refused and stays as it is.
+//! The state file: damaged anywhere, it is refused and left unchanged.
 
 use fastrand::Rng;
 use frictcomp::interpreter::Value;

@@ -1,4 +1,4 @@
-//! The files of the repository that tests go over.
+//! The files of the repository that tests process.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Where the programs and documents are that tests read.
+//! The location of the programs and documents that tests read.
 
 use std::path::Path;
 

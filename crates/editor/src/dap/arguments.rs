@@ -103,7 +103,7 @@ pub(super) struct Evaluate {
 /// The arguments of a request.
 ///
 /// # Errors
-/// They are not those of the protocol; in words.
+/// The arguments do not match the protocol; the reason in words.
 pub(super) fn arguments<T: DeserializeOwned>(request: &Request) -> Result<T, String> {
     serde_json::from_value(request.arguments.clone()).map_err(|error| {
         format!(

@@ -1,4 +1,4 @@
-//! The stops of a run: at lines, at changes of a state, at values that are not known.
+//! What stops a run: breakpoints at lines, changes of a state, values that are not known.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use frictcomp::text::TextLines;
 #[derive(Debug, Default)]
 pub(super) struct Breakpoints {
     lines: HashMap<PathBuf, BTreeMap<u32, Vec<Breakpoint>>>,
-    /// The axes whose changes of state stop it; all of them where the set is empty.
+    /// The axes whose changes of state stop the run; all of them where the set is empty.
     changes: Option<BTreeSet<String>>,
     unknown: bool,
     paths: RealPaths,
@@ -35,7 +35,7 @@ struct Breakpoint {
 /// Effect of the breakpoints on a line when a run reaches it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct BreakpointsMet {
-    /// The run stops; what is to be said about that.
+    /// Why the run stops, in words; `None` if it does not stop.
     pub(super) stop: Option<String>,
     /// Texts of log points.
     pub(super) logged: Vec<String>,
@@ -63,12 +63,12 @@ impl Breakpoint {
         })
     }
 
-    /// Meets a run that stands before its block.
+    /// Evaluates the breakpoint for a run that is about to execute its block.
     fn meet(&mut self, here: &Interpreter, met: &mut BreakpointsMet) {
         let undecided = match self.condition.as_ref().map(|it| it.holds(here)) {
             None | Some(Ok(true)) => None,
             Some(Ok(false)) => return,
-            // Where that is not known, the run had better stop.
+            // If that is not known, the run had better stop.
             Some(Err(why)) => Some(why),
         };
         self.met += 1;
@@ -83,8 +83,8 @@ impl Breakpoint {
 }
 
 impl Breakpoints {
-    /// Sets the lines of a file, and gives for each requested breakpoint the line of the block that it
-    /// stands on, or why there is none.
+    /// Sets the breakpoints of a file. Returns, for each requested one, the line of the block that it
+    /// applies to, or why there is none.
     pub(super) fn set_lines(
         &mut self,
         file: PathBuf,
@@ -96,8 +96,8 @@ impl Breakpoints {
         let mut lines: BTreeMap<u32, Vec<Breakpoint>> = BTreeMap::new();
         let mut set = |wanted: SourceBreakpoint| {
             let line = starts.range(wanted.line..).next().copied();
-            let line = line.ok_or("no block stands here or below")?;
-            // A client sends all breakpoints whenever it changes one: the others go on counting.
+            let line = line.ok_or("there is no block here or below")?;
+            // A client sends all breakpoints whenever it changes one: the others keep their counts.
             let same = before.get(&line).into_iter().flatten();
             let same = same.clone().find(|it| it.wanted == wanted).cloned();
             let breakpoint = same.map_or_else(|| Breakpoint::new(wanted), Ok)?;
@@ -115,7 +115,7 @@ impl Breakpoints {
         self.unknown = unknown;
     }
 
-    /// Whether a breakpoint stands on the line of a block.
+    /// Whether the line of a block has a breakpoint.
     pub(super) fn is_on(&mut self, block: &Executed<'_>) -> bool {
         if self.lines.is_empty() {
             return false;
@@ -124,7 +124,7 @@ impl Breakpoints {
         lines.is_some_and(|lines| lines.contains_key(&block.line))
     }
 
-    /// Returns the effect of the breakpoints on the line at which a run stands.
+    /// Returns the effect of the breakpoints on the line that a run has reached.
     pub(super) fn meet(&mut self, (file, line): (&str, u32), here: &Interpreter) -> BreakpointsMet {
         let mut met = BreakpointsMet::default();
         let lines = self.lines.get_mut(self.paths.of(file));
@@ -148,7 +148,7 @@ impl Breakpoints {
     }
 }
 
-/// A text of a log point with the values of the expressions that stand in it in braces.
+/// Returns the text of a log point, with the expressions in braces replaced by their values.
 fn filled(message: &str, here: &Interpreter) -> String {
     let mut text = String::new();
     let mut rest = message;

@@ -10,7 +10,7 @@ pub(super) struct Condition(String);
 
 impl Condition {
     /// # Errors
-    /// The text is no expression; in words.
+    /// The text is not an expression; the reason in words.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let is_expression = parse_expression(text, &mut Block::default()).is_some();
         let refused = || {
@@ -23,7 +23,7 @@ impl Condition {
             .ok_or_else(refused)
     }
 
-    /// Whether it is true where a run stands.
+    /// Whether it is true at the current block of a run.
     ///
     /// # Errors
     /// It cannot be decided; the reason in words.
@@ -59,7 +59,7 @@ pub(super) enum HitCount {
 
 impl HitCount {
     /// # Errors
-    /// The text is no such number; in words.
+    /// The text is not a number of hits; the reason in words.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let digits = text.trim_start_matches(['=', '<', '>', '%', ' ']);
         let operator = text[..text.len() - digits.len()].trim();
@@ -82,7 +82,7 @@ impl HitCount {
         })
     }
 
-    /// Whether a time counts; the first one is 1.
+    /// Whether a hit counts; the first one is 1.
     pub(super) fn includes(self, time: u64) -> bool {
         match self {
             Self::Exactly(number) => time == number,

@@ -1,8 +1,8 @@
-//! The debug adapter: a program block by block, by the Debug Adapter Protocol (R12.9).
+//! The debug adapter: runs a program block by block, by the Debug Adapter Protocol (R12.9).
 //!
-//! The interpreter of `stepper` stands before the block that is shown, and returns there by a snapshot
-//! when the block itself shows that the run should have stopped before it. What the adapter sends is
-//! written as JSON values: of the crates with the types of the protocol none is maintained.
+//! The interpreter of `stepper` has not yet executed the block that is shown. If executing the block shows
+//! that the run should have stopped before it, the stepper goes back to a snapshot. What the adapter sends
+//! is written as JSON values: no crate with the types of the protocol is maintained.
 
 mod arguments;
 mod breakpoints;

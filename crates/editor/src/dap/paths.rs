@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct RealPaths(HashMap<String, PathBuf>);
 
 impl RealPaths {
-    /// The real path of a file; the name itself where there is no such file.
+    /// The real path of a file; the name itself if the file does not exist.
     pub(super) fn of(&mut self, name: &str) -> &Path {
         self.0.entry(name.to_owned()).or_insert_with(|| real(name))
     }

@@ -24,7 +24,7 @@ use frictcomp_host::read_text;
 /// The only thread: the channel that runs the program.
 const CHANNEL: i64 = 1;
 
-/// Serves one client until it disconnects or its end of the input is closed.
+/// Serves one client until it disconnects or closes its end of the input.
 ///
 /// # Errors
 /// The client cannot be read from or written to.
@@ -72,7 +72,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
     Ok(())
 }
 
-/// The client's end: what it sent, in order.
+/// The client's end: the messages it sent, in order.
 struct DapClient {
     receiver: Receiver<Incoming>,
     /// Messages taken from the receiver ahead of their turn.
@@ -87,7 +87,7 @@ impl DapClient {
         Some(self.waiting.remove(0))
     }
 
-    /// Whether it requests something that cannot wait until the run stops by itself.
+    /// Whether it has sent a request that cannot wait until the run stops by itself.
     fn interrupts(&mut self) -> bool {
         self.waiting.extend(self.receiver.try_iter());
         self.waiting
@@ -95,7 +95,7 @@ impl DapClient {
             .any(|incoming| is_one_of(incoming, &STOPS) || is_one_of(incoming, &AT_ONCE))
     }
 
-    /// Takes the next request that is answered while a run goes on.
+    /// Takes the next request that can be answered during a run.
     fn take_at_once(&mut self) -> Option<Request> {
         let at = self.waiting.iter().position(|it| is_one_of(it, &AT_ONCE))?;
         match self.waiting.remove(at) {
@@ -116,7 +116,7 @@ impl DapClient {
 /// Requests that stop a run.
 const STOPS: [&str; 3] = ["pause", "disconnect", "terminate"];
 
-/// Requests that are answered while a run goes on.
+/// Requests that are answered during a run.
 const AT_ONCE: [&str; 3] = ["setBreakpoints", "setExceptionBreakpoints", "threads"];
 
 fn is_one_of(incoming: &Incoming, commands: &[&str]) -> bool {
@@ -255,7 +255,7 @@ impl<W: Write> DapServer<W> {
         Ok(json!({ "breakpoints": told.collect::<Vec<_>>() }))
     }
 
-    /// Takes the filters, and says of each whether it can be used.
+    /// Takes the filters, and returns for each whether it can be used.
     fn set_filters(&mut self, wanted: &SetFilters) -> Result<Value, String> {
         let stepper = self.stepper()?;
         let (mut changes, mut unknown) = (None, false);
@@ -312,7 +312,7 @@ impl<W: Write> DapServer<W> {
             );
         }
         let setting = variables::setting(&wanted.value)
-            .ok_or_else(|| format!("`{}` is no number and no text in quotes", wanted.value))?;
+            .ok_or_else(|| format!("`{}` is not a number or a text in quotes", wanted.value))?;
         stepper.set(&wanted.name, &setting);
         Ok(json!({ "value": wanted.value.trim() }))
     }
@@ -342,7 +342,7 @@ impl<W: Write> DapServer<W> {
         self.stepper.as_ref().map_or(0, Stepper::depth)
     }
 
-    /// Lets the run go on. What the client asks for meanwhile and does not stop it is answered.
+    /// Continues the run, and meanwhile answers the requests that do not stop it.
     fn go(&mut self, reach: RunTarget) -> io::Result<()> {
         loop {
             let Some(stepper) = &mut self.stepper else {
@@ -386,7 +386,7 @@ impl<W: Write> DapServer<W> {
         self.outgoing.event("stopped", &body)
     }
 
-    /// Says what the program leaves, and that it has ended.
+    /// Reports the states that the program leaves, and that it has ended.
     fn end(&mut self, by: EndedBy) -> io::Result<()> {
         let left = self
             .stepper
@@ -449,7 +449,7 @@ impl<W: Write> DapServer<W> {
     }
 }
 
-/// The reason of a stop in the words of the protocol, and what there is to say.
+/// The reason for a stop in the words of the protocol, and its description.
 fn reason(halt: &Halt) -> (&'static str, Option<String>) {
     match halt {
         Halt::Arrived | Halt::Ended(_) => ("step", None),
@@ -469,7 +469,7 @@ fn reason(halt: &Halt) -> (&'static str, Option<String>) {
 /// The axes that a condition names.
 ///
 /// # Errors
-/// One of them is no axis; in words.
+/// One of them is not an axis; the reason in words.
 fn watched(stepper: &Stepper, condition: &str) -> Result<BTreeSet<String>, String> {
     let names = condition.split([' ', ',', ';']).filter(|it| !it.is_empty());
     let axes: BTreeSet<String> = names.map(str::to_ascii_uppercase).collect();

@@ -1,8 +1,8 @@
-//! The run of a program that is looked at block by block.
+//! The run of a program in single blocks.
 //!
-//! An interpreter reports a block when it has executed it; a debugger stands before a block. So the
-//! stepper keeps a copy of the run from some blocks ago: when a block says that the run should have
-//! stopped before it, the copy goes to the block again.
+//! An interpreter reports a block after executing it; a debugger stops before a block. So the stepper
+//! keeps a copy of the run from some blocks ago: when a block shows that the run should have stopped
+//! before it, the copy is run up to that block.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -24,8 +24,7 @@ use frictcomp_host::{
     read_text,
 };
 
-/// Blocks that are executed between two copies, and between two looks whether the client wants
-/// anything.
+/// Blocks that are executed between two copies, and between two checks for a request of the client.
 const STRIDE: u64 = 10_000;
 
 /// A block of a call, or the one that comes next.
@@ -57,14 +56,14 @@ pub(super) enum RunTarget {
     Breakpoint,
 }
 
-/// Why the run stands where it does.
+/// Why the run has stopped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Halt {
     /// It has reached its goal.
     Arrived,
-    /// A breakpoint stands on the line; what is to be said about it.
+    /// The line has a breakpoint; the description of the stop.
     Breakpoint(String),
-    /// States changed in the block before; what changed.
+    /// The block before changed states; the changes in words.
     Changed(String),
     /// The next block reads values that only the machine knows.
     Unknown(BTreeSet<String>),
@@ -107,9 +106,9 @@ pub(super) enum OutputText {
 
 /// Reason for the end of a stride before its last block.
 enum Stop {
-    /// Before the block of the moment.
+    /// Before the block that has just been executed.
     Before(Halt),
-    /// Before it, where the breakpoints on its line want that; otherwise for another reason.
+    /// Before it, if the breakpoints on its line stop there; otherwise for another reason.
     AtBreakpoint {
         file: Arc<str>,
         line: u32,
@@ -134,7 +133,7 @@ struct Stride<'a> {
 }
 
 impl Stride<'_> {
-    /// Why the run should have stopped before a block.
+    /// Returns why the run should have stopped before a block.
     fn before(&mut self, block: &Executed<'_>) -> Option<Stop> {
         let halt = self.halt_before(block);
         let is_error = matches!(halt, Some(Halt::Error(_)));
@@ -148,7 +147,7 @@ impl Stride<'_> {
         })
     }
 
-    /// The same without the breakpoints on its line.
+    /// Returns why, apart from the breakpoints on its line, the run should have stopped before a block.
     fn halt_before(&mut self, block: &Executed<'_>) -> Option<Halt> {
         if block.stopped {
             let error = block
@@ -172,7 +171,7 @@ impl Stride<'_> {
         has_arrived.then_some(Halt::Arrived)
     }
 
-    /// The changes of states that a block makes, where they stop the run.
+    /// Returns the changes of states by a block, if they stop the run.
     fn changes(&self, block: &Executed<'_>) -> Option<Halt> {
         let name = |axis| self.machine.axis(axis).name.as_str();
         let made = block
@@ -230,7 +229,7 @@ impl Observer for Stride<'_> {
     }
 }
 
-/// Whether the run stands before another block.
+/// Whether the run has moved to another block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moved {
     Yes,
@@ -243,11 +242,11 @@ pub(super) struct Stepper {
     /// The axes that the program names.
     used: BTreeSet<String>,
     finder: ProgramFinder,
-    /// Stands before the block that is shown.
+    /// The run before the block that is shown.
     here: Interpreter,
-    /// The same in the program that this block belongs to.
+    /// The same run in the program that this block belongs to.
     settled: Interpreter,
-    /// Whether the client was informed that the run stands before that block.
+    /// Whether the client was informed that the run has stopped before that block.
     is_shown: bool,
     trail: Trail,
     position: RunPosition,
@@ -338,17 +337,17 @@ impl Stepper {
         self.machine.find(name).is_some() || self.used.contains(name)
     }
 
-    /// The client is informed that the run stands before the block: it goes on without stopping there again.
+    /// Notes that the client knows of the stop before this block: the run does not stop there again.
     pub(super) fn show(&mut self) {
         self.is_shown = true;
     }
 
-    /// The names of the values that the block reads which is shown, and only the machine knows.
+    /// The names of the values that the shown block reads and only the machine knows.
     pub(super) fn wanted(&self) -> &BTreeSet<String> {
         &self.wanted
     }
 
-    /// The answers to the condition of the block that is shown, in words; none where nothing is to be chosen.
+    /// The answers to the condition of the shown block, in words; none where there is nothing to choose.
     pub(super) fn answers(&self) -> impl Iterator<Item = String> {
         let file = match &self.position {
             RunPosition::Before(sites) => sites.last().map(|site| &*site.file),
@@ -358,12 +357,12 @@ impl Stepper {
         self.answers.iter().map(move |it| it.in_words(file))
     }
 
-    /// Chooses an answer to the condition of the block that is shown, by its place among them. A later
-    /// condition on the same value is another one. Whether the run stands before another block then: a
-    /// block that is skipped is passed over.
+    /// Chooses an answer to the condition of the shown block, by its index. A later condition on the
+    /// same value is a separate choice. Returns whether the run has moved to another block, because the
+    /// shown one is skipped.
     ///
     /// # Errors
-    /// There is no such answer; in words.
+    /// There is no such answer; the reason in words.
     pub(super) fn choose(&mut self, place: usize) -> Result<Moved, String> {
         if place >= self.answers.len() {
             return Err("the block has no such side to choose".to_owned());
@@ -381,7 +380,7 @@ impl Stepper {
         })
     }
 
-    /// Gives a value that only the machine knows, from the block on that is shown.
+    /// Sets a value that only the machine knows, from the shown block on.
     pub(super) fn set(&mut self, name: &str, setting: &Setting) {
         self.here.set(name, setting);
         self.look_ahead();
@@ -392,7 +391,7 @@ impl Stepper {
         std::mem::take(&mut self.said)
     }
 
-    /// Goes on. `interrupted` is asked every now and then.
+    /// Continues the run. `interrupted` is called every now and then.
     pub(super) fn go(
         &mut self,
         reach: RunTarget,
@@ -484,7 +483,7 @@ impl Stepper {
         }
     }
 
-    /// Finds the block that comes next by executing it in a copy of the run.
+    /// Finds the next block by executing it in a copy of the run.
     fn look_ahead(&mut self) {
         self.settled = self.here.settled();
         self.wanted.clear();
@@ -510,7 +509,7 @@ impl Stepper {
         self.wanted = wanted;
         self.answers = copy.offered().to_vec();
         self.position = match ended {
-            // What is left of the program is no block: it ends without a further stop.
+            // The rest of the program has no block: it ends without a further stop.
             Some(by) => {
                 self.finish();
                 RunPosition::Ended(by)

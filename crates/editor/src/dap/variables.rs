@@ -1,4 +1,4 @@
-//! The values that a client can inspect while a run stands.
+//! The values that a client can inspect while a run is stopped.
 
 use serde_json::{Value as Json, json};
 
@@ -27,7 +27,7 @@ pub(super) enum VariableScope {
 const FIRST_AXIS: i64 = 100;
 
 impl VariableScope {
-    /// The scopes where a run stands.
+    /// The scopes at the current block.
     pub(super) fn all(stepper: &Stepper) -> Vec<Json> {
         let mut scopes = vec![(Self::Axes, "Axes")];
         if !stepper.wanted().is_empty() {
@@ -43,7 +43,7 @@ impl VariableScope {
     }
 }
 
-/// Returns the values behind a handle.
+/// Returns the values of a handle.
 pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
     let here = stepper.interpreter();
     match handle {
@@ -75,7 +75,7 @@ pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
     }
 }
 
-/// The value of an expression of the language, or what is known of an axis by its name.
+/// Returns the value of an expression of the language, or what is known of an axis given by name.
 ///
 /// # Errors
 /// It has no value here; the reason in words.

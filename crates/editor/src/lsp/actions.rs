@@ -1,4 +1,4 @@
-//! Changes that do what a message advises, from the data that comes with it (R12.5).
+//! Changes that do what a message advises, made from its data (R12.5).
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -40,7 +40,7 @@ pub(super) fn code_actions(
     Some(actions.into_iter().map(Into::into).collect())
 }
 
-/// Whether a kind of action is one of those that a wider kind means.
+/// Whether a kind of action belongs to a wider kind.
 fn holds(wide: &CodeActionKind, kind: &CodeActionKind) -> bool {
     let (wide, kind) = (wide.as_str(), kind.as_str());
     wide.is_empty()
@@ -120,7 +120,7 @@ fn title(document: &Document, fix: &Fix) -> String {
     format!("{what} in {}", name.to_string_lossy())
 }
 
-/// The words of a text in one line, at most forty characters of it.
+/// The words of a text on one line, at most forty characters.
 fn short(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let words = words.join(" ");
@@ -130,7 +130,7 @@ fn short(text: &str) -> String {
     words.chars().take(39).chain(['\u{2026}']).collect()
 }
 
-/// All changes of a text that may be made without a look at them.
+/// All changes of a text that are safe to make without a review.
 fn fix_all(view: &RequestView, document: &Document) -> Option<CodeAction> {
     let fixes = safe_fixes(view, document);
     if fixes.is_empty() {
@@ -189,7 +189,7 @@ fn workspace_edit<'a>(
     Some(as_edit(view, changes))
 }
 
-/// The changes of a file; `None` where its lines are no longer those of the fixes.
+/// The edits of a file; `None` if its lines have changed since the fixes were made.
 fn text_edits(
     view: &RequestView,
     file: &str,
@@ -214,7 +214,7 @@ fn text_edits(
     (!edits.is_empty()).then(|| (TextDocumentIdentifier::new(uri), edits))
 }
 
-/// Changes in the form that the client knows.
+/// Returns the edits in the form that the client supports.
 pub(super) fn as_edit(
     view: &RequestView,
     changes: Vec<(TextDocumentIdentifier, Vec<TextEdit>)>,

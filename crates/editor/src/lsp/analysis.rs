@@ -18,7 +18,7 @@ use frictcomp_host::{
     Machines, Naming, SingleRun, check_list_file, run_alone,
 };
 
-/// A text to check, as it and all others were when it was asked for.
+/// A text to check, with all other texts, as of the moment of the request.
 pub(super) struct AnalysisJob {
     /// The text that was checked.
     pub(super) document: Arc<Document>,
@@ -63,7 +63,7 @@ pub(super) struct ProgramRun {
     pub(super) states: StateBook,
     /// The axes when it has ended.
     pub(super) ends: Vec<AxisEnd>,
-    /// Whether more blocks would follow than are checked.
+    /// Whether the program has more blocks than are checked.
     pub(super) is_cut: bool,
     /// The number of executed blocks.
     pub(super) blocks: u64,
@@ -85,7 +85,7 @@ pub(super) struct AxisEnd {
 }
 
 impl AnalysisJob {
-    /// Checks the text; `None` where it has changed meanwhile.
+    /// Checks the text; `None` if it has changed meanwhile.
     pub(super) fn run(&self) -> Option<Analysis> {
         let registry = FileRegistry::default();
         let disk = &self.disk;
@@ -130,7 +130,7 @@ impl AnalysisJob {
         let mut found = survey.findings.diagnostics();
         let is_cut = found.any(|it| it.code == Code::Fc910 && it.is_raised());
         let found = survey.findings.diagnostics();
-        // That the editor looks no further says nothing of a loop without an end.
+        // That the editor stops checking does not mean that a loop is endless.
         said.extend(
             found
                 .filter(|it| !is_cut || it.code != Code::Fc910)
@@ -177,7 +177,7 @@ impl AnalysisJob {
         }
     }
 
-    /// The build of the machine that a list belongs to, where a configuration says so.
+    /// The build of the machine that a list belongs to, if a configuration names it.
     fn build(&self, disk: &Disk) -> Option<frictcomp::comp::CncBuild> {
         let folder = self.document.path.parent()?;
         let unheard = FileRegistry::default();
@@ -197,8 +197,8 @@ pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions
         .with_wording(Some(editor))
 }
 
-/// The budgets of a program in an editor: a larger number of blocks lets loops and calls go on for
-/// longer, too.
+/// The budgets of a program in an editor: the more blocks are checked, the longer loops and calls may
+/// run, too.
 pub(super) fn limits(max_blocks: u64) -> Limits {
     let limits = Limits::brief().with_blocks(max_blocks);
     limits.with_repeats(

@@ -15,9 +15,9 @@ use frictcomp_host::CONFIG_NAME;
 pub(super) enum ServerRequest {
     /// The settings of the user.
     Settings,
-    /// To report files that change.
+    /// Reports of changed files.
     NewsOfFiles,
-    /// To ask again for what is shown.
+    /// A repeated request for what is shown.
     Refresh,
 }
 
@@ -32,7 +32,7 @@ impl ServerRequest {
     }
 }
 
-/// Asks for the settings of the user.
+/// Requests the settings of the user.
 pub(super) fn settings(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     let params = ConfigurationParams::new(vec![ConfigurationItem {
         scope_uri: None,
@@ -42,7 +42,7 @@ pub(super) fn settings(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     outgoing.register(method, params, ServerRequest::Settings)
 }
 
-/// Asks for notices of lists, configurations and programs that change.
+/// Requests notices of changed lists, configurations and programs.
 pub(super) fn news_of_files(outgoing: &mut Outgoing<ServerRequest>) -> Request {
     let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
     let programs = format!("**/*.{{{endings}}}");

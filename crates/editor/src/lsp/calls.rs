@@ -59,7 +59,7 @@ fn item_of(view: &RequestView, program: &GraphProgram) -> Option<CallHierarchyIt
     path_of_program(program).map(|path| item(view, path))
 }
 
-/// The program at a place: the one that is called there, else that of the text.
+/// The program at a place: the one that is called there, otherwise that of the text.
 pub(super) fn prepare(
     view: &RequestView,
     params: &CallHierarchyPrepareParams,
@@ -162,8 +162,8 @@ fn symbol(
     }
 }
 
-/// The lens that says from how many programs a program is reached; its words come when the client asks
-/// for them, since the calls of the project may have to be found first.
+/// The lens that names the number of programs from which a program is reached; its text is made when the
+/// client asks for it, since the calls of the project may have to be found first.
 pub(super) fn lens(view: &RequestView, document: &Document) -> Option<CodeLens> {
     view.calls.are_known().then(|| CodeLens {
         range: whole_line(0),
@@ -172,7 +172,7 @@ pub(super) fn lens(view: &RequestView, document: &Document) -> Option<CodeLens> 
     })
 }
 
-/// The same lens with its words.
+/// Returns the lens with its text.
 pub(super) fn resolved(view: &RequestView, mut lens: CodeLens) -> CodeLens {
     let uri = lens.data.as_ref().and_then(|data| data.get("reached"));
     let uri = uri.and_then(Value::as_str).map(Uri::from);
@@ -185,7 +185,7 @@ pub(super) fn resolved(view: &RequestView, mut lens: CodeLens) -> CodeLens {
     lens
 }
 
-/// From which programs a program is reached: those at the top, which no program calls.
+/// The programs from which a program is reached: those at the top, which no program calls.
 fn reached(view: &RequestView, uri: &Uri) -> String {
     let none = || "called by no program of the project".to_owned();
     let Some(project) = view.calls.project(&view.documents.disk()) else {

@@ -24,14 +24,14 @@ pub(super) enum Outdated {
 #[derive(Debug, Default)]
 pub(super) struct Checks {
     due: BTreeMap<String, Instant>,
-    /// The same in the order in which they are due.
+    /// The same texts in the order in which they are due.
     order: BTreeSet<(Instant, String)>,
     running: Option<(String, Cancel)>,
 }
 
 impl Checks {
-    /// A text has to be checked. A check that is running gives way: its text is out of date, or
-    /// another one is looked at.
+    /// Schedules the check of a text. A running check is cancelled if its text is out of date, or the user
+    /// types in another one.
     pub(super) fn expect(&mut self, uri: &str, why: Outdated) {
         let now = Instant::now();
         let pause = match why {
@@ -64,7 +64,7 @@ impl Checks {
         }
     }
 
-    /// A text need not be checked any more.
+    /// Removes a text that need not be checked any more.
     pub(super) fn forget(&mut self, uri: &str) {
         self.take(uri);
         if let Some((running, cancel)) = &self.running
@@ -74,7 +74,7 @@ impl Checks {
         }
     }
 
-    /// Nothing need be checked any more.
+    /// Removes all texts.
     pub(super) fn stop(&mut self) {
         self.due.clear();
         self.order.clear();
@@ -83,7 +83,7 @@ impl Checks {
         }
     }
 
-    /// The text that is to be checked now.
+    /// Returns the text that is to be checked now.
     pub(super) fn due(&mut self, now: Instant) -> Option<String> {
         if self.running.is_some() {
             return None;
@@ -103,14 +103,14 @@ impl Checks {
         Some(first.saturating_duration_since(now))
     }
 
-    /// The check of a text begins.
+    /// Marks the check of a text as begun.
     pub(super) fn begin(&mut self, uri: &str) -> Cancel {
         let cancel = Cancel::default();
         self.running = Some((uri.to_owned(), cancel.clone()));
         cancel
     }
 
-    /// The check has ended: the text that it was of.
+    /// Marks the check as ended; returns its text.
     pub(super) fn end(&mut self) -> Option<String> {
         self.running.take().map(|(uri, _)| uri)
     }

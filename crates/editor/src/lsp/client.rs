@@ -20,7 +20,7 @@ pub(super) struct LspClient {
 }
 
 impl LspClient {
-    /// The client of an `initialize` request, and what cannot be used of its settings.
+    /// The client of an `initialize` request, and the settings that cannot be used.
     pub(super) fn new(params: &InitializeParams) -> (Self, Vec<String>) {
         let mut settings = Settings::default();
         let given = params.initialization_options.as_ref();
@@ -33,7 +33,7 @@ impl LspClient {
         (client, wrong)
     }
 
-    /// Whether it reports files that change, where it is asked to.
+    /// Whether it reports changed files on request.
     pub(super) fn watches_files(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let watching = workspace.and_then(|it| it.did_change_watched_files.as_ref());
@@ -46,21 +46,21 @@ impl LspClient {
         workspace.and_then(|it| it.configuration) == Some(true)
     }
 
-    /// Whether it asks for inlay hints again when it is told to.
+    /// Whether it refreshes inlay hints on request.
     pub(super) fn refreshes_inlay_hints(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let hints = workspace.and_then(|it| it.inlay_hint.as_ref());
         hints.and_then(|it| it.refresh_support) == Some(true)
     }
 
-    /// Whether it asks for code lenses again when it is told to.
+    /// Whether it refreshes code lenses on request.
     pub(super) fn refreshes_code_lenses(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let lenses = workspace.and_then(|it| it.code_lens.as_ref());
         lenses.and_then(|it| it.refresh_support) == Some(true)
     }
 
-    /// Whether it asks for messages, and again when it is told to.
+    /// Whether it pulls messages, and refreshes them on request.
     pub(super) fn pulls_diagnostics(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();
         let refreshing = workspace.and_then(|it| it.diagnostics.as_ref());
@@ -84,7 +84,7 @@ impl LspClient {
     }
 }
 
-/// The folder of the project, where the client names one.
+/// The folder of the project, if the client names one.
 #[allow(deprecated, reason = "older clients name nothing else")]
 pub(super) fn project(params: &InitializeParams) -> Option<PathBuf> {
     let folders = params

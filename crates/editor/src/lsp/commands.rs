@@ -1,4 +1,4 @@
-//! Reports that an editor shows in a window of its own (R12.4).
+//! Reports that an editor shows in a separate window (R12.4).
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -43,7 +43,7 @@ pub(super) struct CommandSubject {
 /// The result of a command.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct CommandResult {
-    /// A page that needs nothing else: no network, no script, no second file.
+    /// A self-contained page: no network, no script, no second file.
     html: String,
 }
 
@@ -61,7 +61,7 @@ pub(super) fn execute(
     }
 }
 
-/// The texts that are open, and the files besides.
+/// The open texts, and the other files.
 struct Texts(Disk);
 
 impl Sources for Texts {
@@ -127,7 +127,8 @@ fn timeline(view: &RequestView, subject: &CommandSubject) -> Result<CommandResul
 /// Audits the programs of a folder and below, or of the folder of a program, each as it is open.
 fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, Refusal> {
     let named = path_of(&subject.uri.0);
-    let path = named.ok_or_else(|| Refusal::Params(format!("`{}` is no file", subject.uri.0)))?;
+    let path =
+        named.ok_or_else(|| Refusal::Params(format!("`{}` is not a file", subject.uri.0)))?;
     let folder = match path.parent() {
         Some(folder) if !path.is_dir() => folder.to_owned(),
         _ => path,

@@ -1,8 +1,8 @@
 //! Completions: words of a COMP command, axes, parameters and keys (R12.6, R12.11).
 //!
-//! An editor may take what it shows first for Enter. So nothing is offered but what begins as the word
-//! that is typed and is longer, each with the range that it replaces; only inside a COMP bracket a
-//! blank is enough.
+//! An editor may accept the first completion on Enter. So only words are offered that begin as the typed
+//! one and are longer, each with the range that it replaces; only inside a COMP bracket a blank is
+//! enough.
 
 use gen_lsp_types::{
     CompletionItem, CompletionItemKind, CompletionParams, Documentation, MarkupContent, MarkupKind,
@@ -37,14 +37,14 @@ pub(super) fn completion(
 
 /// Completions in place of a word that is being typed.
 struct Offer<'t> {
-    /// The word as far as it is typed.
+    /// The part of the word that is typed so far.
     typed: &'t str,
-    /// The words that may stand there, the likeliest first.
+    /// The words that are possible there, the likeliest first.
     items: Vec<CompletionItem>,
 }
 
 impl Offer<'_> {
-    /// The items that go on with what is typed, each with the range that it replaces.
+    /// Returns the items that complete what is typed, each with the range that it replaces.
     fn items(self, cursor: Position) -> Vec<CompletionItem> {
         let Some(length) = u32::try_from(self.typed.len())
             .ok()
@@ -81,7 +81,7 @@ fn split_word(before: &str) -> (&str, &str) {
     before.split_at(before.trim_end_matches(is_name).len())
 }
 
-/// The words that may stand in an open COMP bracket; `None` where none is open.
+/// The words that are possible in an open COMP bracket; `None` if none is open.
 fn comp_words(before: &str) -> Option<Offer<'_>> {
     let code = code_of(before);
     let open = code.rfind('[')?;
@@ -97,7 +97,7 @@ fn comp_words(before: &str) -> Option<Offer<'_>> {
             .is_some_and(|it| it.eq_ignore_ascii_case(word))
     };
     let items = if words.is_empty() {
-        // An index may stand in a bracket, too: only a letter shows that a command begins.
+        // A bracket may hold an index, too: only a letter shows that a command begins.
         if typed.is_empty() || !is_of_axis(&before[..open]) {
             return None;
         }
@@ -127,7 +127,7 @@ fn comp_words(before: &str) -> Option<Offer<'_>> {
     Some(Offer { typed, items })
 }
 
-/// Whether a bracket after this code belongs to a word of the block, and is no index.
+/// Whether a bracket after this code belongs to a word of the block and does not hold an index.
 fn is_of_axis(code: &str) -> bool {
     let (above, name) = split_word(code.trim_end());
     name.contains(|letter: char| letter.is_ascii_alphabetic()) && !above.ends_with(['.', '@', '='])
@@ -149,8 +149,8 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
     }
 }
 
-/// The axes of the machine whose names go on with a word of letters, where a word of a block may begin.
-/// A word with a digit is an address with its value: `X1` moves X, even beside an axis X10.
+/// The axes of the machine whose names complete the typed letters, where a word of a block may begin. A
+/// word with a digit is an address with its value: `X1` moves X, even if there is an axis X10.
 fn axes<'t>(view: &RequestView, document: &Document, before: &'t str) -> Option<Offer<'t>> {
     let run = view.analysis(&document.uri)?.run.as_ref()?;
     let (above, typed) = split_word(before);

@@ -1,5 +1,5 @@
-//! `frictcomp/contour`: the path of a program with its deviation, on which the cursor is followed and
-//! whose blocks are found by their places (R12.17).
+//! `frictcomp/contour`: the path of a program with its deviation. The picture follows the cursor, and a
+//! place in it leads to its block (R12.17).
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,7 +27,7 @@ use frictcomp_report::pictures::{ContourPicture, FollowedContour};
 use frictcomp_report::svg::Frame;
 use frictcomp_report::{FALLBACK_WIDTH, fitted};
 
-/// Cycles of the control that are driven while one types: half an hour of cycles of 1 ms.
+/// Cycles of the control that are driven as the user types: half an hour of cycles of 1 ms.
 const MOST_CYCLES: u64 = 2_000_000;
 
 /// The contour of an open program.
@@ -48,7 +48,7 @@ pub(super) struct ContourParams {
     pub(super) text_document: TextDocumentIdentifier,
 }
 
-/// A contour as a picture, and what stands where in it.
+/// A contour as a picture, and the blocks of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Contour {
     /// The picture; none where nothing was driven.
@@ -61,11 +61,11 @@ pub(super) struct Contour {
     worst: Vec<Worst>,
     /// The figures, as on the command line.
     figures: String,
-    /// What the contour rests on, and what is missing of it.
+    /// What the contour is based on, and what it lacks.
     remarks: Vec<String>,
 }
 
-/// What a block drives of the path.
+/// The part of the path that a block drives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct BlockPath {
     /// The number of its file, from 0.
@@ -76,7 +76,7 @@ struct BlockPath {
     points: Vec<[f64; 2]>,
 }
 
-/// A reversal with its words.
+/// A reversal with its description.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 struct Worst {
     /// The number of the file, from 0.
@@ -87,7 +87,7 @@ struct Worst {
     words: String,
 }
 
-/// A client that may want no answer any more.
+/// A client that may cancel its request.
 #[derive(Debug)]
 struct Asker(Cancel);
 
@@ -103,7 +103,7 @@ impl Watcher for Asker {
     }
 }
 
-/// Drives an open program, as it stands in the editor.
+/// Drives an open program with its text in the editor.
 pub(super) fn contour(view: &RequestView, params: &ContourParams) -> Result<Contour, Refusal> {
     let uri = &params.text_document.uri;
     let document = view
@@ -148,7 +148,7 @@ fn setup(view: &RequestView, loaded: &LoadedMachine) -> Result<ContourSetup, Ref
             let known = loaded.machine.axes.iter().map(|axis| axis.name.as_str());
             let help = UnknownName::new(axis, known).help("its axes are");
             return Err(Refusal::Failed(format!(
-                "the machine has no axis `{axis}`, of which `frictcomp.contour.start` says where it stands{}",
+                "the machine has no axis `{axis}`, for which `frictcomp.contour.start` gives a position{}",
                 help.map_or_else(String::new, |help| format!(": {help}"))
             )));
         }
@@ -169,7 +169,7 @@ fn setup(view: &RequestView, loaded: &LoadedMachine) -> Result<ContourSetup, Ref
     })
 }
 
-/// A preset as it is, a file as seen from the folder of the project.
+/// Returns a preset as it is, a file relative to the folder of the project.
 fn placed(view: &RequestView, plant: &str) -> String {
     if plant.parse::<Preset>().is_ok() {
         return plant.to_owned();
@@ -184,7 +184,7 @@ fn recorder(options: &ContourOptions) -> ContourRecorder<'static> {
     ContourRecorder::new(names).drawing(ContourPicture::new(plane))
 }
 
-/// What the contour rests on, and what is missing of it.
+/// Returns what the contour is based on, and what it lacks.
 fn remarks(
     driven: &ProgramContour<ContourRecorder<'_>>,
     loaded: &LoadedMachine,
@@ -193,7 +193,7 @@ fn remarks(
     let mut remarks = Vec::new();
     if loaded.origin.is_none() {
         remarks.push(
-            "no machine is described: limits of the axes are assumed, and the friction curves are those of the plant; describe it in a `frictcomp.toml` beside the program"
+            "no machine is described: limits of the axes are assumed, and the friction curves are those of the plant; describe it in a `frictcomp.toml` next to the program"
                 .to_owned(),
         );
     }
@@ -205,7 +205,7 @@ fn remarks(
     }
     if driven.machine_time_s() <= 0.0 {
         remarks.push(
-            "no motion was driven: program absolute positions and F first, or say in `frictcomp.contour.start` where the axes stand"
+            "no motion was driven: program absolute positions and F first, or give the axis positions in `frictcomp.contour.start`"
                 .to_owned(),
         );
     }

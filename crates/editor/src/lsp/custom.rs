@@ -1,4 +1,4 @@
-//! Requests of a status bar and a timeline view, beyond the protocol.
+//! Requests for a status bar and a timeline view, beyond the protocol.
 
 use gen_lsp_types::{
     LspRequestMethod, MessageDirection, Position, Request, TextDocumentIdentifier,
@@ -32,8 +32,8 @@ pub(super) struct StatesParams {
 /// The states of all axes at a block.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct BlockStates {
-    /// The line of the block, from 0; that of the last executed block before the place where the
-    /// place itself is in none.
+    /// The line of the block, from 0; if the place is not in an executed block, that of the last executed
+    /// block before it.
     pub(super) line: u32,
     /// Whether the place is in that block.
     pub(super) executed: bool,
@@ -162,8 +162,8 @@ fn in_words(axis: &AxisStates) -> String {
     format!("{name} {} \u{2192} {after}", words(&axis.before))
 }
 
-/// The states of a program over its lines. Before the first executed block they are those that it
-/// finds; what is not executed has those of the block above.
+/// The states of a program over its lines. Before the first executed block they are those at its start;
+/// lines that are not executed have those of the block above.
 pub(super) fn timeline(view: &RequestView, params: &TimelineParams) -> Option<Timeline> {
     let document = view.document(&params.text_document.uri)?;
     let (_, run, name) = view.runs(document).into_iter().next()?;
@@ -199,7 +199,7 @@ pub(super) fn timeline(view: &RequestView, params: &TimelineParams) -> Option<Ti
 }
 
 impl AxisTimeline {
-    /// From a line on the axis has these states.
+    /// Notes that the axis has these states from a line on.
     fn begin(&mut self, line: u32, states: Vec<State>) {
         if let Some(last) = self.segments.last_mut() {
             if last.states == states {
@@ -214,7 +214,7 @@ impl AxisTimeline {
         });
     }
 
-    /// The program ends with this many lines. Whether the axis occurs in it.
+    /// Ends the program after this many lines. Returns whether the axis occurs in it.
     fn finish(&mut self, lines: u32) -> bool {
         if let Some(last) = self.segments.last_mut() {
             last.to = lines;

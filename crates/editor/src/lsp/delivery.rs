@@ -1,8 +1,8 @@
 //! Delivery of messages to the client: pushed, or kept until it asks for them (R12.2).
 //!
-//! A client that asks gets the messages on its open texts as answers, and those on other texts pushed, so
-//! that none is shown twice. It is told to ask again where messages on an open text change by something
-//! else than that text.
+//! A client that pulls gets the messages on its open texts as answers, and those on other texts pushed, so
+//! that none is shown twice. It is told to ask again when something other than an open text changes the
+//! messages on that text.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -58,7 +58,7 @@ impl Delivery {
         let mut changed = self.published.remove(uri);
         self.outdate(to, &changed, |it| it != uri);
         if to.client.pulls_diagnostics() {
-            // The client has dropped what it asked for; checks of other texts may say something yet.
+            // The client has dropped what it asked for; checks of other texts may still have messages.
             let rest = self.published.shown().get(uri);
             changed.remove(uri);
             changed.extend(rest.map(|rest| (uri.to_owned(), rest.to_vec())));
@@ -72,7 +72,7 @@ impl Delivery {
             && changed.keys().any(|uri| by_other(uri) && is_open(uri));
     }
 
-    /// Whether the client has to ask again; it is told once.
+    /// Whether the client has to ask again; true only once per change.
     pub(super) fn take_outdated(&mut self) -> bool {
         std::mem::take(&mut self.is_outdated)
     }
@@ -83,7 +83,7 @@ impl Delivery {
     }
 }
 
-/// The messages to push: all, or those on texts that a client that asks does not have open.
+/// The messages to push: all, or for a client that pulls, those on texts that it does not have open.
 fn pushed(to: Translator<'_>, mut changed: ByText) -> ByText {
     let pulls = to.client.pulls_diagnostics();
     changed.retain(|uri, _| !pulls || to.documents.get(&uri.as_str().into()).is_none());
@@ -112,7 +112,7 @@ pub(super) fn report(
     }
 }
 
-/// Returns the name of a list of messages: lists of one name are equal, also those of an earlier server.
+/// Returns the id of a list of messages: lists with the same id are equal, even across servers.
 fn result_id(items: &[gen_lsp_types::Diagnostic]) -> String {
     let mut hasher = DefaultHasher::new();
     format!("{items:?}").hash(&mut hasher);

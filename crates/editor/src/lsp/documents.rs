@@ -29,15 +29,15 @@ pub(super) enum Kind {
 pub(super) struct Document {
     /// Its URI, as the client writes it.
     pub(super) uri: Uri,
-    /// The file that it stands in for; for a text without one, a name in the folder of the project.
+    /// The file that it replaces; for a text without one, a name in the folder of the project.
     pub(super) path: PathBuf,
     /// Whether it is a program, a list or a configuration.
     pub(super) kind: Kind,
-    /// The number that the client gives to its state.
+    /// The version number given by the client.
     pub(super) version: i32,
     text: Arc<String>,
     lines: LineIndex,
-    /// The one path of its file.
+    /// The canonical path of its file.
     place: PathBuf,
 }
 
@@ -84,8 +84,8 @@ impl Document {
         }
     }
 
-    /// The line, from 0, on which the block begins that goes on on a line: lines that end in `\` go
-    /// on on the next one.
+    /// The line, from 0, on which the block of a line begins: after a line that ends in `\`, a block
+    /// continues on the next one.
     pub(super) fn block_line(&self, line: u32) -> u32 {
         let mut first = line;
         while first > 0 && self.line(first - 1).trim_end().ends_with('\\') {
@@ -107,7 +107,7 @@ impl Document {
         }
     }
 
-    /// Applies what the client did, one change after the other.
+    /// Applies the changes of the client in order.
     fn change(&mut self, changes: Vec<TextDocumentContentChangeEvent>, encoding: Encoding) {
         for change in changes {
             match change {
@@ -119,7 +119,7 @@ impl Document {
                         self.offset(part.range.start, encoding),
                         self.offset(part.range.end, encoding),
                     );
-                    // A range whose ends are exchanged means the same text.
+                    // A range with its ends swapped means the same text.
                     let span = start.min(end)..start.max(end);
                     Arc::make_mut(&mut self.text).replace_range(span, &part.text);
                 }
@@ -143,7 +143,7 @@ pub(super) struct Documents {
 }
 
 impl Documents {
-    /// No text yet.
+    /// Creates an empty set of texts.
     pub(super) fn new(folder: PathBuf) -> Self {
         Self {
             folder,
@@ -165,7 +165,7 @@ impl Documents {
         document
     }
 
-    /// Changes a text; `None` where it is not open.
+    /// Changes a text; `None` if it is not open.
     pub(super) fn change(
         &mut self,
         (uri, version): (&Uri, i32),
@@ -184,7 +184,7 @@ impl Documents {
         Some(document)
     }
 
-    /// Closes a text; `None` where it is not open.
+    /// Closes a text; `None` if it is not open.
     pub(super) fn close(&mut self, uri: &Uri) -> Option<Arc<Document>> {
         let closed = self.open.remove(&uri.0)?;
         self.texts.remove(&closed.place);
@@ -218,7 +218,7 @@ impl Documents {
         Disk::with_placed(self.texts.clone())
     }
 
-    /// The URI of a file as the client writes it, where it has it open.
+    /// The URI of a file as the client writes it, if the client has the file open.
     pub(super) fn uri(&self, path: &Path) -> Uri {
         match self.names.get(path).and_then(BTreeSet::first) {
             Some(name) => Uri(name.clone()),
@@ -226,7 +226,7 @@ impl Documents {
         }
     }
 
-    /// The file of a name in messages, which may be seen from the current folder.
+    /// The file of a name in messages, which may be relative to the current folder.
     pub(super) fn path(name: &str) -> PathBuf {
         Disk::default()
             .absolute(Path::new(name))
@@ -234,7 +234,7 @@ impl Documents {
     }
 }
 
-/// The name of a text that has no file, as a file could have it.
+/// A file name for a text that has no file.
 fn file_name(uri: &str) -> String {
     let name = uri.rsplit(['/', ':']).next().unwrap_or_default();
     let usable = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
@@ -272,7 +272,7 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
 }
 
 /// Whether texts of this URI are those of a user: files, and texts that were never saved. Versions that
-/// an editor takes from git, for instance, would show every message twice (R12.12).
+/// an editor takes from git, for example, would show every message twice (R12.12).
 pub(super) fn is_of_a_user(uri: &Uri) -> bool {
     let scheme = uri.0.split(':').next().unwrap_or_default();
     ["file", "untitled"]

@@ -9,12 +9,12 @@ use frictcomp::text::{LineIndex, Place};
 pub(super) enum Encoding {
     /// Bytes.
     Utf8,
-    /// Units of UTF-16, which every client knows.
+    /// Units of UTF-16, which every client supports.
     Utf16,
 }
 
 impl Encoding {
-    /// Bytes where the client offers them.
+    /// Bytes if the client offers them, otherwise UTF-16.
     pub(super) fn negotiated(client: &ClientCapabilities) -> Self {
         let general = client.general.as_ref();
         let offered = general.and_then(|general| general.position_encodings.as_ref());
@@ -95,7 +95,7 @@ impl Encoding {
     }
 }
 
-/// The whole of a line, its end included.
+/// The whole of a line, including its end.
 pub(super) fn whole_line(line: u32) -> Range {
     let at = |line| Position { line, character: 0 };
     Range {

@@ -86,8 +86,8 @@ fn changes_of(run: &ProgramRun, passes: &[Pass<'_>], file: &str) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the states in which the program leaves axes away from the start of the control, as seen
-/// from a file: `leaves X inactive`.
+/// Returns the states of axes at the end that differ from those at the start of the control, with names
+/// as seen from a file: `leaves X inactive`.
 pub(super) fn left(run: &ProgramRun, file: &str) -> Option<String> {
     let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
     let left = run.states.at_end();

@@ -35,7 +35,7 @@ pub(super) fn hover(view: &RequestView, params: &HoverParams) -> Option<Hover> {
     })
 }
 
-/// The states at a block, what it switches and what moves in it.
+/// The states at a block, its COMP commands and its motion.
 fn program(view: &RequestView, document: &Document, position: Position) -> Option<String> {
     let line = RequestView::block_at(document, position);
     let mut text = String::new();
@@ -143,7 +143,7 @@ fn table(states: &StateBook, passes: &[Pass<'_>], file: &str) -> String {
     text
 }
 
-/// Each state with how often it occurs, the first one first.
+/// Each state with its number of passes, the first one first.
 fn of_all<'a>(
     passes: &[Pass<'a>],
     state: impl Fn(&Pass<'a>) -> Option<String>,

@@ -1,4 +1,4 @@
-//! The threads that answer questions: what is quick never waits for what is not (R12.7).
+//! The threads that answer requests: a quick answer never waits for a slow one (R12.7).
 
 use std::io;
 
@@ -14,11 +14,11 @@ use super::worker::Worker;
 pub(super) struct RoutedRequest {
     /// The number that the client gives it.
     pub(super) id: RequestId,
-    /// What answers it.
+    /// Its handler.
     pub(super) handler: Handler,
     /// Its parameters.
     pub(super) params: Value,
-    /// All that is known at the moment.
+    /// All that is known at the moment of the request.
     pub(super) view: RequestView,
 }
 
@@ -30,10 +30,10 @@ pub(super) struct Lanes {
 }
 
 impl Lanes {
-    /// The threads, which send their answers to the server.
+    /// Starts the threads, which send their answers to the server.
     ///
     /// # Errors
-    /// The system starts no threads.
+    /// The system cannot start a thread.
     pub(super) fn new<D: From<Response> + Send + 'static>(done: &Sender<D>) -> io::Result<Self> {
         let lane = |name| {
             let done = done.clone();
@@ -63,7 +63,7 @@ impl Lanes {
 }
 
 impl RoutedRequest {
-    /// The answer; `None` where it is no longer awaited.
+    /// The answer; `None` if the client has cancelled the request.
     fn answer(self) -> Option<Response> {
         if self.view.cancel.is_set() {
             return None;

@@ -50,8 +50,8 @@ pub(super) fn code_lenses(view: &RequestView, params: &CodeLensParams) -> Option
     Some(lenses)
 }
 
-/// The axes that a program moves in the state that it finds (R10.1); `None` where that cannot be
-/// found out.
+/// The axes that a program moves in a state that it inherits (R10.1); `None` if that cannot be
+/// determined.
 fn inherited(view: &RequestView, document: &Document) -> Option<String> {
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();

@@ -1,8 +1,8 @@
-//! Names in Markdown (R12.16): what a file or an axis is called is shown and means nothing.
+//! Names in Markdown (R12.16): the name of a file or an axis is shown as it is, without markup.
 
 use frictcomp_report::visible_line;
 
-/// A name between other words.
+/// Returns a name as plain text.
 pub(super) fn plain(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for letter in visible_line(name).chars() {
@@ -14,13 +14,13 @@ pub(super) fn plain(name: &str) -> String {
     text
 }
 
-/// A name as code: its fence is longer than any run of backquotes in it.
+/// Returns a name as code: its fence is longer than any run of backquotes in it.
 pub(super) fn code(name: &str) -> String {
     let shown = visible_line(name);
     let runs = shown.split(|letter| letter != '`').map(str::len);
     let longest = runs.max().unwrap_or_default();
     let fence = "`".repeat(longest + 1);
-    // A blank keeps the fence apart from a backquote; the reader takes it away again.
+    // A blank keeps the fence apart from a backquote; the reader removes it.
     let pad = if longest > 0 { " " } else { "" };
     format!("{fence}{pad}{shown}{pad}{fence}")
 }

@@ -18,7 +18,7 @@ use frictcomp::diagnostic::{Advice, Code, Diagnostic, Severity};
 use frictcomp::text::Place;
 use frictcomp_host::SharedMap;
 
-/// The source that an editor shows beside a message.
+/// The source that an editor shows with a message.
 const SOURCE: &str = "frictcomp";
 
 /// Text before advice.
@@ -84,13 +84,13 @@ impl Translator<'_> {
         let blocks = run.blocks;
         run.is_cut.then(|| {
             let text = format!(
-                "only the first {blocks} executed blocks are checked here; `frictcomp check` goes on for longer"
+                "only the first {blocks} executed blocks are checked here; `frictcomp check` checks more"
             );
             own(DiagnosticSeverity::Information, text)
         })
     }
 
-    /// One message, and the text that it is about.
+    /// Returns a message, and the text that it is about.
     pub(super) fn message(self, said: &Diagnostic) -> (Uri, Message) {
         let help = said.advice.iter().map(|advice| format!("{HELP}{advice}"));
         let labels = said.labels.iter();
@@ -122,7 +122,7 @@ impl Translator<'_> {
         (self.uri(&said.place.file), message)
     }
 
-    /// The text of a name in messages.
+    /// Returns the URI of a file name in messages.
     pub(super) fn uri(self, file: &str) -> Uri {
         self.documents.uri(&Documents::path(file))
     }
@@ -142,7 +142,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The line of a list that sets what the advice is about.
+    /// The line of a list whose setting the advice is about.
     fn list_line(self, advice: &Advice) -> Option<DiagnosticRelatedInformation> {
         let Advice::ConfigureInList { file, line, .. } = advice else {
             return None;
@@ -159,7 +159,7 @@ impl Translator<'_> {
     }
 }
 
-/// A message of the server itself, at the first line.
+/// Returns a message of the server itself, at the first line.
 fn own(severity: DiagnosticSeverity, text: String) -> Message {
     Message {
         range: whole_line(0),
@@ -170,8 +170,8 @@ fn own(severity: DiagnosticSeverity, text: String) -> Message {
     }
 }
 
-/// Returns the key by which two messages on a text are the same (R17.3); the advice depends on the
-/// main program.
+/// Returns the key by which two messages on a text are the same (R17.3). It ignores advice, which depends
+/// on the main program.
 fn cause(message: &Message) -> String {
     let said = match &message.message {
         MessageText::String(text) => text.split(HELP).next(),
@@ -215,8 +215,8 @@ pub(super) struct PublishedDiagnostics {
 type MessageKey = (u32, u32, String, String);
 
 impl PublishedDiagnostics {
-    /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
-    /// whose messages are others now.
+    /// Replaces the messages of the check of a text, and returns the texts whose messages have
+    /// changed.
     pub(super) fn put(&mut self, check: &str, messages: ByText) -> ByText {
         let mut concerned = self.take(check);
         for (uri, messages) in &messages {
@@ -233,8 +233,8 @@ impl PublishedDiagnostics {
         self.changed(concerned)
     }
 
-    /// Takes away the messages of the check of a text that was closed, and returns the texts whose
-    /// messages are others now.
+    /// Removes the messages of the check of a closed text, and returns the texts whose messages
+    /// have changed.
     pub(super) fn remove(&mut self, check: &str) -> ByText {
         let concerned = self.take(check);
         let changed = self.changed(concerned.clone());
@@ -251,7 +251,7 @@ impl PublishedDiagnostics {
         &self.shown
     }
 
-    /// Takes away the messages of a check: the texts that they were about.
+    /// Removes the messages of a check; returns the texts that they were about.
     fn take(&mut self, check: &str) -> BTreeSet<String> {
         let earlier = self.by_check.remove(check).unwrap_or_default();
         for (uri, messages) in earlier.iter().filter(|(uri, _)| *uri != check) {

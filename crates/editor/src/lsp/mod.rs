@@ -1,5 +1,5 @@
-//! The language server: what an editor shows of programs, lists and configurations while one types
-//! (chapter 12).
+//! The language server: shows messages and states of programs, lists and configurations as the user
+//! types (chapter 12).
 //!
 //! ```text
 //! client ── transport ──► server ── checks ──► analysis, on a thread ──► messages ──► client
@@ -52,10 +52,10 @@ pub use server::Shutdown;
 #[cfg(feature = "unstable")]
 pub use server::serve;
 
-/// Talks to a client at the other end of standard input and output.
+/// Serves a client over standard input and output.
 ///
 /// # Errors
-/// The system starts no threads.
+/// The system cannot start a thread.
 pub fn serve_stdio() -> io::Result<Shutdown> {
     let stdio = transport::Stdio::open()?;
     let shutdown = server::serve(&stdio.connection)?;

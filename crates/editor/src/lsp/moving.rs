@@ -29,12 +29,12 @@ pub(super) struct AxisMoves {
     pub(super) compensated: u64,
     /// Number of reversals at the beginning of the block or in it.
     pub(super) reversals: u64,
-    /// Whether it is not always known where it moves to.
+    /// Whether a target of it is not known.
     pub(super) is_unsure: bool,
 }
 
-/// Returns the motion of the axes in the block that starts on a line, from 1; the program runs once
-/// more for it.
+/// Returns the motion of the axes in the block that starts on a line, from 1; for this the program runs
+/// once more.
 pub(super) fn moves(view: &RequestView, document: &Document, line: u32) -> Vec<AxisMoves> {
     let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
@@ -57,7 +57,7 @@ pub(super) fn moves(view: &RequestView, document: &Document, line: u32) -> Vec<A
         directions: vec![Direction::None; loaded.machine.axes.len()],
         found: Vec::new(),
     };
-    // What keeps the program from running is said where it is checked.
+    // An error that keeps the program from running is reported by its check.
     let _ = run_alone(&input, &loaded, alone, &mut sink);
     sink.found
 }
@@ -176,8 +176,8 @@ fn along_arc(travel: &Travel, arc: CircularArc, which: usize) -> Vec<Direction> 
         return vec![Direction::Unknown];
     };
     let sense = shape.sweep.signum();
-    // The angle in the sense of the arc, from where the axis turns round: for the first axis on the
-    // axis itself, for the second a quarter circle later. It turns round at each half circle.
+    // The angle in the direction of the arc, from the point where the axis reverses: for the first axis
+    // on the axis itself, for the second a quarter circle later. It reverses at each half circle.
     let (offset, slope) = match which {
         0 => (0.0, 1.0),
         _ => (FRAC_PI_2, sense),

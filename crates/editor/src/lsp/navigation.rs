@@ -1,4 +1,4 @@
-//! Symbols, definitions, references, folding and renaming, where no other extension offers them (R12.6).
+//! Symbols, definitions, references, folding and renaming, if no other extension offers them (R12.6).
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use super::settings::Settings;
 use super::uri::uri_of;
 use super::view::RequestView;
 
-/// An open program with its outline, where this kind of navigation is on.
+/// Returns an open program with its outline, if this kind of navigation is on.
 fn outlined<'a>(
     view: &'a RequestView,
     text: &TextDocumentIdentifier,
@@ -27,7 +27,7 @@ fn outlined<'a>(
     is_wanted.then(|| (document, ProgramOutline::of(document.text())))
 }
 
-/// The outline with the mention of a name at a place.
+/// Returns the outline, and the mention of a name at a place.
 fn at<'a>(
     view: &'a RequestView,
     place: &TextDocumentPositionParams,
@@ -82,7 +82,7 @@ pub(super) fn symbols(
     Some(symbols.collect())
 }
 
-/// The lines of what a name is given to: a subprogram up to the next one, a label with its block.
+/// The lines that a name covers: a subprogram up to the next one, a label with its block.
 fn whole(document: &Document, outline: &ProgramOutline, mention: &Mention) -> Option<Range> {
     let line_of = |mention: &Mention| {
         let before = document.text().get(..mention.span.start as usize)?;
@@ -135,7 +135,7 @@ pub(super) fn called_at(view: &RequestView, place: &TextDocumentPositionParams) 
     }
 }
 
-/// The file of a called program: beside the caller, otherwise the one that the check of the caller
+/// The file of a called program: next to the caller, otherwise the one that the check of the caller
 /// read, wherever the configuration says that programs are.
 fn called(view: &RequestView, document: &Document, name: &str) -> Option<PathBuf> {
     let name = name.replace('\\', "/");
@@ -177,7 +177,7 @@ pub(super) fn folding(
     Some(folds.collect())
 }
 
-/// The name at a place, where it can be changed.
+/// The name at a place, if it can be changed.
 pub(super) fn prepare_rename(
     view: &RequestView,
     place: &TextDocumentPositionParams,
@@ -187,15 +187,15 @@ pub(super) fn prepare_rename(
     (!is_file).then(|| range(view, document, &mention))
 }
 
-/// Gives a label or a local subprogram another name, wherever it stands.
+/// Renames a label or a local subprogram everywhere.
 ///
 /// # Errors
-/// Neither stands at the place, or the new name cannot be one.
+/// There is no such name at the place, or the new name is not valid.
 pub(super) fn rename(view: &RequestView, params: &RenameParams) -> Result<WorkspaceEdit, Refusal> {
     let refused = |why: String| Err(Refusal::Params(why));
     let place = &params.text_document_position_params;
     let Some((document, outline, found)) = at(view, place, Settings::outlines) else {
-        return refused("no label and no local subprogram stands here".to_owned());
+        return refused("there is no label or local subprogram here".to_owned());
     };
     let (name, new) = (&found.name, &params.new_name);
     let is_word = |text: &str| {
@@ -220,7 +220,7 @@ pub(super) fn rename(view: &RequestView, params: &RenameParams) -> Result<Worksp
             return refused(format!("`{name}` is a file, which keeps its name"));
         }
         Name::Label(_, old) if is_number(old) && !is_number(new) => {
-            return refused(format!("`{new}` is no block number; `N100` is one"));
+            return refused(format!("`{new}` is not a block number; `N100` is one"));
         }
         Name::Label(_, old) if is_number(new) && !is_number(old) => {
             return refused(format!(
@@ -229,7 +229,7 @@ pub(super) fn rename(view: &RequestView, params: &RenameParams) -> Result<Worksp
         }
         Name::Program(_) | Name::Label(..) if !is_word(new) => {
             return refused(format!(
-                "`{new}` is no name: letters, digits and `_` make one, and no digit begins it"
+                "`{new}` is not a name: use letters, digits and `_`, with no digit first"
             ));
         }
         _ if is_taken => return refused(format!("the name `{new}` is taken already")),

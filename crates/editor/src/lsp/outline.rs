@@ -1,4 +1,4 @@
-//! The names of a program: its subprograms and jump labels, where they stand and where they are used
+//! The names of a program: its subprograms and jump labels, with their definitions and uses
 //! (R12.6).
 
 use std::collections::BTreeMap;
@@ -11,12 +11,12 @@ use frictcomp::text::{LineIndex, Span, TextLines};
 
 pub(super) use frictcomp::syntax::NameRole;
 
-/// Kind of a named thing.
+/// A name by its kind.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Name {
     /// `%NAME`, or `%L NAME` and `LL NAME`.
     Program(String),
-    /// `[NAME]` or `N100:` with the program in which it holds, counted from 0.
+    /// `[NAME]` or `N100:` with the program that it belongs to, counted from 0.
     Label(usize, String),
     /// `L file.nc`.
     File(String),
@@ -118,7 +118,7 @@ impl ProgramOutline {
         self.mentions.iter().filter(move |it| it.name == *name)
     }
 
-    /// Lines from one that begins something to the one before its end.
+    /// Folds the lines from the first one to the one before its end.
     fn fold(&mut self, first: Option<u32>, end: u32) {
         if let Some(first) = first
             && end > first + 1
@@ -138,7 +138,7 @@ pub(super) fn definitions(outline: &ProgramOutline) -> BTreeMap<&Name, &Mention>
     defined.map(|it| (&it.name, it)).collect()
 }
 
-/// The place in the text of a place in a block, whose lines lose nothing but their ends.
+/// The offset in the text of an offset in a block, which drops only the line ends.
 fn place_in(raw: &RawBlock<'_>, at: u32, line_span: impl Fn(u32) -> Span) -> usize {
     let before = &raw.text[..at as usize];
     let Some(end) = before.rfind('\n') else {
@@ -208,7 +208,7 @@ N30: M17
         assert_eq!(definitions(&outline).len(), 5);
     }
 
-    /// The names as they stand in a text, definitions with a colon, files with an exclamation mark.
+    /// The names in the order of the text, definitions with a colon, files with an exclamation mark.
     fn mentions(text: &str) -> String {
         let shown = ProgramOutline::of(text).mentions.into_iter().map(|it| {
             let mark = if it.role == Definition { ":" } else { "" };

@@ -5,10 +5,10 @@ use gen_lsp_types::{TextDocumentContentParams, TextDocumentContentResult, Uri};
 use super::settings::Settings;
 use frictcomp::diagnostic::Code;
 
-/// The scheme of texts that only the server has.
+/// The scheme of texts that the server itself provides.
 pub(super) const SCHEME: &str = "frictcomp";
 
-/// The page of a code: below the folder that the client names, or a text of the server.
+/// The page of a code: in the folder that the client names, or a text of the server.
 pub(super) fn page_uri(code: Code, settings: &Settings) -> Uri {
     Uri(match &settings.pages {
         Some(folder) => format!("{folder}/{code}.md"),
@@ -16,7 +16,7 @@ pub(super) fn page_uri(code: Code, settings: &Settings) -> Uri {
     })
 }
 
-/// The text of a page; empty where there is no such code.
+/// The text of a page; empty if there is no such code.
 pub(super) fn content(params: &TextDocumentContentParams) -> TextDocumentContentResult {
     let uri = &params.uri.0;
     let name = uri.rsplit('/').next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Parameters of lists and keys of `frictcomp.toml`, each with what a user wants to know of it
+//! Parameters of lists and keys of `frictcomp.toml`, each with a description for the user
 //! (R12.3, R12.6).
 
 use frictcomp::comp::Kind;
@@ -83,15 +83,15 @@ pub(super) fn pages() -> Vec<Page> {
     fields.chain(points).chain(selectors).collect()
 }
 
-/// The page of the parameter that a line of a list gives.
+/// The page of the parameter that a line of a list sets.
 pub(super) fn page_of(line: &str) -> Option<Page> {
     let key = line.split([' ', '\t', '(']).find(|word| !word.is_empty())?;
     let plain = without_index(key);
     pages().into_iter().find(|page| page.key == plain)
 }
 
-/// The parameters that may be meant by the beginning of a line of a list. A point of the curve has the
-/// index that is typed, otherwise the first one that the list does not have.
+/// The parameters that the beginning of a line of a list may mean. A point of the curve has the typed
+/// index, otherwise the first one that the list does not have.
 pub(super) fn pages_for(typed: &str, list: &str) -> Vec<Page> {
     let first_free = || {
         let used = list.lines().filter_map(|line| {
@@ -115,7 +115,7 @@ fn index_of(key: &str) -> Option<&str> {
     Some(rest.split(']').next().unwrap_or(rest).trim())
 }
 
-/// A key with `[i]` in place of each index, which is no part of the name.
+/// Returns a key with `[i]` in place of each index.
 fn without_index(key: &str) -> String {
     let mut plain = String::new();
     let mut is_index = false;

@@ -1,4 +1,4 @@
-//! The calls between the programs of the project and their local subprograms, found once a save.
+//! The calls between the programs of the project and their local subprograms, found once per save.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,13 +12,13 @@ use frictcomp_host::{
     read_text,
 };
 
-/// A project, with the number of saves before it was found.
+/// A project, with the number of saves before it was searched.
 type FoundProject = (u64, Arc<Project>);
 
-/// The calls of the programs of a project as they are saved, found when first asked for.
+/// The calls of the programs of a project as saved, found on first use.
 #[derive(Debug, Clone)]
 pub(super) struct ProjectCalls {
-    /// The folder that the client names; nothing is searched without one.
+    /// The folder that the client names; without one nothing is searched.
     folder: Option<PathBuf>,
     /// Rises with each save.
     saves: Arc<AtomicU64>,
@@ -26,7 +26,7 @@ pub(super) struct ProjectCalls {
     found: Arc<Mutex<Option<FoundProject>>>,
 }
 
-/// The programs of a project at a save.
+/// The programs of a project as of a save.
 #[derive(Debug)]
 pub(super) struct Project {
     /// The calls between them.
@@ -54,7 +54,7 @@ impl Project {
         }
     }
 
-    /// The local subprograms of all programs, looked for when first asked for.
+    /// The local subprograms of all programs, found on first use.
     pub(super) fn subprograms(&self) -> &[Subprogram] {
         self.subprograms.get_or_init(|| {
             let files = self.graph.programs().iter();
@@ -99,7 +99,7 @@ fn subprograms(path: &Path, text: &str) -> Vec<Subprogram> {
 }
 
 impl ProjectCalls {
-    /// Those of a folder.
+    /// Creates the calls of a folder, not yet searched.
     pub(super) fn new(folder: Option<PathBuf>) -> Self {
         Self {
             folder,
@@ -113,13 +113,13 @@ impl ProjectCalls {
         self.folder.is_some()
     }
 
-    /// A file was saved: the calls are found again when they are asked for.
+    /// Notes that a file was saved: the calls are found again on the next use.
     pub(super) fn forget(&self) {
-        // The calls may be on their way: the server does not wait for them.
+        // A search may be running: the server does not wait for it.
         self.saves.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The programs with their calls, with the texts that are open in place of their files.
+    /// The programs with their calls, with the open texts in place of their files.
     pub(super) fn project(&self, disk: &Disk) -> Option<Arc<Project>> {
         let folder = self.folder.as_ref()?;
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -133,7 +133,7 @@ impl ProjectCalls {
         let mut machines = Machines::new(MachineOptions::default(), &registry).on_disk(disk);
         let paths = [folder.clone()];
         let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
-        // What cannot be read calls nothing; its check says so.
+        // A program that cannot be read calls nothing; its check reports the error.
         let (graph, _) = CallGraph::of(&inputs, &mut machines, processors());
         let project = Arc::new(Project {
             graph,

@@ -20,7 +20,7 @@ use super::{
     actions, calls, commands, completion, custom, delivery, hints, hover, lens, navigation, pages,
 };
 
-/// Answers a question with parameters that may be anything.
+/// Answers a request whose parameters may be anything.
 pub(super) type Handler = fn(&RequestView, Value) -> Result<Value, Refusal>;
 
 /// Input of a request.
@@ -30,13 +30,13 @@ pub(super) enum Needs {
     Texts,
     /// A result of the check of the text.
     Check,
-    /// Time: no other question may wait for it.
+    /// Time: no other request may wait for it.
     Time,
     /// Time for a simulation: not even a report may wait for it.
     Simulation,
 }
 
-/// A question, and what answers it.
+/// A request with its needs and its handler.
 struct Known {
     method: &'static str,
     needs: Needs,

@@ -1,7 +1,7 @@
 //! The loop that listens to the client and to its workers (R12.1).
 //!
-//! It never works itself: checks and answers are made on other threads, from copies of the texts that
-//! stay as they are.
+//! It does no work itself: checks and answers are made on other threads, from copies of the texts that
+//! do not change.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -50,15 +50,15 @@ const MOST_WAITING: usize = 1000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Shutdown {
-    /// It asked for the end, and then ended the server.
+    /// The client requested the shutdown, and then the exit.
     Proper,
-    /// It was gone, or ended the server without having asked.
+    /// The client disconnected, or requested the exit without a shutdown.
     Abrupt,
 }
 
 /// Work that is done.
 enum FinishedWork {
-    /// A text was checked; `None` where it has changed meanwhile.
+    /// A text was checked; `None` if it has changed meanwhile.
     Checked(Option<Box<Analysis>>),
     /// A question was answered.
     Answered(Response),
@@ -70,7 +70,7 @@ impl From<Response> for FinishedWork {
     }
 }
 
-/// A question that waits for the check of a text.
+/// A request that waits for the check of a text.
 struct Waiting {
     id: RequestId,
     uri: Uri,
@@ -78,10 +78,10 @@ struct Waiting {
     params: Value,
 }
 
-/// Talks to one client until it takes its leave.
+/// Serves one client until it disconnects.
 ///
 /// # Errors
-/// The system starts no threads.
+/// The system cannot start a thread.
 pub fn serve(connection: &Connection) -> io::Result<Shutdown> {
     let (id, params) = match initialize(connection) {
         Ok(first) => first,
@@ -92,8 +92,8 @@ pub fn serve(connection: &Connection) -> io::Result<Shutdown> {
     Ok(server.listen())
 }
 
-/// Waits for the client to say what it can do. One that leaves before then ends the session without an
-/// error.
+/// Waits for the client to send its capabilities. A client that disconnects before then ends the session
+/// without an error.
 fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), Shutdown> {
     loop {
         let Ok(message) = connection.receiver.recv() else {
@@ -280,7 +280,7 @@ impl<'c> LspServer<'c> {
     }
 
     fn answered(&mut self, response: Response) {
-        // A question that was taken back has its answer already.
+        // A cancelled request has its answer already.
         if self.queue.incoming.complete(&response.id).is_some() {
             self.send(response);
         }
@@ -304,7 +304,7 @@ impl<'c> LspServer<'c> {
         }
     }
 
-    // What the client tells.
+    // Notifications of the client.
 
     fn notification(&mut self, notification: Notification) {
         let Notification { method, params } = notification;
@@ -326,7 +326,7 @@ impl<'c> LspServer<'c> {
                 self.calls.forget();
                 Ok(())
             }
-            // What is not known and need not be: `$/setTrace`.
+            // Notifications that can be ignored: `$/setTrace`.
             _ => Ok(()),
         };
         if let Err(error) = told {
@@ -427,7 +427,7 @@ impl<'c> LspServer<'c> {
 
     // Questions of the server.
 
-    /// Asks for what comes with a client that is ready: its settings, and news of files.
+    /// Requests what a client gives once it is ready: its settings, and news of files.
     fn ask_client(&mut self) {
         if self.client.watches_files() {
             let request = asked::news_of_files(&mut self.queue.outgoing);
@@ -459,14 +459,14 @@ impl<'c> LspServer<'c> {
 
     // Checks.
 
-    /// A text is checked again, where it is one of those that are.
+    /// Schedules another check of a text, if it is one that is checked.
     fn expect_check(&mut self, document: &Document, why: Outdated) {
         if document.kind != Kind::Other {
             self.checks.expect(&document.uri.0, why);
         }
     }
 
-    /// The texts whose checks read a text, or may look for it, are checked again.
+    /// Schedules another check of the texts whose checks read a text, or may look for it.
     fn expect_users(&mut self, changed: &Document) {
         for uri in self.users.concerned(changed) {
             self.checks.expect(&uri, Outdated::ByOthers);

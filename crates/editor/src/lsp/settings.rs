@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-/// Executed blocks of a program that are checked while one types.
+/// Executed blocks of a program that are checked as the user types.
 pub(super) const MAX_BLOCKS: u64 = 500_000;
 
 /// Whether an outline, definitions, references, folding and renaming are offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
-    /// Features that ISG's extension lacks; all of them where the client says that it is absent.
+    /// Features that ISG's extension lacks; all of them if the client says that it is absent.
     #[default]
     Auto,
     /// They are.
@@ -26,7 +26,7 @@ pub(super) struct ContourSettings {
     pub(super) plant: String,
     /// `contour.plane`: the axes of the plane.
     pub(super) plane: [String; 2],
-    /// `contour.start`: where axes stand before the program, in mm or degrees.
+    /// `contour.start`: axis positions before the program, in mm or degrees.
     pub(super) start: BTreeMap<String, f64>,
 }
 
@@ -45,13 +45,13 @@ impl Default for ContourSettings {
 pub(super) struct Settings {
     /// `inlayHints.enable`: changes of states are shown in the text.
     pub(super) inlay_hints: bool,
-    /// `codeLens.enable`: what a program leaves and inherits stands above it.
+    /// `codeLens.enable`: what a program leaves and inherits is shown above it.
     pub(super) code_lens: bool,
     /// `navigation`: `auto`, `on` or `off`.
     pub(super) navigation: Navigation,
-    /// `isgExtension`: whether ISG's extension is there; `None` where the client does not say.
+    /// `isgExtension`: whether ISG's extension is installed; `None` if the client does not say.
     pub(super) isg_extension: Option<bool>,
-    /// `maxBlocks`: the executed blocks of a program that are checked while one types.
+    /// `maxBlocks`: the executed blocks of a program that are checked as the user types.
     pub(super) max_blocks: u64,
     /// `pages`: the URI of the folder that holds the pages of the codes.
     pub(super) pages: Option<String>,
@@ -77,8 +77,8 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Takes what a client gives, below `frictcomp` or by itself; what it leaves out stays. Returns
-    /// what cannot be used.
+    /// Takes the settings of a client, below `frictcomp` or by themselves; settings that it leaves out
+    /// keep their values. Returns the settings that cannot be used.
     pub(super) fn take(&mut self, given: &Value) -> Vec<String> {
         let given = given.get("frictcomp").unwrap_or(given);
         let mut wrong = Vec::new();

@@ -1,4 +1,4 @@
-//! The states before and after each block of a run, in every pass through it (R12.3).
+//! The states before and after each block of a run, in every pass (R12.3).
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ const MOST_PASSES: u32 = 64;
 pub(super) struct StateSet {
     /// The states; `None` where the axis is not listed.
     states: Vec<Option<State>>,
-    /// Possible states where a state is unknown because ways differ (R14.2).
+    /// Possible states if a state is unknown because ways differ (R14.2).
     possible: Vec<PossibleStates>,
 }
 
@@ -99,7 +99,7 @@ struct FileVisits {
     name: Arc<str>,
     lines: Vec<StateVisits>,
     further: Vec<StateVisits>,
-    /// Blocks before which ways meet: the states on the last of them, and those that all may leave.
+    /// Blocks before which ways meet: the states on the last way, and those where they meet.
     met: BTreeMap<u32, Vec<(SetIndex, SetIndex)>>,
 }
 
@@ -120,7 +120,7 @@ pub(super) struct StateBook {
     axes: Vec<String>,
     sets: Vec<Arc<StateSet>>,
     numbers: HashMap<Arc<StateSet>, SetIndex>,
-    /// The states now, and the version of the view that they were taken from.
+    /// The current states, and the version of the view that they were taken from.
     now: SetIndex,
     version: Option<u64>,
     files: Vec<FileVisits>,
@@ -173,7 +173,7 @@ impl StateBook {
         }
     }
 
-    /// The states when the program has ended.
+    /// Takes the states at the end of the program.
     pub(super) fn end(&mut self, state: StateView<'_>) {
         self.see(state);
     }
@@ -183,8 +183,8 @@ impl StateBook {
         self.version = Some(state.version);
     }
 
-    /// The states before a block of a branch, whose first block does not follow the block that was
-    /// executed before it.
+    /// Returns the states before a block of a branch, whose first block does not follow the one executed
+    /// before it.
     #[cold]
     fn before(&mut self, row: &Row<'_>, last: SetIndex) -> SetIndex {
         let found = self.set(self.now).before(row);
@@ -289,8 +289,8 @@ impl StateBook {
         })
     }
 
-    /// The lines of the blocks of a file before which ways meet, from 1, each with what becomes unknown
-    /// there, in words.
+    /// The lines of the blocks of a file before which ways meet, from 1, each with the states that become
+    /// unknown there, in words.
     pub(super) fn meeting(&self, file: &str) -> impl Iterator<Item = (u32, String)> {
         let met = self.by_name.get(file).map(|at| &self.files[*at].met);
         let met = met.into_iter().flatten();

@@ -1,8 +1,8 @@
 //! Messages over standard input and output.
 //!
-//! The reader of lsp-server takes as much memory as a header announces, and ends at the first message
-//! that is no JSON. This one takes memory as bytes arrive, up to a bound, and goes on after what it
-//! cannot read.
+//! The reader of lsp-server allocates as much memory as a header announces, and ends at the first message
+//! that is not JSON. This one allocates memory as bytes arrive, up to a bound, and continues after a
+//! message that it cannot read.
 
 use std::io::{self, BufRead, Read, Write};
 use std::thread::{self, JoinHandle};
@@ -19,7 +19,7 @@ const LONGEST: u64 = 1 << 30;
 /// The longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
 
-/// Number of messages that wait for the server before the client has to.
+/// Number of messages that may wait for the server before the client is blocked.
 const AHEAD: usize = 64;
 
 /// Time limit for writing the last messages.
@@ -33,10 +33,10 @@ pub(super) struct Stdio {
 }
 
 impl Stdio {
-    /// Begins to read and to write.
+    /// Starts reading and writing.
     ///
     /// # Errors
-    /// The system starts no threads.
+    /// The system cannot start a thread.
     pub(super) fn open() -> io::Result<Self> {
         let (incoming, receiver) = bounded(AHEAD);
         let (sender, outgoing) = unbounded::<Message>();
@@ -59,7 +59,7 @@ impl Stdio {
         })
     }
 
-    /// Lets the last messages go out, as long as the client reads them.
+    /// Sends the last messages, as long as the client reads them.
     pub(super) fn close(self) {
         drop(self.connection);
         let end = Instant::now() + PATIENCE;
@@ -69,7 +69,7 @@ impl Stdio {
     }
 }
 
-/// Hands on messages until the client closes its end or the receiver is gone.
+/// Passes messages on until the client closes its end or the receiver is gone.
 fn read_all(input: &mut dyn BufRead, incoming: &Sender<Message>, complaints: &Sender<Message>) {
     while let Ok(Some(body)) = read_body(input) {
         match serde_json::from_slice(&body) {

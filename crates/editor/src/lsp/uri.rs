@@ -31,7 +31,7 @@ pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     path_on(uri, HERE).map(PathBuf::from)
 }
 
-/// The URI of a path from the root on.
+/// The URI of an absolute path.
 pub(super) fn uri_of(path: &Path) -> String {
     uri_on(&path.to_string_lossy(), HERE)
 }

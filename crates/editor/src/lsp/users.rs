@@ -1,4 +1,4 @@
-//! The open texts by the files that they use, so that a change is looked up and not searched for
+//! The open texts by the files that they use, so that a changed file is looked up and not searched for
 //! (R12.16).
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,12 +10,12 @@ use super::documents::{Document, Kind};
 /// The URIs of texts.
 type Uris = BTreeSet<String>;
 
-/// Files that the checks of the open texts have read and looked for.
+/// Files that the checks of the open texts have read or looked for.
 #[derive(Debug, Default)]
 pub(super) struct Users {
     /// The texts whose checks read a file.
     readers: BTreeMap<PathBuf, Uris>,
-    /// The texts whose checks called a program of a name, in lower case and without its extension.
+    /// The texts whose checks called a program of that name, in lower case and without its extension.
     callers: BTreeMap<String, Uris>,
     /// Files of each text.
     noted: BTreeMap<String, Noted>,
@@ -28,7 +28,7 @@ struct Noted {
 }
 
 impl Users {
-    /// Notes what the check of a text read and looked for, in place of what an earlier one did.
+    /// Replaces the files that the check of a text read and looked for.
     pub(super) fn note(&mut self, document: &Document, analysis: &Analysis) {
         let uri = &document.uri.0;
         self.forget(uri);
@@ -48,7 +48,7 @@ impl Users {
         self.noted.insert(uri.clone(), Noted { files, names });
     }
 
-    /// A text was closed.
+    /// Removes a closed text.
     pub(super) fn forget(&mut self, uri: &str) {
         let Noted { files, names } = self.noted.remove(uri).unwrap_or_default();
         for path in files {
@@ -74,8 +74,8 @@ impl Users {
         self.noted.keys()
     }
 
-    /// The other texts whose checks would find something else where a text is opened, changed or closed:
-    /// those that read it, and where it has no file yet, those that may look for it.
+    /// The other texts whose checks may change when a text is opened, changed or closed: those that read
+    /// it, and if it has no file yet, those that may look for it.
     pub(super) fn concerned(&self, document: &Document) -> Uris {
         let mut concerned: Uris = self.of(&document.path).cloned().collect();
         if !document.path.is_file() {
@@ -84,7 +84,7 @@ impl Users {
                     let callers = self.callers.get(&stem(&document.path));
                     concerned.extend(callers.into_iter().flatten().cloned());
                 }
-                // Any folder above a program may hold them.
+                // They may be in any folder above a program.
                 Kind::List | Kind::Configuration => concerned.extend(self.all().cloned()),
             }
         }
@@ -108,7 +108,7 @@ fn stem(path: &Path) -> String {
     stem.to_string_lossy().to_lowercase()
 }
 
-/// The same of a name in a call, which may be a path of the control.
+/// Returns the stem of a name in a call, which may be a path of the control.
 fn stem_of_call(name: &str) -> String {
     stem(Path::new(&name.replace('\\', "/")))
 }

@@ -27,7 +27,7 @@ pub(super) struct RequestView {
     pub(super) shown: MessagesByUri,
     /// Calls between the programs of the project.
     pub(super) calls: ProjectCalls,
-    /// Whether the client still waits for it.
+    /// Whether the client still waits for the answer.
     pub(super) cancel: Cancel,
 }
 
@@ -62,8 +62,8 @@ impl RequestView {
         using
     }
 
-    /// The runs that came through a file, each with the name of the file there: that of the file
-    /// itself first, then those of programs that call it.
+    /// The runs that executed a file, each with the name of the file there: the run of the file itself
+    /// first, then those of programs that call it.
     pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &ProgramRun, String)> {
         let name = shown_path(&document.path);
         let mut runs = Vec::new();

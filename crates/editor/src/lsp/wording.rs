@@ -1,8 +1,8 @@
-//! The words of an editor for advice: which of its settings does it.
+//! The wording of advice in an editor: its settings in place of options.
 
 use frictcomp::diagnostic::{Advice, Budget};
 
-/// Words advice for an editor; `None` where the general words will do.
+/// Words advice for an editor; `None` if the general wording fits.
 pub(super) fn editor(advice: &Advice) -> Option<String> {
     Some(match advice {
         Advice::RaiseBudget(Budget::Blocks) => {
@@ -10,7 +10,7 @@ pub(super) fn editor(advice: &Advice) -> Option<String> {
                 .to_owned()
         }
         Advice::DescribeMachine(_) => {
-            "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe it in a `frictcomp.toml` beside the program"
+            "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe it in a `frictcomp.toml` next to the program"
                 .to_owned()
         }
         _ => return None,

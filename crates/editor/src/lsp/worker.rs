@@ -1,4 +1,4 @@
-//! Threads on which work waits its turn, so that the client never does.
+//! Threads with work queues, so that the client never waits.
 
 use std::io;
 use std::sync::Arc;
@@ -13,10 +13,10 @@ pub(super) struct Worker<J> {
 }
 
 impl<J: Send + 'static> Worker<J> {
-    /// A lane that ends with its owner.
+    /// Starts a thread that ends with its owner.
     ///
     /// # Errors
-    /// The system starts no thread.
+    /// The system cannot start a thread.
     pub(super) fn new(name: &str, work: impl FnMut(J) + Send + 'static) -> io::Result<Self> {
         let (jobs, queue) = unbounded();
         let run = move || queue.into_iter().for_each(work);
@@ -31,17 +31,17 @@ impl<J: Send + 'static> Worker<J> {
     }
 }
 
-/// Says that a piece of work is no longer awaited.
+/// Flag that a piece of work is no longer needed.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// The receiver is gone.
+    /// Sets the flag.
     pub(super) fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it is no longer awaited.
+    /// Whether the work is no longer needed.
     pub(super) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::Client;
 
-/// Launches a program without a stop before its first block, with breakpoints; the run has begun.
+/// Starts a program with breakpoints, without a stop before its first block.
 fn begun(client: &mut Client, program: &str, filters: &[&str], breakpoints: &Value) -> Value {
     client.granted("initialize", &json!({ "adapterID": "frictcomp" }));
     let path = client.path(program);

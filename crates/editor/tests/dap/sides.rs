@@ -24,7 +24,7 @@ N160 $ENDWHILE
 N170 M30
 ";
 
-/// Takes a side by its words, and gives the line before which the run stands then.
+/// Takes a side by its words, and gives the line before which the run is then stopped.
 fn take_side(client: &mut Client, words: &str) -> u64 {
     let targets = client.granted("stepInTargets", &json!({ "frameId": 1 }));
     let targets = targets["targets"].as_array().expect("targets").clone();

@@ -15,9 +15,9 @@ pub struct Answer {
     pub question: Question,
     /// The axis that was asked.
     pub axis: String,
-    /// The build that the programs were written for.
+    /// The build for which the programs were written.
     pub build: Option<CncBuild>,
-    /// Conclusion from it.
+    /// Conclusion from the answer.
     pub verdict: AnswerVerdict,
     /// Evidence for the conclusion, or the reason for none.
     pub evidence: String,
@@ -29,12 +29,12 @@ pub struct Answer {
 pub enum AnswerVerdict {
     /// The control follows the reading.
     Reading(Alternative),
-    /// This does not decide it.
+    /// The answer does not decide the question.
     Undecidable,
 }
 
 impl Answer {
-    /// `confirmed`, `refuted`, `answered` where nothing was assumed, or `not decidable`.
+    /// Returns `confirmed`, `refuted`, `answered` where nothing was assumed, or `not decidable`.
     pub fn word(&self) -> &'static str {
         match (self.verdict, self.question.facts().assumed) {
             (AnswerVerdict::Undecidable, _) => "not decidable",
@@ -45,20 +45,20 @@ impl Answer {
     }
 }
 
-/// The values of one run, by their words; the last one of a word counts.
+/// The values of one run, by their words; the last value of a word counts.
 type Values = BTreeMap<String, String>;
 
-/// What one run left, and what its operator wrote down.
+/// The values left by one run, with the operator's notes.
 #[derive(Default)]
 struct AskedRun {
     /// The fingerprint of the program.
     print: String,
     values: Values,
-    /// The readings that notes name.
+    /// The readings named in notes.
     noted: BTreeSet<String>,
 }
 
-/// A line that is marked as an answer and cannot be read as one.
+/// A line that is marked as an answer but cannot be read as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct UnreadAnswer {
@@ -68,8 +68,8 @@ pub struct UnreadAnswer {
     pub reason: String,
 }
 
-/// The answers in a text, in the order of the questions, and the lines that are marked as answers and
-/// cannot be read. `axis` is what else is known of an axis by its
+/// Reads the answers in a text, in the order of the questions, and the lines that are marked as answers
+/// but cannot be read. `axis` returns what else is known of an axis by its
 /// name, as when the programs were written.
 pub fn read_answers(
     text: &str,
@@ -135,10 +135,10 @@ pub fn read_answers(
     (answers.collect(), unread)
 }
 
-/// A reading with its evidence, or why there is none.
+/// A reading with its evidence, or the reason for none.
 type Judged = Result<(Alternative, String), String>;
 
-/// The reading that the run of a question shows, or a note on it.
+/// Returns the reading that the run of a question shows, or that a note on it names.
 fn judge(question: Question, run: &AskedRun) -> Judged {
     if !run.noted.is_empty() {
         return judge_noted(question, &run.noted);
@@ -184,7 +184,7 @@ fn judge(question: Question, run: &AskedRun) -> Judged {
     }
 }
 
-/// The reading that a note names. The lines to copy name both.
+/// Returns the reading that a note names. The lines to copy name both.
 fn judge_noted(question: Question, noted: &BTreeSet<String>) -> Judged {
     let names: Vec<String> = noted.iter().map(|name| format!("`{name}`")).collect();
     let said = format!("the note says {}", names.join(" and "));
@@ -195,7 +195,7 @@ fn judge_noted(question: Question, noted: &BTreeSet<String>) -> Judged {
     match question.reading(name) {
         Some(reading) => Ok((reading, said)),
         None => Err(format!(
-            "{said}, which is no reading of {}",
+            "{said}, which is not a reading of {}",
             question.facts().rule
         )),
     }
@@ -212,7 +212,7 @@ fn value(values: &Values, word: &str) -> Result<bool, String> {
     }
 }
 
-/// Checks a condition for the answer to count.
+/// Checks a condition that must hold for the answer to count.
 fn require(values: &Values, (word, wanted): (&str, bool), otherwise: &str) -> Result<(), String> {
     if value(values, word)? == wanted {
         Ok(())
@@ -229,7 +229,7 @@ fn first_if(holds: bool) -> Alternative {
     }
 }
 
-/// A command that the control takes or refuses.
+/// Judges a command that the control accepts or refuses.
 fn judge_refusable(question: Question, values: &Values) -> Judged {
     if question == Question::LowerCase {
         require(values, ("start", true), STARTS)?;
@@ -241,7 +241,7 @@ fn judge_refusable(question: Question, values: &Values) -> Judged {
         return refused(question, number);
     }
     let answer = value(values, "answer").map_err(|_| {
-        "the program did not come to its answer; write down the error of the control".to_owned()
+        "the program did not reach its answer; write down the error of the control".to_owned()
     })?;
     match question {
         Question::LowerCase if answer => Err("the command was taken and had no effect".to_owned()),
@@ -250,12 +250,12 @@ fn judge_refusable(question: Question, values: &Values) -> Judged {
         }
         _ => Ok((
             Alternative::First,
-            "the program went on after the command".to_owned(),
+            "the program continued after the command".to_owned(),
         )),
     }
 }
 
-/// Two blocks with opposite commands, in either order.
+/// Judges two blocks with opposite commands, in either order.
 fn judge_order(values: &Values) -> Judged {
     require(values, ("start", true), STARTS)?;
     let (answer, other) = (value(values, "answer")?, value(values, "other")?);
@@ -269,7 +269,7 @@ fn judge_order(values: &Values) -> Judged {
     Ok((first_if(answer), evidence))
 }
 
-/// An error of the control at the command that is asked about.
+/// Judges an error of the control at the command in question.
 fn refused(question: Question, number: &str) -> Judged {
     let number = number.trim_start_matches("P-ERR-");
     if number == "70495" && question == Question::OnWithoutList {

@@ -2,7 +2,7 @@
 
 use frictcomp::comp::CncBuild;
 
-/// The axis that is asked about.
+/// The axis under test.
 #[derive(Debug, Clone)]
 pub struct AskedAxis {
     /// Its name.

@@ -1,4 +1,4 @@
-//! The open questions, asked of a control (R15.1), and its answers (R15.2).
+//! The open questions, put to a control (R15.1), and its answers (R15.2).
 //!
 //! A program leaves its answers with `#MSG SAVE EXCLUSIVE` (TF5200 programming manual, 207171211), which
 //! appends a line to `message.txt` when its block is decoded. A read of `V.A.FRICT_COMP_ACTIVE`

@@ -1,4 +1,4 @@
-//! The motions for questions that a recording answers.
+//! The motions for questions that are answered by a recording.
 
 use std::fmt::Write as _;
 
@@ -9,14 +9,14 @@ use frictcomp_recordings::evidence::{LOOK_AHEAD_PARTS, WITH_MOTION_PARTS};
 /// The usual feed in mm/min.
 const FEED: f64 = 1000.0;
 
-/// A stroke takes at least so long, in minutes.
+/// The shortest duration of a stroke, in minutes.
 const STROKE_MIN: f64 = 0.01;
 
-/// In how many strokes the axis reverses, since each has few cycles of decay.
+/// Number of strokes in which the axis reverses, since each has few cycles of decay.
 const STROKES: usize = 5;
 
-/// The blocks of a question, and what they move. Each begins and ends where the axis stands, and goes
-/// in the positive direction only, no farther than the travel.
+/// Returns the blocks of a question, and what they move. Each motion begins and ends at the present
+/// position and goes in the positive direction only, no farther than the travel.
 pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
     let travel = axis.travel;
     let (half, feed) = (travel / 2.0, FEED.min(travel / STROKE_MIN));
@@ -84,7 +84,7 @@ pub(super) fn motion(question: Question, axis: &AskedAxis) -> (String, String) {
     blocks.add("G90");
     let name = &axis.name;
     let moves = format!(
-        "{name} by {travel} mm or degrees at most, in the positive direction from where it stands, and back"
+        "{name} by {travel} mm or degrees at most, in the positive direction from its present position, and back"
     );
     (blocks.text, moves)
 }
@@ -111,7 +111,7 @@ impl NumberedBlocks {
     }
 }
 
-/// A number without what its product was rounded by.
+/// Removes the rounding error of a product.
 fn shown(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

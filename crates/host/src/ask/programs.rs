@@ -15,7 +15,7 @@ pub(super) const TAG: &str = "frictcomp-ask";
 /// Mark for a build that was not given.
 const NO_BUILD: &str = "?";
 
-/// A program that asks.
+/// A program that asks a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct AskedFile {
@@ -33,14 +33,14 @@ pub(super) struct Script {
     before: String,
     /// Motion.
     moves: String,
-    /// The programs; where there are two, what is done between them.
+    /// The programs; if there are two, `between` is what to do in between.
     parts: Vec<String>,
     between: &'static str,
-    /// Way to read the answer.
+    /// How to read the answer.
     read: String,
 }
 
-/// The programs for a question, none where there is nothing to run. The last one of them brings back
+/// Returns the programs for a question, none where there is nothing to run. The last one restores
 /// the state at the start of the control.
 pub fn ask(question: Question, axis: &AskedAxis) -> Vec<AskedFile> {
     let Some(script) = script(question, axis) else {
@@ -63,7 +63,7 @@ pub fn ask(question: Question, axis: &AskedAxis) -> Vec<AskedFile> {
     files.collect()
 }
 
-/// The fingerprint of the programs of a question on an axis, whatever its travel and build.
+/// Returns the fingerprint of the programs of a question on an axis, whatever its travel and build.
 pub(super) fn fingerprint(question: Question, axis: &AskedAxis) -> String {
     let plain = AskedAxis {
         travel: 10.0,
@@ -78,7 +78,7 @@ pub(super) fn fingerprint(question: Question, axis: &AskedAxis) -> String {
     format!("{:08x}", hasher.finish() & 0xffff_ffff)
 }
 
-/// The comment at the head of a program.
+/// Returns the comment at the head of a program.
 fn head(question: Question, script: &Script, (part, parts): (usize, usize)) -> String {
     let facts = question.facts();
     let mut lines = vec![
@@ -102,7 +102,7 @@ fn head(question: Question, script: &Script, (part, parts): (usize, usize)) -> S
     text
 }
 
-/// The blocks of a part: `>NAME EXPRESSION` leaves an answer, `@` is the axis.
+/// Returns the blocks of a part: `>NAME EXPRESSION` leaves an answer, `@` is the axis.
 fn filled(part: &str, question: Question, axis: &AskedAxis, fingerprint: &str) -> String {
     let rule = question.facts().rule;
     let build = axis
@@ -133,7 +133,7 @@ const STATE: &str = "V.A.FRICT_COMP_ACTIVE.@";
 
 const NOTHING_MOVES: &str = "nothing";
 
-/// Requirement on an axis whose state itself is examined.
+/// Precondition where the state of the axis itself is examined.
 const ACTIVE: &str = "the axis has P-AXIS-00522 = 1 and a value list that the control took; nothing has \
     switched it since the start of the control; message.txt is empty";
 
@@ -152,7 +152,7 @@ const READ: &str = "give message.txt to frictcomp ask --read";
 const READ_ERROR: &str = "give message.txt to frictcomp ask --read; where the control showed an error, add \
     a copy of the begin line with error and the number in place of begin";
 
-/// The blocks in which an axis is switched off, asked, and switched on again.
+/// Returns the blocks that switch an axis off, query its state, and switch it on again.
 fn off_and_on(between: &str) -> String {
     format!(
         ">begin\n>start {STATE}\nN10 @[COMP OFF FRICT]\n>off {STATE}\n{between}>answer {STATE}\n\
@@ -269,7 +269,7 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
     })
 }
 
-/// The objects of an axis that are recorded: its state, and its additive current.
+/// Returns the objects of an axis that are recorded: its state, and its additive current.
 fn objects(axis: &AskedAxis) -> String {
     let number = axis
         .number
@@ -279,7 +279,7 @@ fn objects(axis: &AskedAxis) -> String {
     )
 }
 
-/// Returns the text beside the programs: the whole procedure, and the notes that need no program.
+/// Returns the text to go with the programs: the whole procedure, and the notes that need no program.
 pub fn readme(axis: &AskedAxis) -> String {
     let mut text = String::from(
         "Programs that test on the control what its documents leave open.\n\n\
@@ -320,7 +320,7 @@ pub fn readme(axis: &AskedAxis) -> String {
     text
 }
 
-/// Returns the beginning of each answer to a question.
+/// Returns the start of each answer line for a question.
 pub(super) fn tag(question: Question, axis: &AskedAxis) -> String {
     let build = axis
         .build

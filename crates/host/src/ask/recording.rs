@@ -19,7 +19,7 @@ use frictcomp_recordings::trace::{
     TimeSource, TraceRecording,
 };
 
-/// The axis that was recorded, and its channels.
+/// The recorded axis and its channels.
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedQuestions<'a> {
@@ -27,7 +27,7 @@ pub struct RecordedQuestions<'a> {
     pub axis: &'a AskedAxis,
     /// Its machine.
     pub machine: &'a Machine,
-    /// The channels that the user names.
+    /// The channels named by the user.
     pub selection: &'a ChannelSelection,
     /// The CNC cycle, where it is known.
     pub cycle_s: Option<f64>,
@@ -45,23 +45,23 @@ struct AskedChannels {
     doubt: Option<String>,
 }
 
-/// Objects below an axis that are its additive current, and whether it is scaled for the drive.
+/// Objects of an axis that hold its additive current, and whether it is scaled for the drive.
 const CURRENTS: [(u32, &str, bool); 3] = [
     (0x10B, "frict_comp.output", false),
     (0x205, "add_torque", true),
     (0x9F, "add_cmd_torque", true),
 ];
 
-/// The group of the objects of axes, without the part of the platform.
+/// The object group of axes, without the part of the platform.
 const AXES: u32 = 0x2_0300;
 
 const NO_CURRENT: &str = "the recording has no channel with the additive current: record \
     `0x120300:0x<axis>010B`, `frict_comp.output`, or name the channel with `torque`";
 
-/// The answers of a recording to every question that one answers.
+/// Reads the answers to every question that a recording can answer.
 ///
 /// # Errors
-/// The file cannot be read, is no recording, or lacks times or motion.
+/// The file cannot be read, is not a recording, or lacks times or motion.
 pub fn read_recorded_answers(
     path: &Path,
     asked: RecordedQuestions<'_>,
@@ -101,7 +101,7 @@ pub fn read_recorded_answers(
     Ok(answers.collect())
 }
 
-/// The questions that a recording answers.
+/// Returns the questions that a recording answers.
 fn recorded_questions() -> impl Iterator<Item = Question> {
     let all = Question::ALL.into_iter();
     all.filter(|question| question.facts().way == Way::Recording)
@@ -143,7 +143,7 @@ impl RecordedQuestions<'_> {
         })
     }
 
-    /// Why no channel is one of the axis: all objects are those of other axes.
+    /// Returns why no channel belongs to the axis: all objects are those of other axes.
     fn other_axis(&self, channels: &[Channel]) -> Option<String> {
         let own = self.axis.number?;
         let objects = channels.iter().filter_map(|it| it.object);
@@ -200,7 +200,7 @@ impl RecordedQuestions<'_> {
         Ok((pick.transpose()?, false))
     }
 
-    /// A channel with its unit; by its object where several have its name.
+    /// Picks a channel with its unit; by its object where several have its name.
     fn pick(
         &self,
         channel: &Channel,

@@ -8,7 +8,7 @@ use toml_edit::{DocumentMut, InlineTable, Item, Table, value};
 use frictcomp::comp::CncBuild;
 use frictcomp::readings::{Alternative, Question};
 
-/// An answer that the configuration remembers.
+/// An answer recorded in the configuration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AnsweredReading {
@@ -22,15 +22,15 @@ pub struct AnsweredReading {
     pub date: String,
 }
 
-/// A text that is no TOML: the place, and what is wrong there.
+/// A text that is not valid TOML: the place, and what is wrong there.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct InvalidToml(String);
 
-/// The text of a configuration with answers in `[reading]` and `[confirmed]`; everything else stays.
+/// Returns the text of a configuration with answers in `[reading]` and `[confirmed]`; everything else stays.
 ///
 /// # Errors
-/// The text is no TOML.
+/// The text is not valid TOML.
 pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String, InvalidToml> {
     let parsed = text.parse::<DocumentMut>();
     let mut document = parsed.map_err(|error| InvalidToml(error.to_string()))?;
@@ -45,7 +45,7 @@ pub fn with_findings(text: &str, findings: &[AnsweredReading]) -> Result<String,
                 confirmed.insert("date", finding.date.as_str().into());
                 table(&mut document, "confirmed")[rule] = value(confirmed);
             }
-            // An older answer says nothing about this one.
+            // An older answer does not apply to this one.
             None => {
                 if let Some(confirmed) = document.get_mut("confirmed").and_then(Item::as_table_mut)
                 {
@@ -63,7 +63,7 @@ fn table<'a>(document: &'a mut DocumentMut, name: &str) -> &'a mut Item {
         .or_insert_with(|| Item::Table(Table::new()))
 }
 
-/// The date of a moment in universal time, `2026-01-31`.
+/// Returns the date of a moment in universal time, `2026-01-31`.
 pub fn date_of(moment: SystemTime) -> String {
     let seconds = moment
         .duration_since(UNIX_EPOCH)

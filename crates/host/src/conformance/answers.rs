@@ -1,4 +1,4 @@
-//! The answers of a control beside the expectations (R15.11).
+//! Comparison of a control's answers with the expectations (R15.11).
 
 use std::collections::BTreeMap;
 
@@ -12,18 +12,18 @@ use frictcomp::readings::Alternative;
 /// The answers of a control, from its `message.txt` and what the operator added.
 #[derive(Debug, Clone, Default)]
 pub struct Answers {
-    /// Whether a kind was active, by what was asked; the last answer counts.
+    /// Whether a kind was active, by query; the last answer counts.
     states: BTreeMap<String, bool>,
     /// The error numbers of a case.
     refusals: BTreeMap<String, Vec<String>>,
-    /// Currents in drive units, by case and what was asked.
+    /// Currents in drive units, by case and query.
     currents: BTreeMap<String, Vec<f64>>,
 }
 
-/// By which part an answered current may differ.
+/// Relative tolerance of an answered current.
 const TOLERANCE: f64 = 1e-6;
 
-/// A case beside the answers of a control.
+/// Comparison of a case with the answers of a control.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Compared {
@@ -67,7 +67,7 @@ impl Answers {
         }
     }
 
-    /// Adds currents; words that are no numbers are no answer.
+    /// Adds currents; words that are not numbers do not count as answers.
     fn add_currents(&mut self, asked: [&str; 3], words: &[&str]) {
         let numbers = words.iter().map(|it| it.parse());
         if let Ok(numbers) = numbers.collect::<Result<Vec<f64>, _>>() {
@@ -85,7 +85,7 @@ impl Answers {
         self.len() == 0
     }
 
-    /// A case beside the answers.
+    /// Compares a case with the answers.
     pub fn compare(&self, case: &Case) -> Compared {
         let plain = self.judge(case, &case.expected);
         if case.readings.is_empty() {
@@ -114,7 +114,7 @@ impl Answers {
         }
     }
 
-    /// Returns the differences from some expectations; `None` where none of them is answered.
+    /// Returns the differences from some expectations; `None` where none of them has an answer.
     fn judge(&self, case: &Case, expected: &[Expectation]) -> Option<Vec<Mismatch>> {
         let refused = self.refusals.get(&case.name);
         let mut is_answered = refused.is_some();

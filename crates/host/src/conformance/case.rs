@@ -1,4 +1,4 @@
-//! A case as its file says it.
+//! A case as its file describes it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -30,7 +30,7 @@ pub struct CaseError {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct CaseFile {
-    /// Its name, by which it is called or named.
+    /// Its name, used in calls and lists.
     pub name: String,
     /// Its text.
     pub text: String,
@@ -74,9 +74,9 @@ pub enum Expectation {
     },
     /// A refusal by the control.
     Refusal {
-        /// The error number; `error` where no document says one.
+        /// The error number; `error` where no document gives one.
         code: String,
-        /// The file and the line, where the case says them.
+        /// The file and the line, where the case gives them.
         at: Option<(String, u32)>,
     },
     /// The additive current at a constant velocity, long after the last reversal (chapter 4).
@@ -100,9 +100,9 @@ pub struct Case {
     pub file: PathBuf,
     /// Chapter and name, `1/off`.
     pub name: String,
-    /// The rule that it is about.
+    /// The rule under test.
     pub rule: String,
-    /// The document that says so; `None` where it is assumed.
+    /// The document on which it is based; `None` where it is assumed.
     pub source: Option<String>,
     /// Subject in one sentence.
     pub about: String,
@@ -174,7 +174,7 @@ enum WrittenMoment {
     Word(String),
 }
 
-/// The files of cases in a folder and its chapters, sorted.
+/// Returns the files of cases in a folder and its chapters, sorted.
 ///
 /// # Errors
 /// The folder cannot be read.
@@ -202,7 +202,7 @@ fn is_toml(path: &Path) -> bool {
     path.extension().is_some_and(|it| it == "toml")
 }
 
-/// What is wrong with the TOML of a case, with the line where it is known.
+/// Returns what is wrong with the TOML of a case, with the line where it is known.
 fn in_words(text: &str, error: &toml::de::Error) -> String {
     let message = error.message();
     match error.span().and_then(|span| text.get(..span.start)) {
@@ -215,7 +215,7 @@ impl Case {
     /// Reads a case.
     ///
     /// # Errors
-    /// The file cannot be read, is no TOML, or has a key or value that no case has.
+    /// The file cannot be read, is not valid TOML, or has a key or value that no case has.
     pub fn read(file: &Path) -> Result<Self, CaseError> {
         let text = fs::read_to_string(file).map_err(|error| error.to_string());
         let case = text.and_then(|text| Self::parse(file, &text));
@@ -268,7 +268,7 @@ impl Case {
         })
     }
 
-    /// The question that the case leaves open.
+    /// Returns the question that the case leaves open.
     pub fn question(&self) -> Option<Question> {
         Question::of_rule(&self.rule).filter(|_| !self.readings.is_empty())
     }
@@ -278,7 +278,7 @@ pub(super) fn is_between(step: &str) -> bool {
     BETWEEN.contains(&step)
 }
 
-/// The folder and the file without its extension.
+/// Returns the folder and the file without its extension.
 fn name_of(file: &Path) -> String {
     let part = |path: Option<&std::ffi::OsStr>| {
         path.map_or(String::new(), |it| it.to_string_lossy().into_owned())

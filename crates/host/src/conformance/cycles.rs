@@ -4,13 +4,13 @@ use std::fmt::{self, Write as _};
 
 use frictcomp_physics::current::{Added, AdditiveCurrent, Switched};
 
-/// Currents expected for a commanded motion that is given as numbers.
+/// Expected currents for a commanded motion that is given as numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ExpectedCycles {
     /// Name of the axis.
     pub axis: String,
-    /// Commanded positions in 0.1 µm or 0.0001°, one a CNC cycle.
+    /// Commanded positions in 0.1 µm or 0.0001°, one per CNC cycle.
     pub positions: Vec<f64>,
     /// Commanded velocities in µm/s or 0.001°/s.
     pub velocities: Vec<f64>,
@@ -18,11 +18,11 @@ pub struct ExpectedCycles {
     pub switched: Vec<Switched>,
     /// The currents in drive units.
     pub currents: Vec<f64>,
-    /// The whole numbers that the drive gets, where a case says them.
+    /// The whole numbers sent to the drive, where a case gives them.
     pub outputs: Option<Vec<i16>>,
 }
 
-/// Cycles as a case has them.
+/// Cycles as written in a case.
 pub(super) struct WrittenCycles {
     pub(super) positions: Vec<f64>,
     pub(super) velocities: Vec<f64>,
@@ -49,7 +49,7 @@ impl ExpectedCycles {
         ];
         if count == 0 || counts.iter().any(|it| *it != count) {
             return Err(format!(
-                "`positions`, `velocities`, `comp`, `currents` and `outputs` have one number a cycle; \
+                "`positions`, `velocities`, `comp`, `currents` and `outputs` have one number per cycle; \
                  `positions` has {count}"
             ));
         }
@@ -66,7 +66,7 @@ impl ExpectedCycles {
         })
     }
 
-    /// The currents of these cycles.
+    /// Returns the currents of these cycles.
     pub(super) fn run(&self, current: &mut AdditiveCurrent) -> Vec<Added> {
         let rows = self
             .positions
@@ -82,7 +82,7 @@ impl ExpectedCycles {
         added.collect()
     }
 
-    /// The first of these currents and outputs that is not the expected one.
+    /// Returns the first of these currents and outputs that differs from the expected one.
     pub(super) fn differs(&self, added: &[Added]) -> Option<String> {
         let currents: Vec<f64> = added.iter().map(|it| it.current_units).collect();
         self.differs_in(&currents, 1e-9).or_else(|| {
@@ -93,7 +93,7 @@ impl ExpectedCycles {
         })
     }
 
-    /// The first of some currents that is not the expected one.
+    /// Returns the first of some currents that differs from the expected one.
     pub(super) fn differs_in(&self, currents: &[f64], tolerance: f64) -> Option<String> {
         let expected = self.currents.len();
         if currents.len() != expected {
@@ -104,7 +104,7 @@ impl ExpectedCycles {
         Some(format!("{found} drive units in cycle {at}"))
     }
 
-    /// The commanded motion as a table that `frictcomp current --trace` reads.
+    /// Returns the commanded motion as a table that `frictcomp current --trace` reads.
     pub(super) fn table(&self) -> String {
         let mut text = "x,v,comp\n".to_owned();
         for ((position, velocity), switched) in self

@@ -1,4 +1,4 @@
-//! Cases as programs for a control, which leaves its answers in a file (R15.11).
+//! Export of cases as programs for a control, which leaves its answers in a file (R15.11).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ use frictcomp::lists::{ListHead, Points, write_value_list};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Exported {
-    /// Its path below the folder of the export.
+    /// Its path below the export folder.
     pub path: PathBuf,
     /// Its text.
     pub text: String,
@@ -22,7 +22,7 @@ pub struct Exported {
 /// The word with which each answer begins.
 pub(super) const TAG: &str = "frictcomp";
 
-/// The programs, lists and instructions of a case.
+/// Returns the programs, lists and instructions of a case.
 pub fn export(case: &Case) -> Vec<Exported> {
     let folder = PathBuf::from(&case.name);
     let mut files: Vec<Exported> = case
@@ -54,13 +54,13 @@ pub fn export(case: &Case) -> Vec<Exported> {
     files
 }
 
-/// Every expectation, under any reading.
+/// Returns every expectation, under any reading.
 fn expectations(case: &Case) -> impl Iterator<Item = &Expectation> {
     let under = case.readings.iter().flat_map(|(_, expected)| expected);
     case.expected.iter().chain(under)
 }
 
-/// The value list of each axis whose currents are expected, and its commanded cycles, by file name.
+/// Returns the value list of each axis whose currents are expected, and its commanded cycles, by file name.
 fn inputs_of_currents(case: &Case) -> BTreeMap<String, String> {
     let machine = configuration(case).map(|it| it.machine);
     let mut files = BTreeMap::new();
@@ -86,7 +86,7 @@ fn inputs_of_currents(case: &Case) -> BTreeMap<String, String> {
     files
 }
 
-/// The lines that answer expected currents.
+/// Returns the lines that answer expected currents.
 fn asked_currents(case: &Case) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for it in expectations(case) {
@@ -115,7 +115,7 @@ fn programs(case: &Case) -> impl Iterator<Item = &String> {
     })
 }
 
-/// All states that a case asks for, under any reading.
+/// Returns all states that a case asks for, under any reading.
 fn asked(case: &Case) -> impl Iterator<Item = (&String, &Moment, &String, Kind)> {
     expectations(case).filter_map(|it| match it {
         Expectation::State {
@@ -133,12 +133,12 @@ fn asks_at_end(case: &Case, program: &str) -> bool {
     asked(case).any(|(of, after, ..)| of == program && *after == Moment::End)
 }
 
-/// The program that answers what is asked after the end of another one.
+/// Returns the name of the program that answers the queries after the end of another one.
 fn end_program(program: &str) -> String {
     format!("after-{program}")
 }
 
-/// The blocks that leave the states of a moment. The first read waits until all blocks before it are
+/// Returns the blocks that record the states at a moment. The first read waits until all blocks before it are
 /// executed; the text is written when its block is decoded.
 fn answers(case: &Case, program: &str, moment: &Moment) -> String {
     let mut text = String::new();
@@ -159,7 +159,7 @@ fn answers(case: &Case, program: &str, moment: &Moment) -> String {
     text
 }
 
-/// A program with the blocks that leave its answers.
+/// Returns a program with the blocks that leave its answers.
 fn with_answers(case: &Case, program: &str, text: &str) -> String {
     let mut made = String::new();
     let mut begun = 1;
@@ -181,7 +181,7 @@ fn instructions(case: &Case) -> String {
         Some(source) => {
             let _ = writeln!(text, "Source: {source}");
         }
-        None => text.push_str("No document says so.\n"),
+        None => text.push_str("No document states this.\n"),
     }
     let _ = writeln!(
         text,
@@ -195,7 +195,7 @@ fn instructions(case: &Case) -> String {
     if !currents.is_empty() {
         text.push_str(
             "\nCompute the additive current before it is rounded for the drive: for `current` long after the \
-             last reversal at that velocity, for `currents` in each cycle of the table beside this file. \
+             last reversal at that velocity, for `currents` in each cycle of the table next to this file. \
              There every velocity but 0 is motion, however small: no dead band, or one of 0. Write to a text \
              file in this folder:\n",
         );
@@ -215,7 +215,7 @@ fn instructions(case: &Case) -> String {
     text
 }
 
-/// What is done with the programs of a case.
+/// Returns the steps to take with the programs of a case.
 fn steps(case: &Case) -> String {
     let mut text = "Restart the control. Then run, with message.txt empty before:\n".to_owned();
     for step in &case.run {

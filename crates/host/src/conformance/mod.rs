@@ -1,5 +1,5 @@
 //! The agreed behaviour as data (R15.10): cases that others can run, on this engine (R15.11), on a
-//! control, and what the control answered beside what is expected.
+//! control, and the control's answers compared with the expectations.
 
 mod answers;
 mod case;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// An expectation that does not hold.
+/// An expectation that is not met.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Mismatch {

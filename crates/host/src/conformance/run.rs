@@ -1,4 +1,4 @@
-//! A case on this engine.
+//! Running a case on this engine.
 
 use std::ops::ControlFlow;
 
@@ -43,7 +43,7 @@ struct CaseRun {
     refusals: Vec<Diagnostic>,
 }
 
-/// Runs a case, one that is undecided under both readings.
+/// Runs a case; an undecided one runs under both readings.
 pub fn run_case(case: &Case) -> CaseOutcome {
     let mut outcome = CaseOutcome {
         is_undecided: !case.readings.is_empty(),
@@ -95,7 +95,7 @@ fn judge(case: &Case, reading: Option<Alternative>, expected: &[Expectation]) ->
     missed
 }
 
-/// The machine of a case.
+/// Returns the machine of a case.
 pub(super) fn configuration(case: &Case) -> Result<Configuration, String> {
     let file = SourceFile::new(case.name.as_str(), case.machine.clone());
     Configuration::from_toml(file, &mut Lists(case)).map_err(|error| error.to_string())
@@ -156,7 +156,7 @@ fn states(view: StateView<'_>) -> Vec<(String, Kind, State)> {
     view.axes().flat_map(of_axis).collect()
 }
 
-/// Returns the state found where an expectation does not hold.
+/// Returns the state that was found where an expectation is not met.
 fn found(expected: &Expectation, run: &CaseRun, machine: &Machine) -> Option<String> {
     match expected {
         Expectation::State {
@@ -211,7 +211,7 @@ fn found(expected: &Expectation, run: &CaseRun, machine: &Machine) -> Option<Str
     }
 }
 
-/// The current of an axis with its value list; `None` without an accepted one.
+/// Returns the current of an axis with its value list; `None` without an accepted one.
 pub(super) fn current_of<'a>(
     machine: &'a Machine,
     axis: &str,
@@ -224,7 +224,7 @@ pub(super) fn current_of<'a>(
     Some((current.scaled(axis.torque_scale.factor()), list))
 }
 
-/// The current of an axis at a constant velocity, long after the last reversal.
+/// Returns the current of an axis at a constant velocity, long after the last reversal.
 fn current_at(machine: &Machine, axis: &str, velocity: f64) -> Option<f64> {
     let (mut current, list) = current_of(machine, axis)?;
     let far = f64::from(list.position_delay.max(0)) + 1.0;

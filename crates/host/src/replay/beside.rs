@@ -1,14 +1,14 @@
-//! The recorded changes of an axis beside those of the dry run.
+//! Comparison of the recorded changes of an axis with those of the dry run.
 
 use std::sync::Arc;
 
 use super::course::{AxisCourse, AxisSwitch, Course, CourseStep};
 use super::recorded::{RecordedAxis, RecordedChange};
 
-/// Blocks that may pass between two samples.
+/// Number of blocks that may pass between two samples.
 const MAX_BETWEEN: usize = 1000;
 
-/// A block by its place.
+/// A block, identified by its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ReplayPlace {
@@ -19,7 +19,7 @@ pub struct ReplayPlace {
 }
 
 frictcomp::words! {
-    /// Evidence that a change of the machine is the one of the dry run.
+    /// Evidence that a change of the machine matches that of the dry run.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum ReplayedBy {
@@ -34,7 +34,7 @@ frictcomp::words! {
     }
 }
 
-/// A change in which machine and dry run agree.
+/// A change on which machine and dry run agree.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MatchedChange {
@@ -42,13 +42,13 @@ pub struct MatchedChange {
     pub at: ReplayPlace,
     /// The time of the recording in seconds.
     pub t_s: f64,
-    /// Whether friction compensation is active from there on.
+    /// Whether friction compensation is active from then on.
     pub active: bool,
-    /// Evidence that both are the same.
+    /// Evidence that both match.
     pub by: ReplayedBy,
 }
 
-/// The first place where machine and dry run do not agree.
+/// The first place where machine and dry run disagree.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Disagreement {
@@ -60,7 +60,7 @@ pub struct Disagreement {
     pub recorded: &'static str,
     /// State of the dry run: `active`, `inactive` or `unknown`.
     pub dry_run: &'static str,
-    /// In words.
+    /// The reason in words.
     pub why: String,
     /// The rules of the open questions on which the block depends.
     pub rests_on: Vec<&'static str>,
@@ -74,16 +74,16 @@ pub struct Disagreement {
 pub struct ReplayedAxis {
     /// Its name.
     pub name: String,
-    /// The changes in which both agree, before the disagreement where there is one.
+    /// The changes on which both agree, before the first disagreement if there is one.
     pub changes: Vec<MatchedChange>,
     /// The first disagreement.
     pub disagreement: Option<Disagreement>,
 }
 
-/// Measure by which both are compared.
+/// Criteria for the comparison.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
-    /// Blocks are known by their block numbers, not by their lines.
+    /// Whether blocks are identified by block numbers instead of lines.
     pub(super) by_number: bool,
     /// Tolerance of positions, in mm or degrees.
     pub(super) tolerance: f64,
@@ -92,7 +92,7 @@ pub(super) struct Measure {
 }
 
 impl ReplayedAxis {
-    /// Lays an axis of the recording beside the dry run.
+    /// Compares an axis of the recording with the dry run.
     pub(super) fn of(recorded: &RecordedAxis, course: &Course, measure: Measure) -> Self {
         let mut axis = Self {
             name: recorded.name.clone(),
@@ -179,7 +179,7 @@ impl AxisBeside<'_> {
         }
     }
 
-    /// Why a change of the recording is not that of the dry run.
+    /// Returns why a change of the recording does not match that of the dry run.
     fn reason(&self, change: &RecordedChange, switch: &AxisSwitch) -> Option<String> {
         let Some(to) = switch.to else {
             return Some("the state in the dry run is unknown".to_owned());
@@ -200,7 +200,7 @@ impl AxisBeside<'_> {
             };
             return (!self.passes(switch.at, [before, after])).then(|| {
                 let numbers = if self.are_numbers([before, after]) {
-                    "; the program has no such lines, but such block numbers"
+                    "; the program has no such lines, but has such block numbers"
                 } else {
                     ""
                 };
@@ -267,7 +267,7 @@ impl AxisBeside<'_> {
         })
     }
 
-    /// The disagreement at the earlier one of two changes that do not belong together.
+    /// Returns the disagreement at the earlier one of two changes that do not match.
     fn disagreement(
         &self,
         change: Option<&RecordedChange>,
@@ -309,13 +309,13 @@ impl AxisBeside<'_> {
         }
     }
 
-    /// The state of both up to a step.
+    /// Returns the state of both up to a step.
     fn state_before(&self, step: usize) -> Option<bool> {
         let mut switches = self.dry_run.switches.iter().rev();
         switches.find(|it| it.at < step)?.to
     }
 
-    /// The step at which a change was recorded.
+    /// Returns the step at which a change was recorded.
     fn step_of(&self, change: &RecordedChange, from: usize) -> Option<usize> {
         let [_, after] = change.blocks?;
         let mut steps = self.course.steps.iter().enumerate().skip(from);

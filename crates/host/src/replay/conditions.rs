@@ -1,4 +1,4 @@
-//! The conditions that only the machine knows, and the answers that are tried.
+//! The conditions that only the machine can decide, and the answers that are tried.
 
 use std::sync::Arc;
 
@@ -7,10 +7,10 @@ use frictcomp::machine::Setting;
 use frictcomp::session::SessionOptions;
 use frictcomp::syntax::SkipLevels;
 
-/// Combinations of answers that are tried at most.
+/// Largest number of combinations of answers that are tried.
 pub(super) const MAX_WAYS: usize = 64;
 
-/// A condition whose answer only the machine knows.
+/// A condition that only the machine can decide.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Condition {
     file: Arc<str>,
@@ -22,7 +22,7 @@ pub(super) struct Condition {
 enum ConditionKey {
     /// Whether the blocks of a level are executed.
     Skip(u8),
-    /// A comparison as it is written.
+    /// A comparison as written.
     Text(Arc<str>),
 }
 
@@ -34,14 +34,14 @@ pub struct TriedCondition {
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,
-    /// The condition as it is written, or `skip level 1 is off`.
+    /// The condition as written, or `skip level 1 is off`.
     pub condition: String,
-    /// Whether it holds.
+    /// Whether it is true.
     pub holds: bool,
 }
 
 impl Condition {
-    /// The condition of a way, where an answer can be given to it.
+    /// Returns the condition of a way, if it can be given an answer.
     pub(super) fn of(condition: &WayCondition) -> Option<Self> {
         match condition {
             WayCondition::Condition(asked) => {
@@ -95,7 +95,7 @@ impl<'a> WrittenComparison<'a> {
         })
     }
 
-    // A value is one of the constants themselves, or clearly beside it.
+    // A value is either one of the constants, or clearly different.
     #[allow(clippy::float_cmp)]
     fn holds(&self, value: f64) -> bool {
         match self.operator {
@@ -109,13 +109,13 @@ impl<'a> WrittenComparison<'a> {
     }
 }
 
-/// Open condition, with the answers that differ.
+/// An open condition, with its different answers.
 enum Knob {
     Variable { name: String, values: Vec<f64> },
     Level(u8),
 }
 
-/// One answer to everything that is open.
+/// One answer to each open condition.
 #[derive(Debug, Clone, Default)]
 pub(super) struct AssumedAnswers {
     values: Vec<(String, f64)>,
@@ -123,10 +123,10 @@ pub(super) struct AssumedAnswers {
 }
 
 impl AssumedAnswers {
-    /// Every combination of answers to conditions that differs.
+    /// Returns every distinct combination of answers to conditions.
     ///
     /// # Errors
-    /// How many there are, where these are too many.
+    /// The number of combinations, if there are too many.
     pub(super) fn all(conditions: &[Condition]) -> Result<Vec<Self>, usize> {
         let knobs = knobs(conditions);
         let sizes = knobs.iter().map(|knob| match knob {
@@ -165,7 +165,7 @@ impl AssumedAnswers {
         }
     }
 
-    /// The options of a run with these answers.
+    /// Returns the options of a run with these answers.
     pub(super) fn options(&self, options: &SessionOptions) -> SessionOptions {
         let mut options = options.clone();
         let settings = self.values.iter();
@@ -181,7 +181,7 @@ impl AssumedAnswers {
         options
     }
 
-    /// The conditions with these answers.
+    /// Returns the conditions with these answers.
     pub(super) fn to(&self, conditions: &[Condition]) -> Vec<TriedCondition> {
         let tried = conditions.iter().filter_map(|condition| {
             let (text, holds) = match &condition.asked {
@@ -232,7 +232,7 @@ fn knobs(conditions: &[Condition]) -> Vec<Knob> {
     knobs
 }
 
-/// Values of a variable, one for each set of answers to the comparisons with it.
+/// Returns values of a variable, one for each set of answers to the comparisons with it.
 fn values_of(variable: &str, conditions: &[Condition]) -> Vec<f64> {
     let comparisons = conditions.iter().filter_map(Condition::comparison);
     let comparisons: Vec<_> = comparisons.filter(|it| it.variable == variable).collect();

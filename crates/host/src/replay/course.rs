@@ -19,21 +19,21 @@ use frictcomp::syntax::ast::{Address, Block, Item, Word};
 use frictcomp::syntax::parse_block;
 use frictcomp::timeline::{EndedBy, PositionFrame, Record, Row, StateView};
 
-/// Executed blocks at most; they are kept until the recording is laid beside them.
+/// Largest number of executed blocks; they are kept until the recording is compared with them.
 const MAX_STEPS: usize = 4_000_000;
 
-/// Course of the dry run of all programs.
+/// The dry run of all programs, block by block.
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) steps: Vec<CourseStep>,
     pub(super) axes: Vec<AxisCourse>,
-    /// The conditions whose answer only the machine knows.
+    /// The conditions that only the machine can decide.
     pub(super) conditions: BTreeSet<Condition>,
     /// Why it does not reach the end of the programs.
     pub(super) stopped: Option<String>,
     /// The file of the last step.
     file: Option<Arc<str>>,
-    /// The version of the state that was looked at last.
+    /// The version of the state examined last.
     version: Option<u64>,
 }
 
@@ -43,14 +43,14 @@ pub(super) struct CourseStep {
     pub(super) file: Arc<str>,
     pub(super) line: u32,
     pub(super) number: Option<i64>,
-    /// The rules of the open questions that what it does depends on.
+    /// The rules of the open questions on which its effect depends.
     pub(super) rests_on: Vec<&'static str>,
 }
 
-/// The states of an axis.
+/// The course of the states of an axis.
 pub(super) struct AxisCourse {
     pub(super) name: String,
-    /// Whether friction compensation is active at first; `None` where it is unknown.
+    /// Whether friction compensation is initially active; `None` where it is unknown.
     pub(super) start: Option<bool>,
     pub(super) switches: Vec<AxisSwitch>,
     /// Position in mm or degrees of the machine.
@@ -61,7 +61,7 @@ pub(super) struct AxisCourse {
 pub(super) struct AxisSwitch {
     /// The position of its step.
     pub(super) at: usize,
-    /// Whether friction compensation is active from there on; `None` where it is unknown.
+    /// Whether friction compensation is active from then on; `None` where it is unknown.
     pub(super) to: Option<bool>,
     /// Positions of the axis before and after the block, where they are known.
     pub(super) positions: Option<[f64; 2]>,
@@ -98,7 +98,7 @@ impl Course {
         Ok(course)
     }
 
-    /// The axes that the programs switch and that were not recorded.
+    /// Returns the axes that the programs switch and that were not recorded.
     pub(super) fn switched_beside(&self, recorded: &[RecordedAxis]) -> Vec<String> {
         let switched = self.axes.iter().filter(|axis| !axis.switches.is_empty());
         let beside = switched.filter(|axis| recorded.iter().all(|it| it.name != axis.name));
@@ -175,7 +175,7 @@ impl Course {
         }
     }
 
-    /// Notes that the changes of a block on one of several ways are unknown.
+    /// Marks the changes of a block on one of several ways as unknown.
     fn branch(&mut self, row: &Row<'_>) {
         let at = self.steps.len().saturating_sub(1);
         for change in row.changes.iter().filter(|it| it.kind == Kind::Frict) {
@@ -229,7 +229,7 @@ fn is_active(state: StateView<'_>, axis: AxisIndex) -> Option<bool> {
     }
 }
 
-/// The rules of the open questions that a block depends on and no control has answered.
+/// Returns the rules of the open questions on which a block depends and which no control has answered.
 fn rests_on(row: &Row<'_>, loaded: &LoadedMachine) -> Vec<&'static str> {
     let block = parse_block(row.text);
     let is_comp = |item: &&Item| matches!(item, Item::Comp(_) | Item::BadCommand(_));

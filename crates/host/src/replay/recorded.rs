@@ -12,7 +12,7 @@ use frictcomp_recordings::trace::{
     SelectError, TimeSource, TraceRecording,
 };
 
-/// Meaning of the channels.
+/// Assignment of the channels.
 #[derive(Debug, Clone, Default)]
 pub struct ReplayChannels {
     /// The channel of the times, and units of channels.
@@ -25,7 +25,7 @@ pub struct ReplayChannels {
     pub line: Option<String>,
     /// The channel of the block number, N.
     pub block: Option<String>,
-    /// The channel of the running number of the program, from 1.
+    /// The channel of the program's running number, from 1.
     pub program: Option<String>,
 }
 
@@ -34,9 +34,9 @@ pub struct ReplayChannels {
 pub struct StateRecording {
     /// Each axis whose state was recorded.
     pub axes: Vec<RecordedAxis>,
-    /// The longest stretch without samples, where there is one.
+    /// The longest stretch without samples, if there is one.
     pub gap: Option<RecordedGap>,
-    /// Whether blocks were recorded by their block numbers, not by lines.
+    /// Whether blocks were recorded by block numbers instead of lines.
     pub(super) by_number: bool,
 }
 
@@ -66,13 +66,13 @@ pub struct RecordedAxis {
     pub end_s: f64,
 }
 
-/// A recorded change of a state, with what the sample before it and its own hold.
+/// A recorded change of a state, with values from the sample before it and its own.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct RecordedChange {
     /// The time of its first sample in seconds.
     pub t_s: f64,
-    /// Whether friction compensation is active from there on.
+    /// Whether friction compensation is active from then on.
     pub active: bool,
     /// The lines, or block numbers.
     pub blocks: Option<[i64; 2]>,
@@ -94,7 +94,7 @@ struct RecordedChannels {
 struct FoundAxis {
     name: String,
     state: ChannelIndex,
-    /// The position with what makes mm of it.
+    /// The position with its factor to mm.
     position: Option<(ChannelIndex, f64)>,
 }
 
@@ -207,7 +207,7 @@ impl ReplayChannels {
         })
     }
 
-    /// The channel of the positions of an axis with what makes mm of it.
+    /// Returns the channel of the positions of an axis with its factor to mm.
     fn position_of(
         &self,
         axis: &str,
@@ -223,7 +223,7 @@ impl ReplayChannels {
     }
 }
 
-/// The axis whose state a channel is, by its name, its symbol or its object.
+/// Returns the axis whose state a channel holds, by its name, its symbol or its object.
 pub(crate) fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
     const VARIABLE: &str = "FRICT_COMP_ACTIVE";
     const STATE: CncObject = CncObject {
@@ -305,7 +305,7 @@ impl RecordingSamples<'_> {
         })
     }
 
-    /// Returns the times of a channel, which rise.
+    /// Returns the times of a channel, which increase.
     fn times(&self, channel: ChannelIndex) -> Result<&[f64], TraceError> {
         let times = self.recording.times_s(channel);
         let times = times.ok_or_else(|| TraceError::NoTimes(self.path.to_owned()))?;
@@ -332,7 +332,7 @@ impl RecordingSamples<'_> {
         gaps.max_by(|one, other| one.length_s.total_cmp(&other.length_s))
     }
 
-    /// Returns the values of a channel at two times; `None` where it had not begun.
+    /// Returns the values of a channel at two times; `None` where it had not yet begun.
     fn around(
         &self,
         channel: ChannelIndex,

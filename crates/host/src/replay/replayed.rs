@@ -1,4 +1,4 @@
-//! A recording beside the dry run of its programs.
+//! Comparison of a recording with the dry run of its programs.
 
 use super::beside::{Measure, ReplayedAxis};
 use super::conditions::{AssumedAnswers, MAX_WAYS, TriedCondition};
@@ -29,7 +29,7 @@ pub struct Replay<'a> {
 pub struct Replayed {
     /// Each axis of the recording.
     pub axes: Vec<ReplayedAxis>,
-    /// The conditions that the recording decides.
+    /// The conditions decided by the recording.
     pub decided: Vec<TriedCondition>,
     /// Number of combinations of answers to the conditions of the programs that were tried, and of
     /// those that agree with the recording.
@@ -40,23 +40,23 @@ pub struct Replayed {
     pub untried: Option<String>,
     /// The axes that the programs switch and whose states were not recorded.
     pub unrecorded: Vec<String>,
-    /// The longest stretch without samples: a change there and back is not seen.
+    /// The longest stretch without samples: a change that is undone within it is not seen.
     pub gap: Option<RecordedGap>,
 }
 
 impl Replayed {
-    /// Whether the recording and the dry run agree in every axis and to the end.
+    /// Whether the recording and the dry run agree on every axis and to the end.
     pub fn agrees(&self) -> bool {
         self.stopped.is_none() && self.axes.iter().all(|it| it.disagreement.is_none())
     }
 
-    /// Whether they agree with some answers to the conditions of the programs only.
+    /// Whether they agree only with some answers to the conditions of the programs.
     pub fn is_conditional(&self) -> bool {
         let [tried, fitting] = self.ways;
         self.agrees() && fitting < tried
     }
 
-    /// Notes the answers with which the disagreements were found.
+    /// Notes the answers on which the disagreements depend.
     fn rest_on(&mut self, tried: &[TriedCondition]) {
         let axes = self.axes.iter_mut();
         for found in axes.filter_map(|it| it.disagreement.as_mut()) {
@@ -71,15 +71,15 @@ impl Replayed {
         }
     }
 
-    /// In how many changes they agree.
+    /// Returns the number of changes on which they agree.
     pub fn changes(&self) -> usize {
         self.axes.iter().map(|it| it.changes.len()).sum()
     }
 }
 
 impl Replay<'_> {
-    /// Lays a recording beside the dry run, with every answer to the conditions that only the machine
-    /// knows where these are few (R15.21).
+    /// Compares a recording with the dry run, trying every answer to the conditions that only the machine
+    /// can decide if these are few (R15.21).
     ///
     /// # Errors
     /// A program cannot be read.
@@ -158,7 +158,7 @@ impl Replay<'_> {
     }
 }
 
-/// The answers that are the same in all.
+/// Returns the answers that are the same in all combinations.
 fn common(fitting: &[Vec<TriedCondition>]) -> Vec<TriedCondition> {
     let Some((first, others)) = fitting.split_first() else {
         return Vec::new();

@@ -1,5 +1,5 @@
-//! What the check of a tuned list says against whole circles of both axes, on the plant and on machines
-//! that deviate from it (R5.29). The table stands in docs/circular-test.md.
+//! What the check of a tuned list predicts, compared with whole circles of both axes, on the plant and on
+//! machines that deviate from it (R5.29). The table is in docs/circular-test.md.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use frictcomp_physics::simulation::{DriveParameters, Preset};
 use super::table::agrees;
 use super::task;
 
-/// A machine, what the check says of it, and the drives that it may have.
+/// A machine, the check's prediction for it, and its possible drives.
 struct Machine {
     name: &'static str,
     said: fn(&RemainingGlitch) -> f64,
@@ -54,7 +54,7 @@ const MACHINES: [Machine; 5] = [
     },
 ];
 
-/// The largest glitch of whole circles on a machine.
+/// Returns the largest glitch of whole circles on a machine.
 fn driven_um(task: &Task, tuned: &Tuned, machine: &Machine, circle: Circle) -> f64 {
     let of = |drive: &fn(&DriveParameters) -> DriveParameters| {
         let mut plant = task.plant.clone();
@@ -82,7 +82,7 @@ fn driven_um(task: &Task, tuned: &Tuned, machine: &Machine, circle: Circle) -> f
     machine.drives.iter().map(of).fold(0.0, f64::max)
 }
 
-/// What is said and what is driven on a machine, at each acceleration of a check.
+/// Returns the predicted and the driven glitch on a machine, at each acceleration of a check.
 fn compared(task: &Task, tuned: &Tuned, machine: &Machine) -> Vec<[f64; 2]> {
     let rows = tuned.check.iter();
     rows.map(|row| {
@@ -93,7 +93,7 @@ fn compared(task: &Task, tuned: &Tuned, machine: &Machine) -> Vec<[f64; 2]> {
     .collect()
 }
 
-/// Nowhere more is driven than what is said.
+/// Checks that no driven glitch exceeds the prediction.
 fn holds(compared: &[[f64; 2]], name: &str) {
     for [said, driven] in compared {
         assert!(

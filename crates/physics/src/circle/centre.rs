@@ -1,4 +1,4 @@
-//! About which centre both paths are compared.
+//! The centre about which both paths are compared.
 
 use std::str::FromStr;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 frictcomp::words! {
-    /// About which centre G(b) and H are meant (R5.21).
+    /// The centre that G(b) and H refer to (R5.21).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
     #[serde(rename_all = "lowercase")]
     #[non_exhaustive]
@@ -14,12 +14,12 @@ frictcomp::words! {
         /// The mean of the least-squares centres of both paths.
         #[default]
         Common = "common",
-        /// The least-squares centre of each path: what shifts one path as a whole does not count.
+        /// The least-squares centre of each path: a shift of one path as a whole does not count.
         Own = "own",
     }
 }
 
-/// A word that names no centre.
+/// A word that is not the name of a centre.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no centre `{0}`; there are `common` and `own`")]
 pub struct UnknownPathCentre(pub String);

@@ -59,7 +59,7 @@ impl Comparison {
         }
     }
 
-    /// The same with G(b) and H about another centre.
+    /// Returns the comparison with G(b) and H about another centre.
     #[must_use]
     pub fn about(self, centre: PathCentre) -> Self {
         let about = |side: Side| Side::of(side.paths, Nominal::Commanded, centre);

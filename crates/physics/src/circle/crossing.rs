@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 frictcomp::words! {
-    /// An axis of the plane in which the circle lies.
+    /// An axis of the plane of the circle.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
     #[non_exhaustive]
     pub enum PlaneAxis {

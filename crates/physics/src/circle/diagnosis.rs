@@ -1,8 +1,8 @@
-//! What the shape of a path suggests (R5.24).
+//! The causes that the shape of a path suggests (R5.24).
 //!
-//! At a crossing an axis turns round. Friction holds it a moment at its outermost place: the path
+//! At a crossing an axis reverses. Friction holds it for a moment at its outermost place: the path
 //! bulges outwards after the crossing and comes back. Compensation that is too strong or too
-//! early throws the axis back: the path is cut inwards. Backlash leaves a step; what is left of the
+//! early pushes the axis back: the path is cut inwards. Backlash leaves a step; the rest of the
 //! path without peaks and steps is a circle, or an ellipse.
 
 use serde::Serialize;
@@ -16,18 +16,18 @@ use super::figures::{Figures, PathFigures};
 use super::glitch::{AxisShape, Bulge, Glitch, PathShape};
 use crate::current::Switched;
 
-/// Below this there is nothing to say.
+/// Size below which nothing is reported.
 pub const NOTICEABLE_UM: f64 = 1.0;
 
 /// One of two bulges counts as alone if the other is less than this part of it.
 const ALONE: f64 = 0.25;
 
-/// A step is one if it is at least this part of the peak: what a slow drive leaves of a peak is
+/// A step counts if it is at least this part of the peak: what a slow drive leaves of a peak is
 /// less.
 const STEP_PART: f64 = 0.1;
 
-/// A term of a recording with a shape that is not known is this many times as large as what is left
-/// over: a drift leaves an eighth of what it puts into a step.
+/// A term of a recording with an unknown shape is this many times as large as the residual: a drift leaves
+/// an eighth of what it adds to a step.
 const UNKNOWN: f64 = 8.0;
 
 /// Cause suggested by a shape.
@@ -43,17 +43,17 @@ pub enum Finding {
     WrongSign,
     /// A cut inwards alone: it is too strong.
     TooStrong,
-    /// First inwards, then outwards: it comes too early.
+    /// First inwards, then outwards: it is too early.
     TooEarly,
-    /// First outwards, then inwards: it comes too late.
+    /// First outwards, then inwards: it is too late.
     TooLate,
     /// A step outwards that stays: backlash.
     Backlash,
     /// A step inwards that stays: more backlash is compensated than there is.
     OvercompensatedBacklash,
-    /// An ellipse at 45° that lies the other way in the other direction: the gains differ.
+    /// An ellipse at 45° that turns with the direction of travel: the gains differ.
     GainMismatch,
-    /// An ellipse at 45° that lies the same way in both directions: the axes are not square.
+    /// An ellipse at 45° that is the same in both directions: the axes are not square.
     Squareness,
     /// An ellipse along the axes: their scales differ.
     ScaleMismatch,
@@ -88,9 +88,9 @@ pub enum FoundAt {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Diagnosis {
-    /// Where.
+    /// The place.
     pub place: FoundAt,
-    /// The direction of travel; `None` for what concerns both.
+    /// The direction of travel; `None` if it concerns both.
     pub direction: Option<Direction>,
     /// Suggested cause.
     pub finding: Finding,
@@ -120,8 +120,8 @@ pub struct DiagnosisGrounds {
     pub unexplained_um: Option<f64>,
 }
 
-/// What figures suggest: peaks at the crossings of each direction, steps of each axis, and the
-/// ellipse. `compensation` says whether friction compensation was on when the paths were made; of
+/// Returns the causes that figures suggest: peaks at the crossings of each direction, steps of each axis, and
+/// the ellipse. `compensation` states whether friction compensation was on when the paths were made; for
 /// recorded paths it may be unknown, and nothing is named that their noise or another shape could have caused.
 pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagnosis> {
     let shapes: Vec<(Direction, &PathShape)> = Direction::ALL
@@ -165,10 +165,10 @@ fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
     GREATEST * evidence.noise_um
 }
 
-/// Whether a recording carries what a peak suggests: timing and strength not where something else is
-/// left over, friction if it is far larger than that.
+/// Whether a recording supports what a peak suggests: timing and strength not if there is another residual,
+/// friction if it is far larger than that.
 fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> bool {
-    /// The peak to peak of a shape in its root mean square, and as much again.
+    /// The ratio of the peak-to-peak value of a shape to its root mean square, doubled.
     const FAR: f64 = 6.0;
     let swings = match glitch.crossing.axis() {
         PlaneAxis::X => evidence.stick_slip_um[0],
@@ -240,7 +240,7 @@ fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
     advice
 }
 
-/// The shapes that a recording carries, and what is left over.
+/// The shapes that a recording supports, and the residual.
 fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
     let peak = |axis: PlaneAxis| {
         let peaks = paths.iter().map(|shape| shape.axis(axis).peak_um.abs());
@@ -256,7 +256,7 @@ fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
             ShapeTerm::Backlash(axis) => STEP_PART * peak(axis),
             _ => 0.0,
         };
-        // A shape that is not known may hold as much of any term.
+        // An unknown shape may contain as much of any term.
         let unsure = match evidence.other {
             Some(OtherShape::Unknown) => UNKNOWN * evidence.rest_um,
             Some(OtherShape::Vibration { .. }) => 2.0 * evidence.rest_um,
@@ -379,7 +379,7 @@ fn peak(glitch: &Glitch, compensation: Option<Switched>) -> Option<Finding> {
         return (inward < ALONE * outward).then_some(Finding::Friction);
     }
     if inward < ALONE * outward {
-        // Without knowing what was on, what is left is friction.
+        // Without knowing what was on, the rest is friction.
         return Some(match compensation {
             Some(_) => Finding::TooWeak,
             None => Finding::Friction,
@@ -394,8 +394,8 @@ fn peak(glitch: &Glitch, compensation: Option<Switched>) -> Option<Finding> {
     })
 }
 
-/// Returns the step that remains after the reversals of an axis, in the mean of its paths: an error
-/// of the geometry, which turns the other way in the other direction, falls out of it.
+/// Returns the step that remains after the reversals of an axis, as the mean of its paths: an error of
+/// the geometry, which has the opposite sign in the other direction, cancels out.
 fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     #[allow(clippy::cast_precision_loss)] // two at most
     let count = paths.len() as f64;
@@ -413,8 +413,8 @@ fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     ))
 }
 
-/// A path that peaks still bend where the steps are looked for is fitted by steps and by an ellipse
-/// alike: an ellipse that is not larger than such a step is one of neither.
+/// A path that is still bent by peaks where the steps are evaluated is fitted equally well by steps and by an
+/// ellipse: an ellipse that is not larger than such a step is neither.
 ///
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
 /// direction of travel; one of axes that are not square keeps it. Both need both directions.

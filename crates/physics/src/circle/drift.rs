@@ -4,27 +4,27 @@ use std::f64::consts::TAU;
 
 use super::linear::Normal;
 
-/// Differences of a block for the standard error: neighbours may be alike.
+/// Number of differences in a block for the standard error: neighbours may be alike.
 const BLOCK: u16 = 8;
 
-/// A shift counts from so many standard errors on …
+/// Number of standard errors from which a shift counts …
 const SIGNIFICANT: f64 = 3.0;
 
-/// … and from this size on, in mm.
+/// … if it also has this size, in mm.
 const LEAST_MM: f64 = 0.0005;
 
 /// A steady shift of both axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::circle) struct CircleDrift {
-    /// The shift in mm a turn.
+    /// The shift in mm per turn.
     pub(in crate::circle) per_turn_mm: [f64; 2],
     /// Its standard error.
     pub(in crate::circle) error_mm: [f64; 2],
 }
 
 impl CircleDrift {
-    /// The shift that differences between two turns show, each with what a constant and a shift of
-    /// either axis make of it; `None` where they do not show one.
+    /// The shift shown by differences between two turns, each with the effects of a constant and of a shift
+    /// of either axis; `None` if they do not show one.
     pub(in crate::circle) fn shown(differences: &[([f64; 3], f64)]) -> Option<Self> {
         Self::fit(differences).filter(Self::is_carried)
     }
@@ -60,7 +60,7 @@ impl CircleDrift {
             .any(|(shift, error)| shift.abs() > (SIGNIFICANT * error).max(LEAST_MM))
     }
 
-    /// Points on which the circle stands still, as in the middle of a turn; each has its angle along
+    /// Points of a circle without its shift, as in the middle of a turn; each has its angle along
     /// the run.
     pub(in crate::circle) fn removed(&self, points: &[[f64; 2]], angles: &[f64]) -> Vec<[f64; 2]> {
         let ends = [angles.first(), angles.last()].map(|it| it.copied().unwrap_or_default());

@@ -17,13 +17,13 @@ use super::swings::stick_slip;
 /// Least residual in µm that counts as a shape …
 const LEAST_REST_UM: f64 = 0.15;
 
-/// … and from this part of the noise on …
+/// … from this part of the noise …
 const REST_OF_NOISE: f64 = 0.3;
 
-/// … and from this part of a step of the encoder on.
+/// … and from this part of a step of the encoder.
 const REST_OF_STEP: f64 = 0.5;
 
-/// A shape explains at least this part of what is left.
+/// Part of the residual that a shape explains at least.
 const EXPLAINS: f64 = 0.2;
 
 /// Evidence in a recording, with its limits.
@@ -36,14 +36,14 @@ pub struct CircleEvidence {
     pub terms: Vec<Term>,
     /// Residual beyond the noise, root mean square.
     pub rest_um: f64,
-    /// The shape of what is left over, where it is one.
+    /// The shape of the residual, if it has one.
     pub other: Option<OtherShape>,
-    /// The largest swing of X and of Y in µm, where the axis sticks and slips.
+    /// The largest swing of X and of Y in µm, if the axis sticks and slips.
     pub stick_slip_um: [Option<f64>; 2],
 }
 
 impl CircleEvidence {
-    /// The evidence in the paths; `None` where the masked reversals leave too little of a turn.
+    /// The evidence in the paths; `None` if the masked reversals leave too little of a turn.
     pub(super) fn of<'a>(
         paths: impl Iterator<Item = (Direction, &'a RadialProfile)>,
         quality: Quality,
@@ -110,19 +110,19 @@ impl CircleEvidence {
         })
     }
 
-    /// Whether something is left over that noise does not explain.
+    /// Whether there is a residual that noise does not explain.
     pub fn has_other_shape(&self) -> bool {
         self.other.is_some()
     }
 }
 
-/// What neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or of the fine
-/// ones, in which a fast oscillation shows.
+/// The residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or
+/// of the fine ones, in which a fast oscillation is visible.
 fn rest(shapes: &Shapes, fine: &[AngleSeries], noise_um: f64) -> f64 {
     beyond_noise(&shapes.left, noise_um).max(beyond_noise(fine, noise_um))
 }
 
-/// The shift of each axis in µm a turn.
+/// The shift of each axis in µm per turn.
 fn drifts(drift: CircleDrift) -> [Term; 2] {
     const UM_PER_MM: f64 = 1000.0;
     let sizes = drift.per_turn_mm.into_iter().zip(drift.error_mm);

@@ -1,22 +1,22 @@
-//! The shapes of a recorded path: those that are fitted, and what is left beyond noise (R5.28).
+//! The shapes of a recorded path: the fitted ones, and the residual beyond noise (R5.28).
 
 use serde::Serialize;
 
 use super::crossing::PlaneAxis;
 
-/// A term is noticeable from so many standard errors on …
+/// Number of standard errors from which a term is noticeable …
 const SIGNIFICANT: f64 = 3.0;
 
-/// … and from this size on, in µm.
+/// … if it also has this size, in µm.
 const LEAST_TERM_UM: f64 = 0.5;
 
-/// Number of shapes that are fitted at once, centres and radii included.
+/// Number of shapes that are fitted at once, including centres and radii.
 pub(super) const SHAPES: usize = 13;
 
 /// One value for each fitted shape.
 pub(super) type ShapeValues = [f64; SHAPES];
 
-/// A shape that no term has.
+/// A shape without a term.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -73,7 +73,7 @@ pub enum ShapeTerm {
 }
 
 impl Term {
-    /// Whether the recording carries it.
+    /// Whether the recording supports it.
     pub fn is_carried(&self) -> bool {
         self.size_um.abs() > (SIGNIFICANT * self.error_um).max(LEAST_TERM_UM)
     }

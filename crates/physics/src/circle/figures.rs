@@ -28,7 +28,7 @@ pub struct PathFigures {
     /// Mean radial deviation of this path: its least-squares radius less the commanded one.
     #[serde(rename = "D")]
     pub d_um: Option<f64>,
-    /// Shape of the path at its crossings; `None` where the windows of the glitches reach the next
+    /// Shape of the path at its crossings; `None` if the windows of the glitches reach the next
     /// crossing.
     pub shape: Option<PathShape>,
 }
@@ -41,7 +41,7 @@ pub struct Figures {
     pub ccw: Option<PathFigures>,
     /// Of the clockwise path.
     pub cw: Option<PathFigures>,
-    /// About which centre G(b) and H are meant.
+    /// The centre that G(b) and H refer to.
     pub centre: PathCentre,
     /// Distance between the least-squares centres of both paths.
     #[serde(rename = "centre_distance")]
@@ -102,7 +102,7 @@ impl Paths {
         })
     }
 
-    /// The directions whose paths are there.
+    /// The directions whose paths exist.
     pub fn iter(&self) -> impl Iterator<Item = (Direction, &RadialProfile)> {
         Direction::ALL
             .into_iter()
@@ -110,7 +110,7 @@ impl Paths {
     }
 }
 
-/// Against which radius the radial deviations F and D are meant.
+/// The radius that the radial deviations F and D refer to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Nominal {
     /// The commanded centre.
@@ -156,7 +156,7 @@ impl Figures {
         }
     }
 
-    /// The largest glitch of all crossings and directions; `None` where no crossing has one.
+    /// The largest glitch of all crossings and directions; `None` if no crossing has one.
     pub fn glitch_max_um(&self) -> Option<f64> {
         let paths = [&self.ccw, &self.cw].into_iter().flatten();
         let glitches = paths

@@ -18,11 +18,11 @@ pub struct Glitch {
     /// Peak to peak within the window, less a straight line through both sides.
     #[serde(rename = "height")]
     pub height_um: f64,
-    /// Height of the bulge out of the band between the paths before and after the crossing,
+    /// Height of the bulge beyond the band between the paths before and after the crossing,
     /// outwards; at least 0.
     #[serde(rename = "outward")]
     pub outward_um: f64,
-    /// The same inwards; at most 0.
+    /// Depth of the bulge inwards; at most 0.
     #[serde(rename = "inward")]
     pub inward_um: f64,
     /// The first of both.
@@ -30,7 +30,7 @@ pub struct Glitch {
 }
 
 impl Glitch {
-    /// The same without what noise alone bulges out.
+    /// Returns the glitch less the bulge of noise alone.
     pub(super) fn less(&self, bulge_um: f64) -> Self {
         Self {
             outward_um: (self.outward_um - bulge_um).max(0.0),
@@ -40,7 +40,7 @@ impl Glitch {
     }
 }
 
-/// A way out of the undisturbed path.
+/// The direction of a deviation from the undisturbed path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -62,7 +62,7 @@ pub struct AxisShape {
     /// The largest deviation that decays; positive is outwards.
     #[serde(rename = "peak")]
     pub peak_um: f64,
-    /// Whether the peak has decayed early enough to show what stays.
+    /// Whether the peak has decayed early enough to show the permanent step.
     pub is_settled: bool,
 }
 
@@ -81,13 +81,13 @@ pub struct PathShape {
     pub ellipse_um: [f64; 2],
 }
 
-/// A peak has decayed when less of it is left than this part of the step. Real backlash leaves less
+/// A peak has decayed if less of it is left than this part of the step. Real backlash leaves less
 /// than a tenth; friction that falls steeply with the speed bends the path far beyond the crossing
-/// and leaves more than a fifth of what looks like a step.
+/// and leaves more than a fifth of the apparent step.
 const SETTLED: f64 = 0.15;
 
 impl PathShape {
-    /// The shape of a path; `None` where its windows reach the next crossings.
+    /// The shape of a path; `None` if its windows reach the next crossings.
     pub(super) fn of(profile: &RadialProfile, direction: Direction) -> Option<Self> {
         let window = CrossingWindow::of(profile.turn_s())?;
         let quiet = QuietPath::of(profile, direction, window)?;
@@ -132,7 +132,7 @@ impl PathShape {
 }
 
 /// The path at the four crossings less the undisturbed path and the straight line through both sides (R5.22):
-/// the way from the crossing in fixed angles, and the deviation in m. `None` where the windows reach the next
+/// the distance from the crossing in fixed angles, and the deviation in m. `None` if the windows reach the next
 /// crossings.
 pub(super) fn straightened(
     profile: &RadialProfile,
@@ -157,8 +157,8 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The path in the window of a crossing less the undisturbed path and the line through both sides: the way
-    /// from the crossing in fixed angles, and the deviation in m.
+    /// The path in the window of a crossing less the undisturbed path and the line through both sides: the
+    /// distance from the crossing in fixed angles, and the deviation in m.
     fn straightened(&self, crossing: Crossing) -> Vec<(f64, f64)> {
         let line = self.line(crossing);
         let fixed = self
@@ -242,7 +242,7 @@ impl Seen<'_> {
     }
 }
 
-/// The least and the largest value with their ways from the crossing.
+/// The least and the largest value with their distances from the crossing.
 struct Extremes {
     most: (f64, f64),
     least: (f64, f64),

@@ -10,8 +10,8 @@ use super::simulate::{AxesSimulation, AxisRun};
 use super::test::CircularTest;
 use crate::current::Switched;
 
-/// A gap that is bridged where the ends of the turn do not meet, in degrees: on a circle of a tenth
-/// of a second the loops still settle.
+/// A gap that is bridged if the ends of the turn do not meet, in degrees: on a circle of a tenth
+/// of a second the loops are still settling.
 const WIDEST_GAP: f64 = 60.0;
 
 /// Additional length in turns for a path that has not closed.
@@ -58,8 +58,8 @@ impl LapRun {
 
 impl CircularTest {
     /// Makes one run (R5.20). It begins at X+ with half a turn of run-in, as machines do: the turn
-    /// that is evaluated begins and ends at X-. Where a reversal falls within a CNC cycle follows
-    /// from that, and at high feeds it shows in what the compensation leaves.
+    /// that is evaluated begins and ends at X-. This determines where a reversal falls within a CNC cycle,
+    /// which at high feeds affects what the compensation leaves.
     ///
     /// # Errors
     /// A circle that cannot be simulated or that the drives do not follow, or a drive that is
@@ -67,14 +67,14 @@ impl CircularTest {
     pub fn run(&self, job: LapRun) -> Result<Lap, CircleError> {
         self.circle.check()?;
         match self.drive(job, TURNS) {
-            // The lag of the drives still grew by much of a turn on a circle that is over before they
-            // have settled: their path closes later than the commanded one.
+            // On a circle that ends before the drives have settled, their lag was still growing by much of
+            // a turn: their path closes later than the commanded one.
             Err(CircleError::NotFollowed { .. }) => self.drive(job, TURNS + LATER),
             lap => lap,
         }
     }
 
-    /// The same over so many commanded turns.
+    /// Makes the run over a number of commanded turns.
     fn drive(&self, job: LapRun, turns: f64) -> Result<Lap, CircleError> {
         let stretch = CircleArc {
             start: 0.0,

@@ -7,7 +7,7 @@ pub(super) struct Normal<const N: usize> {
     right: [f64; N],
 }
 
-/// A pivot that is smaller than this part of its row's diagonal leaves an unknown undetermined.
+/// A pivot smaller than this part of its row's diagonal leaves an unknown undetermined.
 const LEAST_PIVOT: f64 = 1e-12;
 
 impl<const N: usize> Normal<N> {
@@ -28,7 +28,7 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// Holds unknowns that no equation has at 0.
+    /// Holds unknowns without an equation at 0.
     pub(super) fn hold_unused(&mut self) {
         for at in 0..N {
             if self.matrix[at][at] == 0.0 {
@@ -37,13 +37,13 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// The unknowns of the same equations with other values, of which these are the sums with each row.
+    /// The unknowns of the same equations with other values, given as their sums with each row.
     pub(super) fn solve_for(&self, right: [f64; N]) -> Option<[f64; N]> {
         let matrix = self.matrix;
         Self { matrix, right }.solve()
     }
 
-    /// Takes the equations of another fit so many times.
+    /// Adds the equations of another fit a number of times.
     pub(super) fn add_times(&mut self, other: &Self, times: f64) {
         for (sums, row) in self.matrix.iter_mut().zip(&other.matrix) {
             for (sum, it) in sums.iter_mut().zip(row) {
@@ -55,7 +55,7 @@ impl<const N: usize> Normal<N> {
         }
     }
 
-    /// The square root of the diagonal at an unknown: by how much it changes all values.
+    /// The square root of the diagonal at an unknown: its effect on all values.
     pub(super) fn scale(&self, unknown: usize) -> f64 {
         self.matrix[unknown][unknown].sqrt()
     }
@@ -71,7 +71,7 @@ impl<const N: usize> Normal<N> {
         Some(spreads)
     }
 
-    /// The unknowns, by elimination; `None` where the equations do not determine them. The matrix
+    /// The unknowns, by elimination; `None` if the equations do not determine them. The matrix
     /// is positive, so that its diagonal gives the pivots.
     pub(super) fn solve(mut self) -> Option<[f64; N]> {
         let diagonal: [f64; N] = std::array::from_fn(|at| self.matrix[at][at]);

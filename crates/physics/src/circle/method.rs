@@ -4,7 +4,7 @@ use crate::simulation::{DriveParameters, Plant, plant_list};
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
 
-/// A way of compensation with its parameters.
+/// A method of compensation with its parameters.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Method {
@@ -16,7 +16,7 @@ pub enum Method {
 
 impl Method {
     /// Returns the compensation of X and Y by the control of a plant itself: stiction compensation
-    /// where the plant has it on any axis, or else the value lists that are their friction curves.
+    /// if the plant has it on any axis, otherwise the value lists that are their friction curves.
     pub fn of_plant(plant: &Plant) -> [Option<Self>; 2] {
         let drives = [&plant.x, &plant.y];
         if drives.iter().any(|drive| drive.stiction.is_some()) {
@@ -25,7 +25,7 @@ impl Method {
         drives.map(|drive: &DriveParameters| Some(Self::Current(plant_list(drive))))
     }
 
-    /// The value list, where there is one.
+    /// The value list, if there is one.
     pub fn list(&self) -> Option<&FrictionList> {
         match self {
             Self::Current(list) => Some(list),
@@ -33,7 +33,7 @@ impl Method {
         }
     }
 
-    /// The parameters of stiction compensation, where it is that.
+    /// The parameters of stiction compensation, if it is that.
     pub fn stiction(&self) -> Option<&StictionParameters> {
         match self {
             Self::Stiction(parameters) => Some(parameters),

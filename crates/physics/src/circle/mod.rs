@@ -3,8 +3,8 @@
 //!
 //! A [`CircularTest`] sends the drives of a [`Plant`](crate::simulation::Plant) round a [`Circle`]
 //! in both directions; their [`RadialProfile`]s give the [`Figures`]. A [`RecordedCircle`] gives
-//! the same of a real machine, and [`tune`] searches the parameters of a value list. What a path
-//! does at its [`Crossing`]s and what of it stays is its [`PathShape`], from which
+//! those of a real machine, and [`tune`] searches the parameters of a value list. The shape of a path
+//! at its [`Crossing`]s and its permanent part is its [`PathShape`], from which
 //! [`diagnose`] names friction, backlash and axes that do not match.
 
 mod centre;

@@ -10,10 +10,10 @@ const SLOWEST_HZ: f64 = 5.0;
 /// Steps in the shortest period.
 const LEAST_STEPS: f64 = 2.5;
 
-/// Above the frequencies that keep their phase over the turn, an oscillation keeps it so long, in s.
+/// Time in s over which an oscillation keeps its phase, above the frequencies that keep it over the turn.
 const IN_PHASE_S: f64 = 1.0;
 
-/// A shorter stretch of the path shows no frequency, in s.
+/// Minimum length of a stretch of the path that shows a frequency, in s.
 const SHORTEST_S: f64 = 0.1;
 
 /// An oscillation in time.
@@ -70,7 +70,7 @@ impl Oscillation {
         let (mut explains, mut all, mut amplitude_um) = (0.0, 0.0, 0.0_f64);
         for (values, step_s) in stretches {
             let (sin, cos) = (TAU * hertz * step_s).sin_cos();
-            // The phase turns on from step to step.
+            // The phase advances from step to step.
             let [mut c, mut s] = [1.0_f64, 0.0_f64];
             let [mut real_part, mut imaginary, mut count] = [0.0; 3];
             for value in *values {

@@ -12,12 +12,12 @@ use super::turning::CosineSine;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Screw {
     pub(super) axis: PlaneAxis,
-    /// Turns in a mm.
+    /// Turns per mm.
     pub(super) frequency: f64,
 }
 
 impl Screw {
-    /// What a cosine and a sine of the screw make of the radial deviation.
+    /// The effects of a cosine and a sine of the screw on the radial deviation.
     pub(super) fn columns(&self, angle: CosineSine, radius_mm: f64) -> [f64; 2] {
         let along = match self.axis {
             PlaneAxis::X => angle.cos,
@@ -27,7 +27,7 @@ impl Screw {
         [along * cos, along * sin]
     }
 
-    /// The mean square of paths that it explains by itself.
+    /// The mean square of paths that it alone explains.
     pub(super) fn explains(&self, left: &[AngleSeries]) -> f64 {
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
         for one in left {
@@ -67,21 +67,21 @@ impl Periodic {
     }
 }
 
-/// The error of a screw beside the shapes.
+/// The error of a screw in addition to the shapes.
 pub(super) struct Joint {
     /// The amplitudes of its cosine and its sine.
     pub(super) parts: [f64; 2],
     /// Mean square that it explains.
     pub(super) explains: f64,
     inverse: [f64; 3],
-    /// How much of each shape the cosine and the sine are.
+    /// The shares of the cosine and the sine in each shape.
     pub(super) shares: [ShapeValues; 2],
 }
 
 impl Joint {
-    /// The fit of two columns with the squares that are their own, of all their squares.
+    /// The fit of two columns with their own part of the squares, and all of their squares.
     pub(super) fn new(own: [f64; 3], squares: [f64; 3], products: [f64; 2]) -> Option<Self> {
-        /// Columns of which less is their own are shapes.
+        /// Columns with a smaller part of their own are shapes.
         const LEAST_OWN: f64 = 1e-6;
         let determinant = own[0] * own[2] - own[1] * own[1];
         let is_firm = determinant > LEAST_OWN * squares[0] * squares[2];
@@ -98,7 +98,7 @@ impl Joint {
         })
     }
 
-    /// The variance that an uncertain screw adds to a shape of which it has such shares.
+    /// The variance that an uncertain screw adds to a shape with these shares of it.
     pub(super) fn spread(&self, [c, s]: [f64; 2]) -> f64 {
         c * c * self.inverse[0] + 2.0 * c * s * self.inverse[1] + s * s * self.inverse[2]
     }

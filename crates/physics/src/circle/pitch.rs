@@ -7,16 +7,16 @@ use super::shapes::Shapes;
 /// Pitches in mm.
 const PITCHES: [f64; 2] = [1.0, 40.0];
 
-/// A screw turns at least so often in a radius.
+/// Minimum number of turns of a screw within a radius.
 const LEAST_TURNS: f64 = 0.5;
 
-/// A screw that turns less often in a radius looks like other shapes.
+/// Number of turns within a radius below which a screw looks like other shapes.
 const ALIKE_TURNS: f64 = 3.0;
 
 /// Frequencies on either side of the best one among which the pitch is sharpened.
 const FINE: i32 = 15;
 
-/// The error of any pitch that explains most of what shapes leave, beside them.
+/// The error of the pitch that explains most of what the shapes leave, in addition to them.
 pub(super) fn search(shapes: &Shapes) -> Option<Periodic> {
     let radius_mm = shapes.left.first()?.radius_mm;
     let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];

@@ -19,7 +19,7 @@ pub const UM_PER_M: f64 = 1e6;
 /// Fixed angles of a turn, every 0.01°.
 pub const ANGLES: usize = 36_000;
 
-/// Fixed angles in a degree.
+/// Fixed angles per degree.
 pub(super) const PER_DEGREE: i32 = 100;
 
 const _: () = assert!(
@@ -27,7 +27,7 @@ const _: () = assert!(
     "every 0.01°"
 );
 
-/// A point of the path: the direction in which it lies, and its radial deviation in m.
+/// A point of the path: its direction, and its radial deviation in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ProfilePoint {
     pub(super) cos: f64,
@@ -35,7 +35,7 @@ pub(super) struct ProfilePoint {
     pub(super) deviation: f64,
 }
 
-/// Every gap is bridged, in degrees.
+/// Bridges every gap, in degrees.
 const WHOLE_TURN: f64 = 360.0;
 
 /// Gathers the points of one turn.
@@ -46,7 +46,7 @@ pub(super) struct Gatherer {
     outer: Vec<Option<ProfilePoint>>,
     inner: Vec<Option<ProfilePoint>>,
     last: Option<SectorPlace>,
-    /// Sectors between two points that are bridged at most.
+    /// Maximum number of sectors between two points that are bridged.
     widest: f64,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Quality {
     pub(super) step_um: f64,
     /// Samples of a turn.
     pub(super) samples: usize,
-    /// The shift from turn to turn, where there are several.
+    /// The shift from turn to turn, if there are several turns.
     pub(super) drift: Option<CircleDrift>,
 }
 
@@ -78,11 +78,11 @@ pub struct RadialProfile {
     fixed: Vec<f64>,
     outer: Vec<Option<ProfilePoint>>,
     inner: Vec<Option<ProfilePoint>>,
-    /// Duration of the turn in s, where it is known.
+    /// Duration of the turn in s, if it is known.
     turn_s: Option<f64>,
     /// Centre of the angles and deviations, in m.
     origin: [f64; 2],
-    /// Of recorded points.
+    /// Quality of recorded points.
     quality: Option<Quality>,
 }
 
@@ -119,7 +119,7 @@ impl Gatherer {
         self.last = Some(place);
     }
 
-    /// Keeps a point in m if it is the outermost or the innermost of its sector, and gives its
+    /// Keeps a point in m if it is the outermost or the innermost of its sector, and returns its
     /// place.
     #[inline]
     fn keep(&mut self, x: f64, y: f64) -> SectorPlace {
@@ -179,8 +179,8 @@ impl Gatherer {
         }
     }
 
-    /// The turn, if it has no gap; small ones, where its ends meet, are bridged. It took so many
-    /// seconds.
+    /// Returns the turn, if it has no gap; small ones, where its ends meet, are bridged. `turn_s` is its
+    /// duration in seconds.
     pub(super) fn finish(mut self, turn_s: Option<f64>) -> Result<RadialProfile, Gap> {
         let missing = |from: usize| {
             let rest = (1..=ANGLES).map(|step| (from + step) % ANGLES);
@@ -226,7 +226,7 @@ impl Gatherer {
     }
 }
 
-/// The number of the fixed angle so many fixed angles after a crossing.
+/// The number of the fixed angle that is a number of fixed angles after a crossing.
 fn sector(crossing: Crossing, direction: Direction, way: i32) -> usize {
     let turn = 360 * PER_DEGREE;
     let way = match direction {
@@ -245,7 +245,7 @@ fn index(angle: f64) -> usize {
 }
 
 impl fmt::Debug for RadialProfile {
-    /// The radius; 36 000 deviations are of no use to anybody.
+    /// Formats the radius only; 36 000 deviations are of no use.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("RadialProfile")
             .field("radius", &self.radius)
@@ -275,7 +275,7 @@ impl RadialProfile {
         self.inner.iter().flatten()
     }
 
-    /// The same path that took so many seconds a turn.
+    /// Sets the duration of a turn in seconds.
     pub(super) fn in_time(self, turn_s: f64) -> Self {
         Self {
             turn_s: Some(turn_s),
@@ -283,12 +283,12 @@ impl RadialProfile {
         }
     }
 
-    /// The same path whose centre lies elsewhere, in m.
+    /// Sets the centre of the path, in m.
     pub(super) fn at(self, origin: [f64; 2]) -> Self {
         Self { origin, ..self }
     }
 
-    /// The same path of recorded points with such a quality.
+    /// Sets the quality of the recorded points.
     pub(super) fn with_quality(self, quality: Quality) -> Self {
         Self {
             quality: Some(quality),
@@ -306,7 +306,7 @@ impl RadialProfile {
         self.origin
     }
 
-    /// Returns the duration of the turn in s, where it is known.
+    /// Returns the duration of the turn in s, if it is known.
     pub(super) fn turn_s(&self) -> Option<f64> {
         self.turn_s
     }
@@ -325,7 +325,7 @@ impl RadialProfile {
         })
     }
 
-    /// The same with the outermost and the innermost point between each two fixed angles.
+    /// The path around a crossing with the outermost and the innermost point between each two fixed angles.
     pub(super) fn every(
         &self,
         crossing: Crossing,
@@ -363,7 +363,7 @@ impl RadialProfile {
         }
     }
 
-    /// The same path as seen from another centre, in m.
+    /// Returns the path as seen from another centre, in m.
     pub(super) fn about(&self, centre: [f64; 2]) -> Self {
         let [x, y] = [0, 1].map(|axis| centre[axis] - self.origin[axis]);
         let mut seen = Gatherer::new(self.radius, WHOLE_TURN);

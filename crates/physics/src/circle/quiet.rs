@@ -1,5 +1,5 @@
-//! The path away from its crossings, where no peak disturbs it: what is left there has a shape
-//! that shows its cause (R5.24).
+//! The path away from its crossings, where no peak disturbs it: the shape of the rest shows its cause
+//! (R5.24).
 //!
 //! A centre that is off shifts the path by its first harmonic; axes whose gains, scales or angle
 //! are wrong make an ellipse, the second harmonic. An axis with backlash lags by half of it
@@ -33,7 +33,7 @@ pub(super) enum Beside {
 }
 
 impl QuietPath {
-    /// Fits the path between the windows of a profile; `None` where they do not determine it.
+    /// Fits the path between the windows of a profile; `None` if they do not determine it.
     pub(super) fn of(
         profile: &RadialProfile,
         direction: Direction,
@@ -73,7 +73,7 @@ impl QuietPath {
             + self.ellipse[1] * across
     }
 
-    /// The path on one side of a crossing, continued over it, in the direction of a point.
+    /// The path on one side of a crossing, continued beyond it, in the direction of a point.
     pub(super) fn level(&self, crossing: Crossing, beside: Beside, point: ProfilePoint) -> f64 {
         let side = match beside {
             Beside::Before => -1.0,

@@ -1,4 +1,4 @@
-//! The circle as the control commands it, CNC cycle by CNC cycle.
+//! The circle as commanded by the control, CNC cycle by CNC cycle.
 
 use std::f64::consts::TAU;
 
@@ -10,10 +10,10 @@ use super::direction::Direction;
 use super::window::fastest_feed;
 use crate::simulation::{POSITION_LOOP_S, STEP_S};
 
-/// Simulation steps of one run at most.
+/// Maximum number of simulation steps of one run.
 pub const MAX_STEPS: f64 = 24e6;
 
-/// CNC cycles in a turn at least: fewer, and the chords alone are larger than what is measured.
+/// Minimum number of CNC cycles in a turn: with fewer, the chords alone are larger than what is measured.
 pub const MIN_CYCLES: f64 = 90.0;
 
 /// Turns of a whole run: half a turn of run-in and the one that is evaluated (R5.20).
@@ -107,7 +107,7 @@ pub enum CircleError {
         /// The commanded angle since the start.
         angle_deg: f64,
     },
-    /// A circle of 5 mm at 14 m/min on axes that are too heavy for their force: what they draw is
+    /// A circle of 5 mm at 14 m/min on axes that are too heavy for their force: their path is
     /// not closed around the centre.
     #[error(
         "the axes do not follow a circle of {radius_mm} mm at {feed_mm_per_min} mm/min: their path \
@@ -148,7 +148,7 @@ impl CircleError {
     }
 }
 
-/// A stretch of the circle: from an angle over so many radians in a direction.
+/// A stretch of the circle: from an angle over a number of radians in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CircleArc {
     /// The commanded angle at the start in radians.
@@ -165,7 +165,7 @@ impl Circle {
     /// Checks that the circle can be simulated in bounded time.
     ///
     /// # Errors
-    /// What is out of range.
+    /// A value is out of range.
     pub fn check(&self) -> Result<(), CircleError> {
         if !(0.1..=100_000.0).contains(&self.radius_mm) {
             return Err(CircleError::Radius(self.radius_mm));
@@ -228,7 +228,7 @@ impl Circle {
         self.feed_mm_per_min / 60.0 / self.radius_mm
     }
 
-    /// CNC cycles of a stretch, one more than it takes.
+    /// CNC cycles of a stretch, one more than its duration.
     pub(super) fn cycles(&self, length: f64) -> usize {
         let cycles = (length / (self.angular_velocity() * self.cycle_time_s)).ceil();
         let most = MAX_STEPS / 4.0;
@@ -247,7 +247,7 @@ impl Circle {
         (self.feed_mm_per_min / 60.0).powi(2) / self.radius_mm
     }
 
-    /// The same circle at the feed that makes this acceleration v²/R, in mm/s².
+    /// Returns the circle at the feed with this acceleration v²/R, in mm/s².
     #[must_use]
     pub fn with_acceleration(self, mm_per_s2: f64) -> Self {
         Self {

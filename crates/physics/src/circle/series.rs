@@ -1,5 +1,5 @@
-//! A path in equal steps of the angle without its reversals: what shapes are fitted to, and what they
-//! leave (R5.28).
+//! A path in equal steps of the angle without its reversals: the input of the fit of shapes, and its
+//! residual (R5.28).
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ const COARSE: usize = 10;
 const MASKED_DEG: f64 = 14.0;
 const MASKED_S: f64 = 0.3;
 
-/// Beyond that nothing of a turn is left.
+/// Limit beyond which nothing of a turn is left.
 const MOST_MASKED_DEG: f64 = 75.0;
 
 /// A block for the standard errors, in s; without times, in degrees.
@@ -40,7 +40,7 @@ pub(super) fn real(count: usize) -> f64 {
 }
 
 impl AngleSeries {
-    /// The path of a profile that has so many samples, in the steps of the shapes; `None` where the
+    /// The path of a profile with a number of samples, in the steps of the shapes; `None` if the
     /// reversals take all of it.
     pub(super) fn coarse(
         profile: &RadialProfile,
@@ -50,7 +50,7 @@ impl AngleSeries {
         Self::in_steps(profile, direction, (samples, COARSE))
     }
 
-    /// The same in steps of a sample, or of a fixed angle if that is more.
+    /// The path in steps of a sample, or of a fixed angle if that is more.
     pub(super) fn fine(
         profile: &RadialProfile,
         direction: Direction,
@@ -126,7 +126,7 @@ impl AngleSeries {
         left
     }
 
-    /// The variance of a step as the means of blocks show it: neighbours may be alike.
+    /// The variance of a step, from the means of blocks: neighbours may be alike.
     pub(super) fn block_variance(&self) -> f64 {
         let degrees = self
             .turn_s
@@ -146,7 +146,7 @@ impl AngleSeries {
     }
 }
 
-/// What paths with such a noise hold beyond it, root mean square.
+/// The root mean square of paths beyond this noise.
 pub(super) fn beyond_noise(left: &[AngleSeries], noise_um: f64) -> f64 {
     let squares = left.iter().map(|one| {
         let noise = noise_um * one.noise_share;

@@ -8,7 +8,7 @@ use super::periodic::{Joint, Periodic, Screw};
 use super::series::AngleSeries;
 use super::turning::CosineSine;
 
-/// Shapes that both directions show, with their places in a row, and how many times its unknown each is.
+/// Shapes visible in both directions, with their places in a row, and the ratio of each to its unknown.
 const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
     (6, ShapeTerm::Scale, 2.0),
     (7, ShapeTerm::Squareness, 2.0),
@@ -19,13 +19,13 @@ const OF_BOTH: [(usize, ShapeTerm, f64); 7] = [
     (12, ShapeTerm::Play(PlaneAxis::Y), 1.0),
 ];
 
-/// Those that one direction shows.
+/// Shapes visible in one direction.
 const OF_ONE: [(usize, ShapeTerm, f64); 2] = [
     (9, ShapeTerm::Backlash(PlaneAxis::X), 1.0),
     (10, ShapeTerm::Backlash(PlaneAxis::Y), 1.0),
 ];
 
-/// Shapes that one direction cannot tell from others.
+/// Shapes that one direction cannot distinguish from others.
 const UNTOLD: [usize; 3] = [8, 11, 12];
 
 /// Fitted shapes, and the paths less them.
@@ -58,7 +58,7 @@ impl Shapes {
         Some(shapes.judged(series, &spreads, None))
     }
 
-    /// The shapes together with a periodic error, which takes from each what it may be as well.
+    /// The shapes together with a periodic error, which takes from each the part that may belong to either.
     pub(super) fn with(&self, periodic: &Periodic, series: &[AngleSeries]) -> Option<Self> {
         let joint = &periodic.joint;
         let mut found = self.found;
@@ -78,7 +78,7 @@ impl Shapes {
         Some(shapes.judged(series, &spreads, Some(periodic)))
     }
 
-    /// The screw's own part of what the shapes leave.
+    /// The screw's own part of the residual of the shapes.
     pub(super) fn joint(&self, screw: &Screw) -> Option<Joint> {
         let mut sums = [[0.0; SHAPES]; 2];
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);

@@ -10,7 +10,7 @@ use crate::simulation::{Drive, DriveParameters, Drives, FrictionModel, Setpoint}
 use crate::stiction::StictionParameters;
 use frictcomp::lists::FrictionList;
 
-/// Remarks of a simulation besides its points.
+/// Remarks of a simulation, in addition to its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct SimulationRemarks {
     /// Cycles of the speed loop in which a force was limited.
@@ -25,7 +25,7 @@ const MM_PER_M: f64 = 1000.0;
 pub(super) struct AxisRun<'a> {
     pub(super) axis: PlaneAxis,
     pub(super) drive: &'a DriveParameters,
-    /// Compensation of friction, where it is on.
+    /// Compensation of friction, if it is on.
     pub(super) compensation: Option<&'a Method>,
 }
 
@@ -69,7 +69,7 @@ impl Additive {
 }
 
 impl<'a> AxisRun<'a> {
-    /// Stiction compensation, where it acts at the feed of a circle (R8.2).
+    /// Stiction compensation, if it acts at the feed of a circle (R8.2).
     fn stiction_at(&self, circle: &Circle) -> Option<&'a StictionParameters> {
         self.compensation?
             .stiction()
@@ -78,7 +78,7 @@ impl<'a> AxisRun<'a> {
 }
 
 impl<const N: usize> AxesSimulation<'_, N> {
-    /// Follows a stretch with the drives and hands out the number of the CNC cycle and the actual
+    /// Follows a stretch with the drives and passes on the number of the CNC cycle and the actual
     /// positions in m after every simulation step.
     ///
     /// # Errors
@@ -153,7 +153,7 @@ impl<const N: usize> AxesSimulation<'_, N> {
     fn check(&self, drives: &[Drive; N], k: usize) -> Result<(), CircleError> {
         let limit = 2.0 * self.circle.radius_m();
         for (drive, run) in drives.iter().zip(self.axes) {
-            // What is not a number is outside, too.
+            // A value that is not a number is outside, too.
             let is_inside = drive.position_m().abs() <= limit;
             if !is_inside {
                 #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles

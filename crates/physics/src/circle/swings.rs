@@ -1,4 +1,4 @@
-//! Swings after a reversal: an axis that sticks and slips does not come to rest in one (R5.28).
+//! Swings after a reversal: an axis that sticks and slips does not settle in one (R5.28).
 
 use std::ops::RangeInclusive;
 
@@ -13,7 +13,7 @@ const AVERAGED_S: f64 = 0.008;
 const AFTER_S: f64 = 0.3;
 const AFTER_DEG: f64 = 14.0;
 
-/// Swings that are there before a crossing, too, are not its own: they are counted on as long a way, but
+/// Swings that also occur before a crossing are not its own: they are counted over the same distance, but
 /// not back to the crossing of the other axis.
 const BEFORE_DEG: f64 = 45.0;
 
@@ -26,10 +26,10 @@ const PART: f64 = 0.1;
 /// Nor swings below this, in µm.
 const LEAST_UM: f64 = 0.3;
 
-/// Standard deviations of the noise, averaged over eight samples, that a swing is larger than.
+/// Number of standard deviations of the noise, averaged over eight samples, that a swing must exceed.
 const OF_NOISE: f64 = 9.0 / 2.828;
 
-/// The largest swing of an axis that sticks and slips, in µm, of paths with this noise.
+/// The largest swing of an axis that sticks and slips, in µm, for paths with this noise.
 pub(super) fn stick_slip(
     paths: &[(Direction, &RadialProfile)],
     axis: PlaneAxis,

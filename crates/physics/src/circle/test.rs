@@ -6,7 +6,7 @@ use super::reference::Circle;
 use crate::current::Reading;
 use crate::simulation::{FrictionModel, Plant};
 
-/// One plant, one circle, and what compensates the friction of each axis.
+/// One plant, one circle, and the compensation of friction on each axis.
 #[derive(Debug, Clone)]
 pub struct CircularTest {
     /// The commanded circle.
@@ -15,7 +15,7 @@ pub struct CircularTest {
     pub plant: Plant,
     /// Friction model.
     pub model: FrictionModel,
-    /// Compensation of friction on X and Y, where it is on.
+    /// Compensation of friction on X and Y, if it is on.
     pub compensation: [Option<Method>; 2],
     /// Reading of the documents.
     pub reading: Reading,
@@ -31,7 +31,7 @@ impl CircularTest {
         }
     }
 
-    /// Whether it is stiction that is compensated, and not friction by an additive current.
+    /// Whether stiction is compensated, and not friction by an additive current.
     pub fn is_stiction(&self) -> bool {
         let mut axes = self.compensation.iter().flatten();
         axes.any(|axis| axis.stiction().is_some())

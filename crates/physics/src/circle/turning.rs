@@ -1,4 +1,4 @@
-//! The direction in which a point of a circle lies.
+//! The direction of a point of a circle.
 
 /// Cosine and sine of an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -26,7 +26,7 @@ pub struct Waveform {
 }
 
 impl Waveform {
-    /// The reversals of an axis on a recorded turn, where it is largest and where it is smallest; `None` where
+    /// The reversals of an axis on a recorded turn, at its largest and at its smallest position; `None` if
     /// the turn has no glitches or no times.
     pub(in crate::circle) fn reversals(
         axis: PlaneAxis,
@@ -40,7 +40,7 @@ impl Waveform {
         })
     }
 
-    /// The reversals at the four crossings of a recorded turn; `None` where it has no glitches or no times.
+    /// The reversals at the four crossings of a recorded turn; `None` if it has no glitches or no times.
     pub(in crate::circle) fn at_crossings(
         profile: &RadialProfile,
         direction: Direction,
@@ -54,7 +54,7 @@ impl Waveform {
     }
 
     /// Samples points, ascending times since the reversal in s with deviations in m: each sample is the mean over
-    /// 8 ms, or lies on the straight line where points are farther apart.
+    /// 8 ms, or is on the straight line if points are farther apart.
     pub(in crate::circle) fn sampled(points: &[(f64, f64)]) -> Self {
         let [Some(begin), Some(end)] = [points.first(), points.last()] else {
             return Self::default();
@@ -108,7 +108,7 @@ impl Waveform {
         (ends[1] - ends[0]).max(0.0)
     }
 
-    /// The same with a change that acts on those samples that it has.
+    /// Returns the waveform with a change added to the samples that the change has.
     pub(in crate::circle) fn changed(&self, change: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
@@ -117,7 +117,7 @@ impl Waveform {
         }
     }
 
-    /// The difference to another one on the samples of this one.
+    /// The difference from another one on the samples of this one.
     pub(in crate::circle) fn less(&self, other: &Self) -> Self {
         let numbers = self.first..self.end();
         Self {
@@ -126,7 +126,7 @@ impl Waveform {
         }
     }
 
-    /// The samples that another one has, too.
+    /// The samples that another one also has.
     pub(in crate::circle) fn within(&self, other: &Self) -> Self {
         Self::mean(&[
             self,
@@ -143,7 +143,7 @@ impl Waveform {
         self
     }
 
-    /// The same less the straight line through both ends.
+    /// Returns the waveform less the straight line through both ends.
     pub(in crate::circle) fn levelled(mut self) -> Self {
         let ends = ENDS.min(self.um.len() / 2).max(1);
         if self.um.len() <= ends {

@@ -19,7 +19,7 @@ const SIDE_DEG: i32 = 20;
 /// From one crossing to the next, in degrees.
 const QUARTER_DEG: i32 = 90;
 
-/// The fastest turning in degrees per second at which twice the window ends before the next
+/// The fastest angular velocity in degrees per second at which twice the window ends before the next
 /// crossing.
 const FASTEST_DEG_PER_S: f64 = 45.0 / SETTLING_S;
 
@@ -30,8 +30,8 @@ pub(super) struct CrossingWindow {
 }
 
 impl CrossingWindow {
-    /// The window of a path that takes so many seconds a turn; ±8° where that is not known. `None`
-    /// where it would reach the next crossing.
+    /// The window of a path with a number of seconds per turn; ±8° if that is not known. `None`
+    /// if it would reach the next crossing.
     pub(super) fn of(turn_s: Option<f64>) -> Option<Self> {
         let turning = turn_s.map_or(0.0, |turn_s| 360.0 / turn_s);
         if turning > FASTEST_DEG_PER_S * (1.0 + 1e-9) {
@@ -58,15 +58,15 @@ impl CrossingWindow {
         self.after..=(2 * self.after).max(SIDE_DEG * PER_DEGREE)
     }
 
-    /// Returns the window in which no peak is left: the second half of the way to the next
+    /// Returns the window in which no peak is left: the second half of the distance to the next
     /// crossing.
     pub(super) fn quiet(self) -> RangeInclusive<i32> {
         let half = QUARTER_DEG * PER_DEGREE / 2;
         self.after.max(half)..=(QUARTER_DEG - BEFORE_DEG) * PER_DEGREE
     }
 
-    /// Half-way from a crossing to where nothing is left of a peak: a peak that is still there
-    /// leaves something.
+    /// The range half-way from a crossing to where nothing is left of a peak: a peak that has not decayed
+    /// leaves something there.
     pub(super) fn decaying(self) -> RangeInclusive<i32> {
         let half = self.quiet().start() / 2;
         half - PER_DEGREE..=half + PER_DEGREE

@@ -2,10 +2,10 @@
 
 use super::profile::{ProfilePoint, RadialProfile};
 
-/// Rounds of the exchange at most; a handful is needed.
+/// Maximum number of rounds of the exchange; a handful is needed.
 const ROUNDS: usize = 60;
 
-/// A zone whose width is known to this many metres is good enough: a millionth of a µm.
+/// A zone whose width is known to this many metres is accurate enough: a millionth of a µm.
 const TOLERANCE: f64 = 1e-12;
 
 /// Steps of each nested search.

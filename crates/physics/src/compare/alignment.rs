@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::contour::BlockDeviation;
 
-/// A block of each version; `None` where it is in the other one only.
+/// A block of each version; `None` if it is only in the other one.
 pub(super) type AlignedBlocks = (Option<usize>, Option<usize>);
 
 /// Key by which two blocks are the same: the file, unless it is that of the program, and the
@@ -15,9 +15,9 @@ type BlockIdentity<'a> = (Option<&'a str>, Result<i64, &'a str>);
 /// Positions of a block that is the same in both versions.
 type Anchor = (usize, usize);
 
-/// Aligns the blocks of two versions in the order of the new one. Blocks that are only once in
+/// Aligns the blocks of two versions in the order of the new one. Blocks that occur only once in
 /// each version hold the others in their places; between them blocks are the same by their
-/// identity, and as many that are left in both versions were changed.
+/// identity, and if equally many are left in both versions, these were changed.
 pub(super) fn align(old: &[BlockDeviation], new: &[BlockDeviation]) -> Vec<AlignedBlocks> {
     let identities = [old, new].map(|blocks| {
         let program = blocks.first().map(|block| &block.file);
@@ -50,7 +50,7 @@ fn identity<'a>(block: &'a BlockDeviation, program: Option<&str>) -> BlockIdenti
     (file, block.number.ok_or(&block.text))
 }
 
-/// The blocks that are once in each version, as many as keep their order.
+/// The blocks that occur once in each version, as many as keep their order.
 fn anchors(old: &[BlockIdentity<'_>], new: &[BlockIdentity<'_>]) -> Vec<Anchor> {
     let old_places = once(old);
     let new_places = once(new);
@@ -96,7 +96,7 @@ fn longest_in_order(pairs: &[Anchor]) -> Vec<Anchor> {
     series
 }
 
-/// Aligns what stands between two anchors.
+/// Aligns the blocks between two anchors.
 fn between(
     (old, old_range): (&[BlockIdentity<'_>], Range<usize>),
     (new, new_range): (&[BlockIdentity<'_>], Range<usize>),
@@ -156,7 +156,7 @@ mod tests {
             aligned(&["N10 X1", "N20 X2"], &["N10 X1", "N15 Y1", "N20 X3"]),
             [both(0, 0), (None, Some(1)), both(1, 2)]
         );
-        // Without numbers a repeated text is told by what stands around it.
+        // Without numbers a repeated text is identified by its neighbours.
         assert_eq!(
             aligned(
                 &["A", "X1", "B", "X1", "C"],
@@ -171,7 +171,7 @@ mod tests {
                 both(4, 5)
             ]
         );
-        // A changed text stands where the old one stood.
+        // A changed text takes the place of the old one.
         assert_eq!(
             aligned(&["A", "X1 F100", "B"], &["A", "X1 F200", "B"]),
             [both(0, 0), both(1, 1), both(2, 2)]

@@ -26,7 +26,7 @@ pub enum PairedSwitch {
     Both {
         /// The switch of the old version.
         old: Switch,
-        /// The same of the new one, perhaps on another line.
+        /// The switch of the new one, perhaps on another line.
         new: Switch,
     },
     /// Only one version switches.
@@ -42,7 +42,7 @@ frictcomp::words! {
         Same = "same",
         /// A block switches in one version and not in the other.
         Different = "different",
-        /// At least one version is not known as a whole, whatever differs in the part that is.
+        /// At least one version is not known as a whole, whatever differs in the known part.
         NotComparable = "not-comparable",
     }
 }

@@ -34,12 +34,12 @@ pub struct BlockChange {
     pub block: BlockDeviation,
     /// Its place and deviation there.
     pub new: WorstPlace,
-    /// The line in the old version and its deviation there in µm, where that has the block.
+    /// The line in the old version and its deviation there in µm, if that version has the block.
     pub old: Option<(u32, f64)>,
 }
 
 impl BlockChange {
-    /// By how much the new version deviates more there, in µm.
+    /// The additional deviation of the new version there, in µm.
     pub fn more_um(&self) -> f64 {
         self.new.deviation_um - self.old.map_or(0.0, |(_, um)| um)
     }
@@ -68,8 +68,8 @@ impl BlockChange {
     }
 }
 
-/// Returns the deviation of the old version at a stretch of a block, or next to it. Where the block
-/// is as long in both versions, its stretches are.
+/// Returns the deviation of the old version at a stretch of a block, or next to it. If the block
+/// has the same length in both versions, so have its stretches.
 fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
     #[allow(clippy::float_cmp)] // powers of two
     let is_as_long = old.stretch_mm == new.stretch_mm;
@@ -90,7 +90,7 @@ frictcomp::words! {
         NoMore = "no-more",
         /// A block of the new version deviates more.
         More = "more",
-        /// A contour is not known as a whole, whatever is more in the part that is.
+        /// A contour is not known as a whole, whatever exceeds it in the known part.
         NotComparable = "not-comparable",
     }
 }
@@ -141,7 +141,7 @@ impl ContourComparison {
         }
     }
 
-    /// The blocks of the new version that deviate more, those first that do so most.
+    /// The blocks of the new version that deviate more, those with the largest difference first.
     pub fn more(&self) -> &[BlockChange] {
         &self.more
     }

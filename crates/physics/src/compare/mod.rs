@@ -1,8 +1,8 @@
-//! Two versions of a program, compared by what they switch.
+//! Two versions of a program, compared by their switches.
 //!
-//! A [`Version`] takes the records of a session that runs one version; a [`VersionComparison`] says
-//! which blocks switch in one version and not in the other, and what keeps the versions from being
-//! compared as a whole. Lines that only moved make no difference. A [`ContourComparison`] says where
+//! A [`Version`] takes the records of a session that runs one version; a [`VersionComparison`] lists
+//! the blocks that switch in one version and not in the other, and the obstacles to a comparison of
+//! the whole versions. Lines that only moved make no difference. A [`ContourComparison`] shows where
 //! the contour of the new version deviates more.
 //!
 //! ```

@@ -5,13 +5,13 @@ use std::fmt;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 
-/// Obstacle to a comparison of the whole version, with its place: what follows is not known.
+/// Obstacle to a comparison of the whole version, with its place: the rest is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Obstacle {
     /// Path of the file, as it is shown.
     pub file: String,
-    /// The line, from 1, where it is known.
+    /// The line, from 1, if it is known.
     pub line: Option<u32>,
     /// Reason of the obstacle.
     pub reason: Reason,
@@ -69,7 +69,7 @@ impl Obstacle {
         })
     }
 
-    /// Returns the obstacle of a message by itself.
+    /// Returns the obstacle of a single message.
     pub(super) fn of(said: &Diagnostic) -> Option<Self> {
         match said.code {
             Code::Fc408 => Some(Self::at(said, Reason::Undescribed)),

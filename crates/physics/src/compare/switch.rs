@@ -19,11 +19,11 @@ pub struct Switch {
     pub to: State,
     /// The file that holds the block.
     pub file: String,
-    /// Whether that is one that the program calls.
+    /// Whether that is a file that the program calls.
     pub is_called: bool,
     /// The line on which the block starts, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
     /// The source lines of the block joined by `\n`.
     pub text: String,
@@ -56,7 +56,7 @@ impl Switch {
         }
     }
 
-    /// A block is known by its number, one without a number by its text.
+    /// A block is identified by its number, or by its text if it has none.
     pub(super) fn identity(&self) -> SwitchIdentity<'_> {
         SwitchIdentity {
             block: self.number.ok_or(&self.text),
@@ -67,7 +67,7 @@ impl Switch {
         }
     }
 
-    /// The line of the block, with its file where the program calls that (R17.4).
+    /// The line of the block, with its file if the program calls that (R17.4).
     pub fn place(&self) -> String {
         if self.is_called {
             format!("{}:{}", self.file, self.line)

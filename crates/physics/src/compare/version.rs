@@ -1,4 +1,4 @@
-//! One version of a program: what it switches, and where that ends to be known.
+//! One version of a program: its switches, and where they cease to be known.
 
 use std::ops::ControlFlow;
 
@@ -13,7 +13,7 @@ use frictcomp::timeline::{EndedBy, Record, Row, Sink};
 pub struct Version {
     kinds: KindSet,
     pub(super) switches: Vec<Switch>,
-    /// An error or a bound of which the end will show whether it stopped the program.
+    /// An error or a bound; the end shows whether it stopped the program.
     candidate: Option<Obstacle>,
     pub(super) obstacle: Option<Obstacle>,
     /// The file of the program.
@@ -21,7 +21,7 @@ pub struct Version {
 }
 
 impl Version {
-    /// A version of which these kinds count.
+    /// Creates a version for which these kinds count.
     pub fn new(kinds: KindSet) -> Self {
         Self {
             kinds,
@@ -38,7 +38,7 @@ impl Version {
                 continue;
             }
             let switch = Switch::new(row, *change, &self.file);
-            // On some ways only, the other version may differ in which.
+            // On some ways only: the other version may differ in them.
             if change.to == State::Unknown || row.branch.is_some() {
                 self.obstacle.get_or_insert_with(|| Obstacle {
                     file: switch.file.clone(),
@@ -54,13 +54,13 @@ impl Version {
         row.diagnostics.iter().for_each(|said| self.judge(said));
     }
 
-    /// The program switches on a machine that is not described, which the user may have silenced the
-    /// message about.
+    /// Notes that the program switches on a machine that is not described; the user may have silenced the
+    /// message about it.
     pub fn rests_on_no_machine(&mut self) {
         self.hinder(Reason::Undescribed);
     }
 
-    /// Something keeps the whole program from being compared, unless a block of it does.
+    /// Notes an obstacle to a comparison of the whole program, unless there is one for a block of it.
     fn hinder(&mut self, reason: Reason) {
         let file = &self.file;
         self.obstacle.get_or_insert_with(|| Obstacle {
@@ -70,7 +70,7 @@ impl Version {
         });
     }
 
-    /// Looks at a message for what keeps the version from being compared.
+    /// Examines a message for an obstacle to a comparison of the version.
     fn judge(&mut self, said: &Diagnostic) {
         self.candidate = self.candidate.take().or_else(|| Obstacle::stop(said));
         self.obstacle = self.obstacle.take().or_else(|| Obstacle::of(said));

@@ -14,7 +14,7 @@ use frictcomp::lists::{AxisType, FrictionList};
 use frictcomp::machine::{Machine, Parameterisation};
 use frictcomp::timeline::{Record, Sink};
 
-/// Takes the records of a session, which must say what blocks move, and keeps the axes that do.
+/// Takes the records of a session, which must include the motions of blocks, and keeps the axes that move.
 #[derive(Debug, Clone, Default)]
 pub struct MovingAxes(BTreeSet<usize>);
 
@@ -29,7 +29,7 @@ impl Sink for MovingAxes {
     }
 }
 
-/// Why there is no contour.
+/// Why a contour cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoContour {
@@ -37,7 +37,7 @@ pub enum NoContour {
     #[error("the machine has no axis `{}`", .0.name)]
     NoAxis(UnknownName),
     /// A rotary axis in the plane.
-    #[error("axis `{0}` is no linear axis, a plane has two of them")]
+    #[error("axis `{0}` is not a linear axis, and a plane has two of them")]
     NotLinear(String),
     /// The same axis twice.
     #[error("a plane has two axes, and `{0}` is named twice")]
@@ -62,7 +62,7 @@ impl MovingAxes {
     /// value lists by axis, which take the place of the machine's.
     ///
     /// # Errors
-    /// The two names are not those of a plane, or the program moves too many axes.
+    /// The two names do not make a plane, or the program moves too many axes.
     pub fn driven(
         &self,
         machine: &Machine,
@@ -125,7 +125,7 @@ impl MovingAxes {
 }
 
 /// Gives a machine the value lists of the axes, as if the control had accepted them. A list of the
-/// machine that the control switches off or rejects stays what it is, unless another one was given.
+/// machine that the control switches off or rejects is kept, unless another one was given.
 pub fn parameterise(machine: &mut Machine, axes: &[ContourAxis]) {
     for axis in axes {
         let own = &mut machine.axes[axis.axis.get()].friction;

@@ -8,13 +8,13 @@ use super::reversals::{ContourReversal, GlitchFigure};
 use crate::motion::Movement;
 use frictcomp::timeline::Row;
 
-/// A block has no more stretches: where it is longer they are longer, too.
+/// Maximum number of stretches of a block: on a longer block they are longer.
 const MOST_STRETCHES: usize = 64;
 
 /// Reversals of a block that are kept one by one.
 const MOST_REVERSALS: usize = 8;
 
-/// A block that moves axes, and how far the axes are from its path while it is cut.
+/// A block that moves axes, and their deviation from its path while it is cut.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BlockDeviation {
@@ -22,11 +22,11 @@ pub struct BlockDeviation {
     pub file: Arc<str>,
     /// The line of the block, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
     /// The first source line of the block, without blanks around it.
     pub text: String,
-    /// The worst place of each stretch of its path; none where it is never cut: a rapid motion, or
+    /// The worst place of each stretch of its path; none if it is never cut: a rapid motion, or
     /// one that is left out.
     pub stretches: Vec<WorstPlace>,
     /// Length of the stretches, in mm.
@@ -43,7 +43,7 @@ pub struct BlockDeviation {
 pub struct BlockReversal {
     /// Name of the axis.
     pub axis: String,
-    /// The glitch as programmed in µm; 0 where there is no figure.
+    /// The glitch as programmed in µm; 0 if it has no figure.
     pub glitch_um: f64,
     /// Basis of the glitch.
     pub figure: GlitchFigure,
@@ -70,13 +70,13 @@ impl WorstPlace {
 }
 
 impl BlockDeviation {
-    /// The largest deviation in µm, 0 where the block is never cut.
+    /// The largest deviation in µm, 0 if the block is never cut.
     pub fn max_um(&self) -> f64 {
         let stretches = self.stretches.iter().map(|it| it.deviation_um);
         stretches.fold(0.0, f64::max)
     }
 
-    /// Takes a deviation at so many mm of the path of the block.
+    /// Takes a deviation after a distance in mm along the path of the block.
     fn push(&mut self, gone_mm: f64, found: WorstPlace) {
         while gone_mm >= self.stretch_mm * as_float(MOST_STRETCHES) {
             self.stretch_mm *= 2.0;
@@ -92,7 +92,7 @@ impl BlockDeviation {
         if let Some(stretch) = self.stretches.get_mut(at) {
             *stretch = stretch.worse(found);
         } else {
-            // What was passed within a cycle has the deviation that was found after it.
+            // Stretches passed within a cycle have the deviation that was found after it.
             self.stretches.resize(at + 1, found);
         }
     }
@@ -103,8 +103,8 @@ fn as_float(count: usize) -> f64 {
     count as f64
 }
 
-/// Keeps how far the axes are from the path of each block, in the order in which the blocks are
-/// executed first. A block that is executed several times has the worst of all.
+/// Keeps the deviation of the axes from the path of each block, in the order in which the blocks are
+/// first executed. A block that is executed several times has the worst of all.
 #[derive(Debug, Clone, Default)]
 pub struct BlockDeviations {
     blocks: Vec<BlockDeviation>,

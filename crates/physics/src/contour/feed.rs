@@ -1,4 +1,4 @@
-//! The feed that is reached while cutting, against the one that is programmed (R11.23).
+//! The feed reached while cutting, compared with the programmed one (R11.23).
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use crate::motion::{Cause, Movement, Sample, TraceSink};
 /// The share of F below which a feed counts as not reached.
 const REACHED: f64 = 0.8;
 
-/// The share of the cutting time that may run below that because of assumed limits.
+/// The share of the cutting time that may be slower because of assumed limits.
 const TOLERATED: f64 = 0.1;
 
 const MM_PER_S: f64 = 60.0;
@@ -18,7 +18,7 @@ const MM_PER_S: f64 = 60.0;
 pub struct FeedReached {
     /// Cycles of feed moves.
     cutting: f64,
-    /// Those of them below the share of F.
+    /// The number of them below the share of F.
     slow: f64,
     /// The length of the path, in mm/s times cycles.
     way: f64,
@@ -38,13 +38,13 @@ impl FeedReached {
         self.at_feed += reached / programmed;
     }
 
-    /// The programmed feed in mm/min: the path at F over the time that this takes; of several F
-    /// their mean over the path. `None` where nothing is cut.
+    /// The programmed feed in mm/min: the path at F over its time; for several F their mean over the
+    /// path. `None` if nothing is cut.
     pub fn programmed_mm_per_min(&self) -> Option<f64> {
         (self.at_feed > 0.0).then(|| self.way / self.at_feed * MM_PER_S)
     }
 
-    /// The reached feed in mm/min: the path over its time. `None` where nothing is cut.
+    /// The reached feed in mm/min: the path over its time. `None` if nothing is cut.
     pub fn reached_mm_per_min(&self) -> Option<f64> {
         (self.cutting > 0.0).then(|| self.way / self.cutting * MM_PER_S)
     }
@@ -62,8 +62,8 @@ impl FeedReached {
         }
     }
 
-    /// The share of the cutting time below 80 % of F that is not so without the assumed limits.
-    /// Where F is a share of them (G194), that is all of it.
+    /// The share of the cutting time that is below 80 % of F only because of the assumed limits.
+    /// If F is a share of them (G194), that is all of it.
     pub(super) fn slow_share_against(&self, unlimited: &Self) -> f64 {
         if unlimited.at_feed < REACHED * self.at_feed {
             return 1.0;
@@ -72,12 +72,12 @@ impl FeedReached {
     }
 }
 
-/// Whether so large a share of the cutting time leaves the contour without a verdict.
+/// Whether this share of the cutting time is too large for a verdict on the contour.
 pub(super) fn is_too_slow(share: f64) -> bool {
     share > TOLERATED
 }
 
-/// Takes the feed from a trace, and nothing else.
+/// Takes only the feed from a trace.
 #[derive(Debug, Default)]
 pub(super) struct FeedOnly(pub(super) FeedReached);
 

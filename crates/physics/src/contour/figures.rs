@@ -9,9 +9,9 @@ use frictcomp::comp::State;
 /// Deviations of a run from the path while it was cutting (R11.3).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Deviations {
-    /// The outermost deviation in µm: `F_max` on a circle; negative where the whole path is inside.
+    /// The outermost deviation in µm: `F_max` on a circle; negative if the whole path is inside.
     pub outermost_um: f64,
-    /// The innermost deviation in µm: `F_min` on a circle; positive where the whole path is outside.
+    /// The innermost deviation in µm: `F_min` on a circle; positive if the whole path is outside.
     pub innermost_um: f64,
     /// The block with the outermost deviation.
     pub outermost_at: Option<Arc<Cause>>,
@@ -65,18 +65,18 @@ impl Deviations {
 }
 
 /// Cost of missing compensation (R11.24): the largest additional deviation of the path as
-/// programmed against the one with all of it on.
+/// programmed compared with the one with all of it on.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Due {
-    /// The difference in µm, 0 where nothing is missing.
+    /// The difference in µm, 0 if nothing is missing.
     pub um: f64,
     /// The block that drives there.
     pub at: Option<Arc<Cause>>,
 }
 
 impl Due {
-    /// Takes how far the axes are from a place of the path as programmed, and with all of it on.
+    /// Takes the distances of the axes from a place of the path as programmed, and with all of it on.
     pub(super) fn push(&mut self, [programmed, all_on]: [f64; 2], cause: &Arc<Cause>) {
         let um = programmed.abs() - all_on.abs();
         if um > self.um {
@@ -100,7 +100,7 @@ pub struct ContourSummary {
     pub unmeasured: u64,
     /// Reversals in feed moves without active compensation.
     pub uncompensated: u64,
-    /// Of those the one at which compensation would gain the most.
+    /// The one of them at which compensation would gain the most.
     pub dearest: Option<ContourReversal>,
     /// The reversal in a feed move with the largest glitch.
     pub worst: Option<ContourReversal>,

@@ -24,7 +24,7 @@ pub struct ListFit {
 }
 
 impl ListFit {
-    /// The added force in shares of the friction; `None` without friction.
+    /// The added force as a share of the friction; `None` without friction.
     pub fn share(&self) -> Option<f64> {
         (self.friction_n > 0.0).then(|| self.added_n / self.friction_n)
     }
@@ -36,7 +36,7 @@ impl ListFit {
 }
 
 impl ContourOptions {
-    /// Compares the value list of an axis with its drive. `None` where the list is made from the
+    /// Compares the value list of an axis with its drive. `None` if the list is made from the
     /// drive.
     pub fn list_fit(&self, axis: &ContourAxis) -> Option<ListFit> {
         if axis.source == ListSource::Plant {

@@ -1,4 +1,4 @@
-//! The glitch at a reversal (R11.26): what is left of the deviation in the direction of the axis, less
+//! The glitch at a reversal (R11.26): the deviation in the direction of the axis, less
 //! a straight line through both sides.
 
 use std::collections::VecDeque;
@@ -10,13 +10,13 @@ use crate::motion::Movement;
 
 const UM_PER_MM: f64 = 1000.0;
 
-/// The window lasts at least so long before and after, in s.
+/// Minimum length of the window before and after, in s.
 const WINDOW_S: f64 = 0.3;
-/// On a curve it reaches so far to either side, in rad.
+/// Extent to either side on a curve, in rad.
 const WINDOW_TURN: f64 = 8.0 * DEGREE;
-/// The sides reach so far, in rad.
+/// Extent of the sides, in rad.
 const SIDE_TURN: f64 = 20.0 * DEGREE;
-/// The window ends where the path has turned by so much, in rad.
+/// The window ends where the path has turned by this angle, in rad.
 const MOST_TURN: f64 = 30.0 * DEGREE;
 /// A path that turns by less in the time of a window is straight, in rad.
 const STRAIGHT: f64 = 0.1 * DEGREE;
@@ -31,11 +31,11 @@ const MOST_MOMENTS: usize = 20_000;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// Values of a cycle that matter here.
+/// Values of a cycle that are needed here.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CycleValues {
     time_s: f64,
-    /// By how much the path has turned up to here, in rad.
+    /// The angle by which the path has turned up to here, in rad.
     turned: f64,
     /// Deviation of each run from the path, normal to it.
     errors: [Places; 3],
@@ -106,7 +106,7 @@ pub(super) struct ReversalWindow {
     turned: f64,
     before: WindowSide,
     after: WindowSide,
-    /// The extremes are looked for in these cycles.
+    /// The extremes are searched for in these cycles.
     inside: Vec<(f64, [f64; 3])>,
     /// End of the window after the reversal.
     ended: Option<f64>,
@@ -114,7 +114,7 @@ pub(super) struct ReversalWindow {
     reach: f64,
 }
 
-/// Cycles beside the window.
+/// Cycles next to the window.
 type WindowSide = Vec<(f64, [f64; 3])>;
 
 impl ReversalWindow {
@@ -167,7 +167,7 @@ impl ReversalWindow {
         (moment.time_s - self.time_s, moment.errors.map(along))
     }
 
-    /// Takes the next cycle; `Break` where it ends.
+    /// Takes the next cycle; `Break` at the end of the window.
     pub(super) fn push(&mut self, moment: &CycleValues) -> ControlFlow<()> {
         if moment.breaks {
             return ControlFlow::Break(());
@@ -196,7 +196,7 @@ impl ReversalWindow {
         ControlFlow::Continue(())
     }
 
-    /// The glitch of each run in µm; `None` where the window is too short or a side is missing.
+    /// The glitch of each run in µm; `None` if the window is too short or a side is missing.
     pub(super) fn figure(&self) -> Option<[f64; 3]> {
         let end = self.ended?;
         if end < SHORTEST_S || self.before.len() < FEWEST || self.after.len() < FEWEST {
@@ -215,7 +215,7 @@ impl ReversalWindow {
         }))
     }
 
-    /// The straight line through both sides: at the reversal, and for each second.
+    /// The straight line through both sides: its value at the reversal, and its slope per second.
     fn line(&self, run: usize) -> (f64, f64) {
         let (mut count, mut sums) = (0.0, [0.0; 4]);
         for (at, values) in self.before.iter().chain(&self.after) {
@@ -233,7 +233,7 @@ impl ReversalWindow {
     }
 }
 
-/// Whether a path that has turned by so much in so many seconds is straight.
+/// Whether a path that has turned by this angle in this time is straight.
 fn is_straight(age: f64, turn: f64) -> bool {
     turn <= STRAIGHT * (age / WINDOW_S).max(1.0)
 }

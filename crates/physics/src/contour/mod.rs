@@ -1,8 +1,8 @@
-//! Where on the part compensation is missing (chapter 11 of the rules).
+//! Where compensation is missing on the part (chapter 11 of the rules).
 //!
 //! The path of an executed program is driven by simulated axes three times: with friction
 //! compensation as the program switches it, with all of it on, and with all of it off. A
-//! [`ProgramContour`] takes the records of a session, measures how far the axes are from the path,
+//! [`ProgramContour`] takes the records of a session, measures the distance of the axes from the path,
 //! and gives a [`ContourSink`] every reversal with the glitch that it leaves.
 //!
 //! Memory does not grow with the length of a program, except for what a sink keeps. Deviations are

@@ -27,7 +27,7 @@ impl fmt::Display for ContourObstacle {
         match self {
             Self::NotDriven => f.write_str("no motion could be driven"),
             Self::NothingCut => {
-                f.write_str("no feed move is driven, so that there is no contour to judge")
+                f.write_str("no feed move is driven, so there is no contour to judge")
             }
             Self::LeftOut(1) => {
                 f.write_str("1 motion is left out, whose start, end or feed is not known")

@@ -6,7 +6,7 @@ use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::comp::AxisIndex;
 use frictcomp::lists::FrictionList;
 
-/// More axes are not driven at once.
+/// Maximum number of axes that are driven at once.
 pub const MOST_AXES: usize = 8;
 
 /// Source of the value list of an axis.
@@ -56,12 +56,12 @@ pub struct ContourOptions {
     pub planner: PlannerOptions,
     /// The friction model.
     pub model: FrictionModel,
-    /// Reading of what the documents leave open.
+    /// Reading of the points that the documents leave open.
     pub reading: Reading,
 }
 
 impl ContourOptions {
-    /// Some axes with the usual planner, model and reading.
+    /// Creates the options for some axes, with the usual planner, model and reading.
     pub fn new(axes: Vec<ContourAxis>) -> Self {
         Self {
             axes,
@@ -71,17 +71,17 @@ impl ContourOptions {
         }
     }
 
-    /// The same with another planner.
+    /// Sets the planner.
     pub fn with_planner(self, planner: PlannerOptions) -> Self {
         Self { planner, ..self }
     }
 
-    /// The same with another friction model.
+    /// Sets the friction model.
     pub fn with_model(self, model: FrictionModel) -> Self {
         Self { model, ..self }
     }
 
-    /// The same with another reading.
+    /// Sets the reading.
     pub fn with_reading(self, reading: Reading) -> Self {
         Self { reading, ..self }
     }

@@ -1,4 +1,4 @@
-//! The commanded path as points, and how far a place is from it (R11.3).
+//! The commanded path as points, and the distance of a place from it (R11.3).
 
 use std::collections::VecDeque;
 
@@ -10,21 +10,21 @@ pub(super) type Places = [f64; MOST_AXES];
 /// Points that are closer together are one, in mm.
 const SAME: f64 = 1e-7;
 
-/// Two steps in one direction differ by no more, in rad.
+/// Largest angle between two steps in one direction, in rad.
 const STRAIGHT: f64 = 1e-9;
 
-/// A curve turns by no more from point to point than an angle with this cosine; anything else is a
+/// The cosine of the largest angle by which a curve turns from point to point; anything else is a
 /// corner.
 const CORNER_COSINE: f64 = 0.955;
 
 #[derive(Debug, Clone, Copy)]
 struct PathPoint {
     place: Places,
-    /// By how much the direction of the path changes here with the distance, by axis.
+    /// The change of the direction of the path with the distance here, by axis.
     bend: Places,
     /// Whether the last turn was to the left: 1, or to the right: -1.
     side: f64,
-    /// Whether the path has a corner here, in whatever plane.
+    /// Whether the path has a corner here, in any plane.
     is_corner: bool,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Distance {
     pub(super) space: f64,
 }
 
-/// The commanded path, as far as it matters.
+/// The part of the commanded path that is needed.
 #[derive(Debug, Clone)]
 pub(super) struct CommandedPath {
     points: VecDeque<PathPoint>,
@@ -60,7 +60,7 @@ fn dot(one: &Places, other: &Places) -> f64 {
 }
 
 impl CommandedPath {
-    /// A path that places follow at most so many cycles later.
+    /// Creates a path that places follow within this many cycles.
     pub(super) fn new(back: u64) -> Self {
         Self {
             points: VecDeque::new(),
@@ -88,7 +88,7 @@ impl CommandedPath {
         self.points.get(usize::try_from(position).ok()?)
     }
 
-    /// Goes on to a place, and returns the number of the point that stands for it.
+    /// Moves on to a place, and returns the number of the point that represents it.
     pub(super) fn push(&mut self, place: Places) -> u64 {
         let Some(last) = self.points.back() else {
             self.points.push_back(PathPoint {
@@ -143,7 +143,7 @@ impl CommandedPath {
     }
 
     /// The distance of a place from the path near the point that was commanded. `near` is the number
-    /// of the nearest point a cycle before, and becomes that of now.
+    /// of the nearest point a cycle before, and becomes the current one.
     pub(super) fn distance(&self, place: &Places, (near, commanded): (&mut u64, u64)) -> Distance {
         let lowest = self.first;
         let highest = self.last().saturating_sub(1);
@@ -206,7 +206,7 @@ impl CommandedPath {
             return Distance::default();
         };
         let step = minus(&to.place, &from.place);
-        // Where the path ends or turns back, a place beyond its end is no deviation from it.
+        // Where the path ends or turns back, a place beyond its end is not a deviation from it.
         let square = dot(&step, &step);
         let along = dot(&foot.error, &step) / square;
         let mut normal: Places = std::array::from_fn(|axis| foot.error[axis] - along * step[axis]);

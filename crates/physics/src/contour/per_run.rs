@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Something of each of the three runs.
+/// A value for each of the three runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PerRun<T> {

@@ -40,7 +40,7 @@ const AHEAD: usize = 16;
 pub struct ContourPoint<'a> {
     /// The time of the trace.
     pub time_s: f64,
-    /// The block that is executed, and what holds in it.
+    /// The block that is executed, and the conditions during it.
     pub cause: &'a Arc<Cause>,
     /// Commanded positions of the axes, in mm; those of the plane first.
     pub positions: &'a [f64],
@@ -48,7 +48,7 @@ pub struct ContourPoint<'a> {
     pub deviation_um: PerRun<f64>,
     /// The distance from the path in space (R11.27).
     pub space_um: PerRun<f64>,
-    /// From the nearest point of the path to where the axes of the plane are, as programmed, in mm.
+    /// From the nearest point of the path to the position of the axes of the plane, as programmed, in mm.
     pub error_mm: [f64; 2],
     /// Whether it counts: in a feed move, with positions of the machine.
     pub counts: bool,
@@ -71,7 +71,7 @@ pub trait ContourSink {
         let _ = reversal;
     }
 
-    /// Takes a place where compensation of an axis is switched while it moves on (R1.57): `state` is the
+    /// Takes a place where compensation of an axis is switched during its motion (R1.57): `state` is the
     /// new one, and the block the first one with it.
     fn switch(&mut self, switch: &ContourReversal) {
         let _ = switch;
@@ -83,11 +83,11 @@ pub trait ContourSink {
     }
 }
 
-/// Makes the contour of the rows of a session, which must say what their blocks move
+/// Makes the contour from the rows of a session, which must include the motions of blocks
 /// ([`Motions::Taken`](frictcomp::interpreter::Motions::Taken)).
 pub struct ProgramContour<S> {
     trace: ProgramTrace<Tracer<S>>,
-    /// The same path without the assumed limits of the axes, where there are any.
+    /// The same path without the assumed limits of the axes, if there are any.
     unlimited: Option<ProgramTrace<FeedOnly>>,
     assumed: Vec<(AxisIndex, AssumedLimits)>,
     moving: MovingAxes,
@@ -110,7 +110,7 @@ struct Cycle {
     added: [Places; 2],
 }
 
-/// The three runs and what is measured of them.
+/// The three runs and their measured values.
 struct Tracer<S> {
     options: ContourOptions,
     path: CommandedPath,
@@ -186,7 +186,7 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.sink_ref()
     }
 
-    /// The session is over: the rest of the trace is driven.
+    /// Ends the session: the rest of the trace is driven.
     pub fn finish(&mut self) {
         if self.trace.finish().is_continue() {
             let _ = self.trace.sink().drain();
@@ -216,8 +216,8 @@ impl<S: ContourSink> ProgramContour<S> {
         &self.tracer().feed
     }
 
-    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): that
-    /// would not, if the axes that move had no limits but those of the configuration.
+    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): it
+    /// would not if the moving axes had no limits other than those of the configuration.
     pub fn slow_share_by_assumed(&self) -> f64 {
         let unlimited = self.unlimited.as_ref().map(ProgramTrace::sink_ref);
         unlimited.map_or(0.0, |FeedOnly(unlimited)| {
@@ -225,7 +225,7 @@ impl<S: ContourSink> ProgramContour<S> {
         })
     }
 
-    /// The limits that are assumed of the axes that the program moves.
+    /// The assumed limits of the axes that the program moves.
     pub fn assumed_limits(&self) -> impl Iterator<Item = &AssumedLimits> {
         let assumed = self.assumed.iter();
         let moving = assumed.filter(|(axis, _)| self.moving.contains(*axis));
@@ -295,8 +295,8 @@ impl<S: ContourSink> ProgramContour<S> {
         seconds(cycles, self.tracer().options.planner.cycle_s)
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
-    /// follows there.
+    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
+    /// known.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
     }
@@ -306,8 +306,8 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.left_out()
     }
 
-    /// Returns the number of those that are not known to be rapid moves: they may deviate by
-    /// anything.
+    /// Returns the number of those that are not known to be rapid moves: their deviation may be of any
+    /// size.
     pub fn left_out_feed(&self) -> u64 {
         self.trace.left_out_feed()
     }
@@ -322,7 +322,7 @@ impl<S: ContourSink> ProgramContour<S> {
         &self.tracer().options
     }
 
-    /// The errors that the session reported, then what there is to say about the trace.
+    /// The errors that the session reported, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         self.trace.diagnostics()
     }
@@ -333,8 +333,8 @@ impl<S: ContourSink> ProgramContour<S> {
     }
 }
 
-/// Cycles by which a drive lags at most: what the feed forward leaves of the lag `v/Kv`, and 20 ms
-/// beside it for the loops and an overshoot.
+/// Largest lag of a drive in cycles: the part of the lag `v/Kv` that the feed forward leaves, plus 20 ms
+/// for the loops and an overshoot.
 fn lag_cycles(options: &ContourOptions) -> u64 {
     let lags = options.axes.iter().map(|axis| {
         let drive = &axis.drive;
@@ -427,7 +427,7 @@ impl<S: ContourSink> Tracer<S> {
         ControlFlow::Continue(())
     }
 
-    /// Drives what is left of the trace.
+    /// Drives the rest of the trace.
     fn drain(&mut self) -> ControlFlow<()> {
         while let (Some(programmed), Some(all_on)) = (self.programmed.pop(), self.all_on.pop()) {
             let Some(mut cycle) = self.waiting.pop_front() else {
@@ -547,7 +547,7 @@ fn widened(values: &[f64]) -> Places {
     places
 }
 
-/// The additive currents as they reach the drives, scaled by the control on their way (R7.8).
+/// The additive currents as they reach the drives, scaled by the control on the way (R7.8).
 fn units(samples: &[CurrentSample], axes: &[ContourAxis]) -> Places {
     let mut added = [0.0; MOST_AXES];
     for ((added, sample), axis) in added.iter_mut().zip(samples).zip(axes) {

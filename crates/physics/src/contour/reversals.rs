@@ -1,5 +1,5 @@
 //! Reversals of axes, each with the glitch that it leaves (R11.2, R11.26), and the places where
-//! compensation is switched while an axis moves on (R1.57).
+//! compensation is switched during the motion of an axis (R1.57).
 
 use std::sync::Arc;
 
@@ -10,14 +10,14 @@ use super::per_run::PerRun;
 use crate::motion::Movement;
 use frictcomp::comp::State;
 
-/// Greatest share of the motion for an axis that reverses: beyond it the path itself turns back.
+/// Greatest share of the motion of an axis that reverses: beyond it the path itself turns back.
 const ALONG: f64 = 0.99;
 
 /// Basis of the glitch at a reversal (R11.26).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum GlitchFigure {
-    /// None: a stop, a corner or the next reversal of the axis is too near.
+    /// None: a stop, a corner or the next reversal of the axis is too close.
     Missing,
     /// The axis moves along the path: nothing of it is normal to the path, and the glitch is 0.
     AlongPath,
@@ -35,7 +35,7 @@ pub struct ContourReversal {
     pub file: Arc<str>,
     /// The line of the block, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
     /// The executed block.
     pub seq: u64,
@@ -45,18 +45,18 @@ pub struct ContourReversal {
     pub positions: Vec<f64>,
     /// The path velocity in mm/min.
     pub feed_mm_per_min: f64,
-    /// The path velocity that the program asks for in mm/min; `None` in a rapid move.
+    /// The programmed path velocity in mm/min; `None` in a rapid move.
     pub programmed_mm_per_min: Option<f64>,
     /// The acceleration of the axis in mm/s².
     pub acceleration_mm_per_s2: f64,
     /// Rapid or feed.
     pub movement: Movement,
-    /// The friction compensation of the axis, as the program has it.
+    /// The friction compensation of the axis in the program.
     pub state: State,
     /// The additive current in drive units before the reversal, and at the end of its window.
     pub current_units: [f64; 2],
     /// Distance of the deviation in the direction of the axis, normal to the path, from the
-    /// straight line through both sides of the reversal, peak to peak in µm; 0 where there is no
+    /// straight line through both sides of the reversal, peak to peak in µm; 0 if it has no
     /// figure.
     pub glitch_um: PerRun<f64>,
     /// Basis of the glitch.
@@ -64,7 +64,7 @@ pub struct ContourReversal {
 }
 
 impl ContourReversal {
-    /// Returns the gain by compensation at it, in µm.
+    /// Returns the gain from compensation there, in µm.
     pub fn gain_um(&self) -> f64 {
         self.glitch_um.programmed - self.glitch_um.all_on
     }
@@ -80,7 +80,7 @@ impl ContourReversal {
 pub(super) enum WindowEvent {
     /// An axis reverses.
     Reversal,
-    /// Compensation of an axis is switched while it moves on.
+    /// Compensation of an axis is switched during its motion.
     Switch,
 }
 
@@ -89,7 +89,7 @@ struct Open {
     event: WindowEvent,
     reversal: ContourReversal,
     axis: usize,
-    /// `None` where the path turns back: nothing of the axis is normal to it.
+    /// `None` if the path turns back: nothing of the axis is normal to it.
     window: Option<ReversalWindow>,
 }
 
@@ -111,7 +111,7 @@ impl Open {
 pub(super) struct ReversalFinder {
     names: Vec<String>,
     cycle_s: f64,
-    /// The direction in which each axis moved last.
+    /// The last direction of each axis.
     directions: Vec<f64>,
     velocities: Vec<f64>,
     added: Vec<f64>,
@@ -135,7 +135,7 @@ impl ReversalFinder {
         }
     }
 
-    /// The trace begins again: no axis has a direction.
+    /// Restarts the trace: no axis has a direction.
     pub(super) fn restart(&mut self, mut take: impl FnMut((WindowEvent, ContourReversal))) {
         self.open.drain(..).for_each(|open| take(open.finish()));
         self.directions.fill(0.0);
@@ -186,7 +186,7 @@ impl ReversalFinder {
         self.friction = Some(Arc::clone(&measured.cause.friction));
     }
 
-    /// The axes whose compensation is switched in a feed move, in which they move on.
+    /// The axes whose compensation is switched during their motion in a feed move.
     fn switched(&self, measured: &MeasuredCycle<'_>) -> Vec<usize> {
         let now = &measured.cause.friction;
         let Some(before) = self.friction.as_ref().filter(|before| before != &now) else {

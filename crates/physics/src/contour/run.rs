@@ -6,7 +6,7 @@ use crate::simulation::{Drives, Setpoint};
 
 const MM_PER_M: f64 = 1000.0;
 
-/// A drive that is further from its commanded place is unstable, in mm.
+/// Distance in mm from its commanded place beyond which a drive is unstable.
 const LOST_MM: f64 = 100.0;
 
 /// The drives of one run.
@@ -19,7 +19,7 @@ pub(super) struct DrivenRun {
 }
 
 impl DrivenRun {
-    /// Drives that rest at a place.
+    /// Drives at rest at a place.
     pub(super) fn at_rest(options: &ContourOptions, place: &Places) -> Self {
         let settle = |(at, axis): (usize, &ContourAxis)| {
             let setpoint = Setpoint {
@@ -41,7 +41,7 @@ impl DrivenRun {
     }
 
     /// Drives a CNC cycle from one commanded place to the next with additive currents in units of
-    /// the drive. Returns where the loads are at its end, `None` where a drive is unstable.
+    /// the drive. Returns the positions of the loads at its end, `None` if a drive is unstable.
     pub(super) fn follow(
         &mut self,
         (from, to): (&Places, &Places),

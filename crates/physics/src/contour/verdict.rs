@@ -32,8 +32,8 @@ impl ContourLimits {
         self.deviation_um.is_some() || self.due_um.is_some()
     }
 
-    /// Returns the verdict on a contour with these obstacles; `None` where it can be judged and
-    /// there is no limit.
+    /// Returns the verdict on a contour with these obstacles; `None` if it can be judged and there is no
+    /// limit.
     pub fn verdict<S: ContourSink>(
         &self,
         contour: &ProgramContour<S>,

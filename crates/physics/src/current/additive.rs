@@ -64,12 +64,12 @@ pub struct AdditiveCurrent {
     /// Direction of the last motion: -1, 0 before the first, 1.
     direction: f64,
     last_position: Option<f64>,
-    /// Whether the axis stood still in the last cycle.
+    /// Whether the axis was at standstill in the last cycle.
     is_standing: bool,
     build_up: Option<BuildUp>,
     /// Raw values on their way through the dead time, the oldest first.
     line: VecDeque<f64>,
-    /// The last positions, where the build-up is postponed.
+    /// The last positions, if the build-up is postponed.
     positions: VecDeque<f64>,
     /// Factor of the output before it is sent to the drive.
     torque_scale: f64,
@@ -112,8 +112,8 @@ impl AdditiveCurrent {
         }
     }
 
-    /// The same for an axis whose torque is scaled on its way to the drive, by P-AXIS-00325 over
-    /// P-AXIS-00326 (R7.8). Only the output for the drive is scaled.
+    /// Scales the torque on its way to the drive, by P-AXIS-00325 over P-AXIS-00326 (R7.8). Only the output
+    /// for the drive is scaled.
     pub fn scaled(mut self, torque_scale: f64) -> Self {
         self.torque_scale = torque_scale;
         self
@@ -134,13 +134,13 @@ impl AdditiveCurrent {
         self.saturated
     }
 
-    /// In how many cycles so far the axis stood still and the readings of R4.6 differ: `hold` adds a
-    /// current there, `zero` adds nothing (C11).
+    /// The number of cycles so far in which the axis was at standstill and the readings of R4.6 differ:
+    /// `hold` adds a current there, `zero` adds nothing (C11).
     pub fn at_rest(&self) -> u64 {
         self.at_rest
     }
 
-    /// Becomes what `fresh` is, except that the outputs that were cut so far still count.
+    /// Replaces everything by `fresh`, except the count of outputs that were limited so far.
     pub(super) fn restart_as(&mut self, fresh: &Self) {
         let (saturated, at_rest) = (self.saturated, self.at_rest);
         self.clone_from(fresh);
@@ -185,7 +185,7 @@ impl AdditiveCurrent {
     }
 
     /// The current of the next cycle, whose direction ends after `reversal` more cycles: `r[k]` of
-    /// the rules, `None` where no reversal comes within the look-ahead.
+    /// the rules, `None` if there is no reversal within the look-ahead.
     pub(super) fn advance(
         &mut self,
         position: f64,
@@ -233,7 +233,7 @@ impl AdditiveCurrent {
 
     /// The currents of a whole trace of positions and velocities of the same length.
     pub fn trace(&mut self, positions: &[f64], velocities: &[f64]) -> Vec<Added> {
-        // The first cycle after the present one that moves the other way; searched once a reversal.
+        // The first cycle after the current one with the opposite direction; searched once per reversal.
         let mut turn = 0;
         let mut sought = 0.0;
         positions
@@ -337,7 +337,7 @@ impl AdditiveCurrent {
     fn rounded(&mut self, current: f64) -> i16 {
         let bounds = (f64::from(i16::MIN), f64::from(i16::MAX));
         let limited = current.clamp(bounds.0, bounds.1);
-        // A call of the mathematical library would cost more than all the rest.
+        // A call of the mathematical library would cost more than everything else.
         #[allow(clippy::cast_possible_truncation)] // clamped just above
         let whole = limited as i16;
         let rest = limited - f64::from(whole);

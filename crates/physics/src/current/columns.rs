@@ -2,7 +2,7 @@
 
 use super::additive::Switched;
 
-/// The columns of a recorded trace, a CNC cycle a row. Positions or velocities must be there.
+/// The columns of a recorded trace, one CNC cycle per row. Positions or velocities must exist.
 #[derive(Debug, Clone, Default)]
 pub struct TraceColumns {
     /// The time of each cycle.

@@ -1,4 +1,4 @@
-//! Rows of a recorded trace as CNC cycles: they are checked, or made into cycles.
+//! Rows of a recorded trace as CNC cycles: they are checked, or converted to cycles.
 
 use thiserror::Error;
 
@@ -7,16 +7,16 @@ use super::columns::TraceColumns;
 use crate::motion::{CycleError, check_cycle};
 use frictcomp::diagnostic::ReadableNumber;
 
-/// The cycle of a trace that says nothing about time.
+/// The cycle of a trace without times.
 const DEFAULT_CYCLE_S: f64 = 0.001;
 
-/// By which part of the cycle a step may differ from it.
+/// The part of the cycle by which a step may differ from it.
 const TOLERANCE: f64 = 0.01;
 
-/// A step that is so many cycles long is a gap.
+/// A step of this many cycles is a gap.
 const GAP: f64 = 1.5;
 
-/// More cycles are not made: eleven hours of 1 ms.
+/// Maximum number of cycles: eleven hours of 1 ms.
 const MAX_CYCLES: f64 = 40_000_000.0;
 
 /// Treatment of times that are not those of CNC cycles.
@@ -26,7 +26,7 @@ pub enum Resampling {
     /// They are refused.
     #[default]
     Refused,
-    /// Cycles are made of the rows, with straight lines between them.
+    /// Cycles are made from the rows, with straight lines between them.
     Done,
 }
 
@@ -93,7 +93,7 @@ pub enum CyclesError {
         /// The cycle.
         cycle_s: f64,
     },
-    /// A time that is no number.
+    /// A time that is not a number.
     #[error("the time of row {row} is not a number")]
     NoTime {
         /// The row, counted from 1 below the header.
@@ -109,12 +109,12 @@ pub enum CyclesError {
     },
 }
 
-/// A time in ms without what its difference was rounded by.
+/// A time in ms without the rounding error of its difference.
 fn milliseconds(seconds: f64) -> ReadableNumber {
     ReadableNumber((seconds * 1e9).round() / 1e6)
 }
 
-/// The cycle of a trace: the one that is given, else the usual step of its times.
+/// The cycle of a trace: the given one, otherwise the usual step of its times.
 ///
 /// # Errors
 /// A cycle that no control has.
@@ -123,7 +123,7 @@ pub(super) fn cycle_of(times_s: Option<&[f64]>, given: Option<f64>) -> Result<f6
     check_cycle(given.or_else(usual).unwrap_or(DEFAULT_CYCLE_S))
 }
 
-/// The middle one of the steps forward.
+/// The median of the steps forward.
 fn usual_step(times_s: &[f64]) -> Option<f64> {
     let steps = times_s.windows(2).map(|pair| pair[1] - pair[0]);
     let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
@@ -183,11 +183,11 @@ pub(super) fn check(times_s: &[f64], cycle_s: f64) -> Result<(), CyclesError> {
     Ok(())
 }
 
-/// Makes cycles of rows. Between rows positions and velocities change linearly, and compensation
-/// switches with the row that says so. Gives also what was done, in sentences.
+/// Makes cycles from rows. Between rows positions and velocities change linearly, and compensation
+/// switches with its row. Also returns the steps taken, in sentences.
 ///
 /// # Errors
-/// The cycles would be too many, or a time is no number.
+/// There would be too many cycles, or a time is not a number.
 pub(super) fn resample(
     columns: TraceColumns,
     cycle_s: f64,

@@ -1,4 +1,4 @@
-//! The currents of several axes while their commanded trace comes in.
+//! The currents of several axes while their commanded trace is read.
 
 use std::collections::VecDeque;
 
@@ -29,7 +29,7 @@ pub struct CurrentSample {
 }
 
 /// Follows several axes at once, in constant memory: the decay before a reversal has to be known
-/// some cycles ahead, so that the currents come out as many cycles later (R4.2).
+/// some cycles ahead, so that the currents are delayed by as many cycles (R4.2).
 pub struct Followers {
     axes: Vec<Follower>,
     /// Lag of the currents in cycles.
@@ -39,18 +39,18 @@ pub struct Followers {
 
 struct Follower {
     current: AdditiveCurrent,
-    /// As it was before the first cycle.
+    /// The computation before the first cycle.
     fresh: AdditiveCurrent,
     waiting: VecDeque<Commanded>,
     /// Number of cycles given out.
     out: u64,
-    /// The cycles in which the commanded direction changes, as far as they are ahead.
+    /// The cycles in which the commanded direction changes, if they are ahead.
     turns: VecDeque<u64>,
     direction: f64,
 }
 
 impl Followers {
-    /// Followers of axes with these computations, before their first cycle.
+    /// Creates followers of axes with these computations, before their first cycle.
     pub fn new(currents: Vec<AdditiveCurrent>) -> Self {
         let lag = currents.iter().map(AdditiveCurrent::lookahead).max();
         Self {
@@ -60,7 +60,7 @@ impl Followers {
         }
     }
 
-    /// Takes the next cycle, what is commanded to each axis, and gives back the cycle that is ready now.
+    /// Takes the commanded values of each axis in the next cycle, and returns the cycle that is ready now.
     pub fn push(
         &mut self,
         commanded: impl IntoIterator<Item = Commanded>,
@@ -74,7 +74,7 @@ impl Followers {
         None
     }
 
-    /// The next of the cycles that are left when no more come.
+    /// The next of the remaining cycles after the end of the trace.
     pub fn pop(&mut self) -> Option<&[CurrentSample]> {
         let samples = self.axes.iter_mut().map_while(Follower::pop);
         self.samples.clear();
@@ -82,7 +82,7 @@ impl Followers {
         (!self.samples.is_empty()).then_some(&*self.samples)
     }
 
-    /// Begins again: whatever moves next is a first start. The cycles that are left are forgotten.
+    /// Restarts: the next motion is a first start. The remaining cycles are dropped.
     pub fn restart(&mut self) {
         for axis in &mut self.axes {
             axis.waiting.clear();
@@ -93,7 +93,7 @@ impl Followers {
         }
     }
 
-    /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
+    /// The number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
     pub fn at_rest(&self) -> impl Iterator<Item = u64> {
         self.axes.iter().map(|axis| axis.current.at_rest())
     }

@@ -1,4 +1,4 @@
-//! The additive current: what the control sends to the drive's torque interface in every CNC
+//! The additive current: the value that the control sends to the drive's torque interface in every CNC
 //! cycle, from the commanded motion and the value list (chapter 4 of the rules).
 //!
 //! Positions are in 0.1 µm or 0.0001°, velocities in µm/s or 0.001°/s, as in the lists;

@@ -24,9 +24,9 @@ use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 pub struct CurrentCycle<'a> {
     /// The time since the beginning of the program.
     pub time_s: f64,
-    /// The block that is executed, and what holds in it.
+    /// The block that is executed, and the conditions during it.
     pub cause: &'a Arc<Cause>,
-    /// The axes, in the order in which they were asked for.
+    /// The axes, in the requested order.
     pub axes: &'a [CurrentSample],
 }
 
@@ -53,7 +53,7 @@ impl<F: FnMut(&CurrentCycle<'_>) -> ControlFlow<()>> CurrentSink for F {
 pub struct CurrentOptions {
     /// Options of its trace.
     pub planner: PlannerOptions,
-    /// Reading of what the documents leave open.
+    /// Reading of the points that the documents leave open.
     pub reading: Reading,
 }
 
@@ -65,7 +65,7 @@ impl From<PlannerOptions> for CurrentOptions {
 }
 
 impl CurrentOptions {
-    /// The same with another reading of the documents.
+    /// Sets the reading of the documents.
     pub fn with_reading(self, reading: Reading) -> Self {
         Self { reading, ..self }
     }
@@ -83,7 +83,7 @@ pub enum FollowError {
     Assumed(String),
 }
 
-/// Finds axes by their names, each once. A value list that is given takes the place of theirs.
+/// Finds axes by their names, each once. A given value list replaces theirs.
 ///
 /// # Errors
 /// The machine has no axis of a name, or no values for it.
@@ -113,7 +113,7 @@ pub fn axes_to_follow(
     Ok(followed)
 }
 
-/// Makes currents of the rows of a session, which must say what their blocks move
+/// Makes currents from the rows of a session, which must include the motions of blocks
 /// ([`Motions::Taken`](frictcomp::session::Motions::Taken)).
 pub struct ProgramCurrents<S> {
     trace: ProgramTrace<Cycles<S>>,
@@ -161,20 +161,20 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         }
     }
 
-    /// The session is over: the rest of the trace goes out.
+    /// Ends the session: the rest of the trace is given out.
     pub fn finish(&mut self) {
         if self.trace.finish().is_continue() {
             let _ = self.trace.sink().drain();
         }
     }
 
-    /// The errors that the session reported, then what there is to say about the trace.
+    /// The errors that the session reported, then the messages about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         self.trace.diagnostics()
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
-    /// follows there.
+    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
+    /// known.
     pub fn is_cut_short(&self) -> bool {
         self.trace.is_cut_short()
     }
@@ -194,12 +194,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.sink().count
     }
 
-    /// In how many cycles the output of each axis was cut to 16 bit.
+    /// The number of cycles in which the output of each axis was limited to 16 bit.
     pub fn saturated(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.saturated()
     }
 
-    /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
+    /// The number of cycles at standstill in which R4.6 matters, by axis; see [`AdditiveCurrent::at_rest`].
     pub fn at_rest(&mut self) -> impl Iterator<Item = u64> {
         self.trace.sink().followers.at_rest()
     }
@@ -221,7 +221,7 @@ impl<S: CurrentSink> Sink for ProgramCurrents<S> {
 }
 
 impl<S: CurrentSink> Cycles<S> {
-    /// Gives out the cycles that wait for others.
+    /// Gives out the waiting cycles.
     fn drain(&mut self) -> ControlFlow<()> {
         while let Some(axes) = self.followers.pop() {
             let Some((time_s, cause)) = self.waiting.pop_front() else {
@@ -272,7 +272,7 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
     }
 }
 
-/// The value list of an axis; an empty one where the control would not take any.
+/// The value list of an axis; an empty one if the control would not accept any.
 fn values(friction: &Parameterisation) -> FrictionList {
     match friction {
         Parameterisation::Accepted(list) => list.clone(),

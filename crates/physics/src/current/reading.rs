@@ -9,8 +9,8 @@ use frictcomp::diagnostic::did_you_mean;
 use frictcomp::lists::FrictionList;
 use frictcomp::readings::{Alternative, Question, QuestionSet, Readings};
 
-/// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is what is assumed
-/// unless the user says otherwise.
+/// How the documents are read where they are silent (R4.2, R4.3, R4.5 to R4.7). The default is the assumption
+/// unless the user selects otherwise.
 ///
 /// It is written in reports, and can be given, as text:
 ///
@@ -24,19 +24,19 @@ use frictcomp::readings::{Alternative, Question, QuestionSet, Readings};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Reading {
-    /// The value while the axis stands still.
+    /// The value while the axis is at standstill.
     pub standstill: Standstill,
     /// The value below the first point of the table.
     pub below: Below,
     /// Quantity that `delay_cycles` postpones.
     pub delay: Delay,
-    /// After which starts the current builds up.
+    /// The starts after which the current builds up.
     pub start: Start,
     /// Decay of the current before a reversal.
     pub decay: Decay,
 }
 
-/// The value while the axis stands still (R4.6).
+/// The value while the axis is at standstill (R4.6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Standstill {
@@ -69,14 +69,14 @@ pub enum Delay {
     Reversal,
 }
 
-/// After which starts the current builds up, besides reversals (R4.3).
+/// The starts after which the current builds up, in addition to reversals (R4.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Start {
     /// After the first one.
     #[default]
     First,
-    /// After every standstill, also in the same direction.
+    /// After every standstill, even in the same direction.
     Every,
 }
 
@@ -118,13 +118,13 @@ const QUESTIONS: [(Question, &str); 5] = [
 ];
 
 impl Reading {
-    /// The same with a reading of a question; the same where the question is none of the current.
+    /// Sets the reading of a question; has no effect if the question does not concern the current.
     pub fn with(mut self, question: Question, reading: Alternative) -> Self {
         self.choose(question, question.name_of(reading));
         self
     }
 
-    /// The questions whose readings, as a machine selects them, decide the current of a list (R4.2 to R4.7,
+    /// The questions whose readings, as selected by a machine, decide the current of a list (R4.2 to R4.7,
     /// R15.3); those that were chosen otherwise are not among them.
     pub fn rests_on(self, readings: &Readings, list: &FrictionList) -> QuestionSet {
         let mut questions = QuestionSet::default();
@@ -159,7 +159,7 @@ impl Reading {
     }
 }
 
-/// A word that is no option of a reading.
+/// A word that is not an option of a reading.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{word}` is not a reading{help}")]
 pub struct UnknownReading {
@@ -173,7 +173,7 @@ pub struct UnknownReading {
 pub struct ChosenOptions(Vec<usize>);
 
 impl ChosenOptions {
-    /// The reading of a machine with these options in place of its own.
+    /// Returns the reading of a machine with these options in place of its own.
     pub fn over(&self, mut reading: Reading) -> Reading {
         for (_, choose) in self.0.iter().filter_map(|&option| OPTIONS.get(option)) {
             choose(&mut reading);
@@ -212,7 +212,7 @@ impl UnknownReading {
 
 impl fmt::Display for Reading {
     /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`, and
-    /// `decay=step` where that is selected.
+    /// `decay=step` if that is selected.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let in_force = OPTIONS.iter().filter(|(choice, choose)| {
             let mut chosen = *self;

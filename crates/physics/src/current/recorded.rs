@@ -1,4 +1,4 @@
-//! Commanded traces of one axis that were recorded or made up (chapter 4 of the rules).
+//! Commanded traces of one axis that were recorded or constructed (chapter 4 of the rules).
 
 use super::additive::{Added, AdditiveCurrent, Switched};
 use super::columns::TraceColumns;
@@ -36,11 +36,11 @@ pub struct CommandedRow {
     pub switched: Switched,
 }
 
-/// Options of the way from rows of a trace to CNC cycles.
+/// Options of the conversion of rows of a trace to CNC cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct TraceOptions {
-    /// The CNC cycle; by default the usual step of the times, else 1 ms.
+    /// The CNC cycle; by default the usual step of the times, otherwise 1 ms.
     pub cycle_s: Option<f64>,
     /// Treatment of times that are not those of cycles.
     pub resampling: Resampling,
@@ -49,19 +49,19 @@ pub struct TraceOptions {
 }
 
 impl TraceOptions {
-    /// The same with another value of [`cycle_s`](Self::cycle_s).
+    /// Sets [`cycle_s`](Self::cycle_s).
     pub fn with_cycle_s(mut self, cycle_s: Option<f64>) -> Self {
         self.cycle_s = cycle_s;
         self
     }
 
-    /// The same with another value of [`resampling`](Self::resampling).
+    /// Sets [`resampling`](Self::resampling).
     pub fn with_resampling(mut self, resampling: Resampling) -> Self {
         self.resampling = resampling;
         self
     }
 
-    /// The same with another value of [`dead_band`](Self::dead_band).
+    /// Sets [`dead_band`](Self::dead_band).
     pub fn with_dead_band(mut self, dead_band: DeadBand) -> Self {
         self.dead_band = dead_band;
         self
@@ -69,7 +69,7 @@ impl TraceOptions {
 }
 
 impl CommandedTrace {
-    /// A trace with the columns that are missing computed from the others.
+    /// Creates a trace; missing columns are computed from the others.
     ///
     /// # Errors
     /// A row that is not a cycle after the one above it, unless the rows are resampled.
@@ -121,7 +121,7 @@ impl CommandedTrace {
         })
     }
 
-    /// The same trace after something else was done to its rows.
+    /// Adds remarks on an earlier treatment of the rows.
     pub fn after(mut self, remarks: Vec<String>) -> Self {
         self.remarks.splice(0..0, remarks);
         self
@@ -146,7 +146,7 @@ impl CommandedTrace {
         )
     }
 
-    /// The cycles in their order, with what `current` adds in each.
+    /// The cycles in their order, with the addition of `current` in each.
     pub fn currents(
         &self,
         current: &mut AdditiveCurrent,

@@ -1,4 +1,4 @@
-//! Velocities around zero that are no motion: measured or rounded values toggle while an axis stands.
+//! Velocities around zero without a motion: measured or rounded values toggle while an axis is at rest.
 
 use super::units::POSITION_UNITS_PER_MM;
 use frictcomp::diagnostic::ReadableNumber;
@@ -20,7 +20,7 @@ pub enum DeadBand {
 pub struct Standstills {
     /// Number of samples.
     pub count: u64,
-    /// In how many cycles.
+    /// Number of cycles.
     pub cycles: u64,
 }
 
@@ -39,14 +39,14 @@ impl Standstills {
     }
 }
 
-/// Two changes of direction so few cycles apart are toggling.
+/// Largest number of cycles between two changes of direction that count as toggling.
 const CYCLES: usize = 5;
 
-/// Within this distance, 1 µm or 0.001° in units of 0.1 µm or 0.0001°.
+/// Largest distance between them, 1 µm or 0.001° in units of 0.1 µm or 0.0001°.
 const DISTANCE: f64 = POSITION_UNITS_PER_MM / 1000.0;
 
 impl DeadBand {
-    /// Sets velocities to 0 that count as standstill.
+    /// Sets velocities that count as standstill to 0.
     pub(super) fn settle(self, velocities: &mut [f64], positions: &[f64]) -> Standstills {
         let mut found = Standstills::default();
         match self {
@@ -113,8 +113,8 @@ fn toggling(velocities: &[f64], positions: &[f64]) -> Vec<(usize, usize)> {
     };
     let last = short.len().saturating_sub(1);
     let is_inner = |at: usize| at > 0 && at < last && short[at];
-    // The first and the last stretch have one change of direction only: they toggle where they are
-    // no faster than what toggles beside them.
+    // The first and the last stretch have only one change of direction: they toggle if they are no faster
+    // than the toggling stretches next to them.
     let is_like = |at: usize, beside: usize| {
         short[at] && is_inner(beside) && fastest(at) <= 2.0 * fastest(beside)
     };
@@ -140,7 +140,7 @@ fn toggling(velocities: &[f64], positions: &[f64]) -> Vec<(usize, usize)> {
 mod tests {
     use super::*;
 
-    /// Velocities in µm/s after settling, at 1 ms a cycle.
+    /// Velocities in µm/s after settling, at 1 ms per cycle.
     fn settled(band: DeadBand, velocities: &[f64]) -> (Vec<f64>, Standstills) {
         let mut x = 0.0;
         let positions = velocities.iter().map(|v| {
@@ -164,7 +164,7 @@ mod tests {
         let (now, told) = settled(DeadBand::Toggling, &v);
         assert_eq!(now, [500.0, 100.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, -500.0]);
         assert_eq!(told, found(1, 4));
-        // A reversal is no toggling, nor is a change that takes more than five cycles or a micrometre.
+        // A reversal is not toggling, nor is a change that takes more than five cycles or a micrometre.
         for v in [
             &[500.0, 1.0, -1.0, -500.0][..],
             &[5.0, 5.0, -5.0, -5.0, -5.0, -5.0, -5.0, -5.0, 5.0, 5.0],

@@ -13,7 +13,7 @@ const CURVE_JERK: f64 = 0.7;
 /// Share of the rest for the change of path velocity across the path.
 const CROSS_JERK: f64 = 0.5;
 
-/// The places at which a span is looked at for its extremes.
+/// The places at which a span is searched for its extremes.
 const LOOKED_AT: [f64; 9] = [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 
 /// Nodes and weights of Gauss and Legendre on 0 to 1.
@@ -25,7 +25,7 @@ const NODES: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_5),
 ];
 
-/// Steps that find the parameter of a distance; two are enough for short spans.
+/// Number of steps to find the parameter of a distance; two are enough for short spans.
 const STEPS: usize = 8;
 
 /// A span of a B-spline.
@@ -74,7 +74,7 @@ impl MovingAxis {
         ]
     }
 
-    /// The same by the distance.
+    /// The first, second and third derivatives by the distance.
     fn by_distance(&self, along: Along) -> [f64; 3] {
         let Along {
             u,
@@ -91,7 +91,7 @@ impl MovingAxis {
 }
 
 impl SplineSpan {
-    /// The span with these control points, by axis; `None` where it is no curve with a length.
+    /// The span with these control points, by axis; `None` if it is not a curve with a length.
     pub(super) fn new(points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let [p, q, r, s] = points;
         let axis = |place: usize| {
@@ -195,7 +195,7 @@ impl SplineSpan {
         self.axes.iter().find(|it| it.place == axis)
     }
 
-    /// The position of an axis there; `None` where it does not move.
+    /// The position of an axis there; `None` if it does not move.
     pub(super) fn position(&self, axis: usize, along: Along) -> Option<f64> {
         Some(self.axis(axis)?.position(along.u))
     }

@@ -20,10 +20,10 @@ pub struct CycleError {
     pub milliseconds: f64,
 }
 
-/// A CNC cycle in seconds that can be one.
+/// Checks a CNC cycle in seconds.
 ///
 /// # Errors
-/// It is too short or too long, or no number.
+/// It is too short or too long, or not a number.
 pub fn check_cycle(seconds: f64) -> Result<f64, CycleError> {
     let milliseconds = seconds * 1000.0;
     if (SHORTEST_MS..=LONGEST_MS).contains(&milliseconds) {

@@ -1,22 +1,22 @@
-//! Block transitions: how fast one piece of the path may turn into the next (R5.2).
+//! Block transitions: the velocity at which one piece of the path may turn into the next (R5.2).
 
 use super::limits::AxisLimits;
 use super::segment::PathSegment;
 use super::share::{KINK_SHARE, Share};
 use frictcomp::interpreter::BlockEnd;
 
-/// Below this a change of slope is only the decimals of the program.
+/// Change of slope below which it is due only to the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
-/// From this change of the slope of an axis on the path stops: 5.7° between two lines.
+/// Change of the slope of an axis from which the path stops: 5.7° between two lines.
 const SHARP: f64 = 0.1;
 
 /// The transition from one piece of the path to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Junction {
-    /// Nothing changes but the bounds.
+    /// Only the bounds change.
     Smooth,
-    /// Nothing changes, but the program asks for a velocity in it.
+    /// Nothing changes, but the program sets a velocity in it.
     Paced {
         /// The highest path velocity in it.
         velocity: f64,
@@ -79,7 +79,7 @@ impl Junction {
         junction.paced(before.end_velocity)
     }
 
-    /// The same at a velocity that the program asks for (E).
+    /// Returns the transition at a velocity that the program sets (E).
     fn paced(self, asked: f64) -> Self {
         let velocity = asked.min(self.velocity());
         match self {
@@ -90,7 +90,7 @@ impl Junction {
         }
     }
 
-    /// The stricter of what is known and one more kink.
+    /// The stricter of the known bound and one more kink.
     fn and(self, velocity: f64, passing: bool) -> Self {
         let velocity = velocity.min(self.velocity());
         match self {
@@ -111,7 +111,7 @@ impl Junction {
         }
     }
 
-    /// The same without path acceleration.
+    /// Returns the transition without path acceleration.
     pub(super) fn fixed(self) -> Self {
         match self {
             Self::Stop => Self::Stop,

@@ -15,14 +15,14 @@ pub struct AxisLimits {
     pub jerk_per_s3: f64,
     /// The greatest jerk that the curvature of the path may take.
     pub curve_jerk_per_s3: f64,
-    /// The share of the acceleration by which the axis may jump in a corner, P-AXIS-00013; `None` where
-    /// its ramps bound that.
+    /// The share of the acceleration by which the axis may jump in a corner, P-AXIS-00013; `None` if
+    /// its ramps limit that.
     pub corner_share: Option<f64>,
     /// Limits that the configuration does not give.
     pub assumed: Assumed,
 }
 
-/// The bounds of an axis that are assumed.
+/// The assumed bounds of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct Assumed {
@@ -34,7 +34,7 @@ pub struct Assumed {
     pub jerk: bool,
 }
 
-/// The bounds of an axis that are assumed, as its configuration would give them.
+/// The assumed bounds of an axis, in the form of its configuration.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AssumedLimits {
@@ -42,16 +42,16 @@ pub struct AssumedLimits {
     pub axis: String,
     /// Its type.
     pub axis_type: AxisType,
-    /// `max_velocity` in mm/min or °/min, where it is assumed.
+    /// `max_velocity` in mm/min or °/min, if it is assumed.
     pub max_velocity: Option<f64>,
-    /// `max_acceleration` in m/s² or °/s², where it is assumed.
+    /// `max_acceleration` in m/s² or °/s², if it is assumed.
     pub max_acceleration: Option<f64>,
-    /// `max_jerk` in m/s³ or °/s³, where it is assumed.
+    /// `max_jerk` in m/s³ or °/s³, if it is assumed.
     pub max_jerk: Option<f64>,
 }
 
 impl AssumedLimits {
-    /// The assumed bounds of an axis; `None` where the configuration gives all of them.
+    /// The assumed bounds of an axis; `None` if the configuration gives all of them.
     pub fn of(axis: &Axis) -> Option<Self> {
         let limits = AxisLimits::of(axis);
         let Assumed {
@@ -82,14 +82,14 @@ const ACCELERATION: f64 = 1000.0;
 const JERK: f64 = ACCELERATION / 0.05;
 
 impl AxisLimits {
-    /// The bounds of an axis at feed with ramps of the acceleration (R5.2). `frictcomp.toml` goes before
-    /// the axis list; what neither says is assumed to be the default of the control's parameters.
+    /// The bounds of an axis at feed with ramps of the acceleration (R5.2). `frictcomp.toml` takes precedence
+    /// over the axis list; what neither gives is assumed to be the default of the control's parameters.
     pub fn of(axis: &Axis) -> Self {
         Self::with(axis, SlopeProfile::Trapez, 0.0)
     }
 
-    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071, `#SLOPE`), in
-    /// CNC cycles of so many seconds: steps of the acceleration take one.
+    /// The bounds of an axis at feed under a profile of the acceleration (P-CHAN-00071, `#SLOPE`), with
+    /// a given CNC cycle in seconds: steps of the acceleration take one cycle.
     fn with(axis: &Axis, slope: SlopeProfile, cycle_s: f64) -> Self {
         let unit = unit(axis.axis_type);
         let listed = &axis.listed;
@@ -124,7 +124,7 @@ impl AxisLimits {
         }
     }
 
-    /// The bounds of an axis in rapid motions: those of its list, else those at feed.
+    /// The bounds of an axis in rapid motions: those of its list, otherwise those at feed.
     fn rapid(axis: &Axis, at_feed: Self) -> Self {
         let listed = &axis.listed;
         let own = |listed: Option<f64>, configured: Option<f64>, at_feed: f64| {
@@ -154,7 +154,7 @@ impl AxisLimits {
 /// The bounds of all axes, under each profile of the acceleration.
 #[derive(Debug, Clone)]
 pub(super) struct MachineLimits {
-    /// The profile where a program selects none: P-CHAN-00071, else ramps of constant jerk.
+    /// The profile if a program selects none: P-CHAN-00071, otherwise ramps of constant jerk.
     channel: SlopeProfile,
     steps: ByMovement,
     ramps: ByMovement,
@@ -168,7 +168,7 @@ struct ByMovement {
 }
 
 impl MachineLimits {
-    /// The bounds of the axes of a machine, in CNC cycles of so many seconds.
+    /// The bounds of the axes of a machine, with a given CNC cycle in seconds.
     pub(super) fn of(machine: &Machine, cycle_s: f64) -> Self {
         let under = |slope| {
             let axes = machine.axes.iter();
@@ -198,7 +198,7 @@ impl MachineLimits {
         }
     }
 
-    /// The profile that a program selects, or else that of the channel.
+    /// The profile that a program selects, otherwise that of the channel.
     pub(super) fn profile(&self, slope: Option<SlopeProfile>) -> SlopeProfile {
         slope.unwrap_or(self.channel)
     }
@@ -207,8 +207,8 @@ impl MachineLimits {
 /// The factor by which [`without_assumed_limits`] exceeds the assumed bounds.
 const BEYOND: f64 = 1e6;
 
-/// The same machine with bounds far beyond any motion in place of the assumed ones: what is slow on
-/// it is slow for another reason (R11.23). `None` where nothing is assumed.
+/// Returns the machine with bounds far beyond any motion in place of the assumed ones: what is slow on
+/// it is slow for another reason (R11.23). `None` if nothing is assumed.
 pub(crate) fn without_assumed_limits(machine: &Machine) -> Option<Machine> {
     machine.axes.iter().find_map(AssumedLimits::of)?;
     let mut machine = machine.clone();

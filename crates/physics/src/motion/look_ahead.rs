@@ -18,7 +18,7 @@ use frictcomp::machine::SlopeProfile;
 /// the plan is kept, the rest is planned again when more segments are known.
 const CAPACITY: usize = 4096;
 
-/// Known path that is not sampled yet.
+/// Known path that has not been sampled yet.
 pub(super) struct LookAhead {
     limits: MachineLimits,
     queue: VecDeque<Queued>,
@@ -120,7 +120,7 @@ impl LookAhead {
         ControlFlow::Continue(())
     }
 
-    /// Whether a kink between feed moves slows the path down, and not the program.
+    /// Whether a kink between feed moves slows the path down, rather than the program.
     fn is_slow(&self, entry: Junction, next: &PathSegment) -> bool {
         let Some(Queued { segment: last, .. }) = self.queue.back() else {
             return false;
@@ -139,7 +139,7 @@ impl LookAhead {
         self.sampler.is_over()
     }
 
-    /// Lets the axes rest.
+    /// Holds the axes at rest.
     pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.drain(sink)?;
         self.sampler.rest(dwell, sink)
@@ -180,8 +180,8 @@ impl LookAhead {
         ControlFlow::Continue(())
     }
 
-    /// Returns the number of stretches in the first half of the queue; the next one is cut in two
-    /// where that changes nothing.
+    /// Returns the number of stretches in the first half of the queue; the next one is cut in two if that
+    /// changes nothing.
     fn cut(&self, stretches: &mut Vec<ProfileSpan>) -> usize {
         let (mut kept, mut segments) = (0, 0);
         while let Some(stretch) = stretches.get(kept)
@@ -205,7 +205,7 @@ impl LookAhead {
         if let Some(stretches) = plan(&stages, self.velocity) {
             return stretches;
         }
-        // The transitions of the new segments leave no way from the present velocity: the old plan
+        // The transitions of the new segments cannot be reached from the present velocity: the old plan
         // is followed to its stop, the new segments begin there.
         let mut stretches = std::mem::take(&mut self.left);
         let planned = stretches.iter().map(|stretch| stretch.segments).sum();

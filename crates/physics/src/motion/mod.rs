@@ -1,10 +1,10 @@
-//! From executed programs to commanded traces: where each axis is commanded to be, and how fast,
+//! From executed programs to commanded traces: the commanded position and velocity of each axis
 //! in every CNC cycle (R5.1 to R5.4).
 //!
-//! The rows of a session say what each block moves. A [`TrajectoryPlanner`] makes segments of a
+//! The rows of a session contain the motion of each block. A [`TrajectoryPlanner`] makes segments of a
 //! path from them, plans the path velocity with full look-ahead within the limits of all axes, and
-//! hands a [`Sample`] a cycle to a [`TraceSink`], with the [`Cause`] of each: memory is the same for a
-//! program of any length. What cannot be followed is left out and reported, see [`SkippedMotion`].
+//! passes a [`Sample`] per cycle to a [`TraceSink`], with the [`Cause`] of each: memory does not depend on
+//! the length of the program. Motions that cannot be followed are left out and reported, see [`SkippedMotion`].
 //! What is modelled, and how a control differs, is in `docs/motion.md`.
 //!
 //! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and

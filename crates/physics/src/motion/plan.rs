@@ -1,10 +1,10 @@
-//! Full look-ahead over a queue of segments: which velocity at each transition.
+//! Full look-ahead over a queue of segments: the velocity at each transition.
 //!
 //! First without the jerk, forward and backward over all segments: the highest velocity that the
 //! accelerations allow at each transition. Where it meets the bound of a transition, the path has
 //! no acceleration; those transitions are the knots. Between two knots the path speeds up and
 //! slows down at most once, in one profile over all segments between them. Then back and
-//! forth over the knots with the jerk, and knots that the path no longer touches are given up. A
+//! forth over the knots with the jerk, and knots that the path no longer touches are dropped. A
 //! profile between knots stays below the velocities of the first step, so that it keeps the bounds
 //! of all segments that it spans.
 
@@ -45,8 +45,8 @@ impl ProfileSpan {
         }
     }
 
-    /// Cuts the stretch in two after one of its segments, given by their lengths: the last one where
-    /// the path has neither acceleration nor jerk. The motion stays as it is.
+    /// Cuts the stretch in two after one of its segments, given by their lengths: the last one at which
+    /// the path has neither acceleration nor jerk. The motion does not change.
     pub(super) fn cut(&self, lengths: impl Iterator<Item = f64>) -> Option<(Self, Self)> {
         let (steady, velocity) = self.profile.steady();
         let mut way = 0.0;
@@ -90,10 +90,10 @@ const TOUCH: f64 = 1e-9;
 /// Number of rounds in which binding knots are put back, before every knot is kept.
 const ROUNDS: usize = 24;
 
-/// So often they are put back alone; then more and more of those beside them are, too.
+/// Number of rounds in which they are put back alone; then more and more of their neighbours are put back, too.
 const ONE_BY_ONE: usize = 6;
 
-/// Plans a motion over all stages that begins with a velocity and ends at rest. `None` where the
+/// Plans a motion over all stages that begins with a velocity and ends at rest. `None` if the
 /// stages cannot be followed from that velocity.
 pub(super) fn plan(stages: &[PlanInput], start: f64) -> Option<Vec<ProfileSpan>> {
     let velocities = highest(stages, start);
@@ -124,7 +124,7 @@ pub(super) fn plan(stages: &[PlanInput], start: f64) -> Option<Vec<ProfileSpan>>
         };
         slack.retain(|at| match binding.binary_search(at) {
             Ok(_) => false,
-            // In later rounds knots beside those that bind are put back, too.
+            // In later rounds knots next to those that bind are put back, too.
             Err(next) => {
                 let near = [next.saturating_sub(1), next.min(last)];
                 near.iter().all(|it| binding[*it].abs_diff(*at) > spread)
@@ -155,7 +155,7 @@ impl Envelope<'_> {
     }
 
     /// The knots that the path passes so slowly, with the jerk, that their bounds do not matter; to
-    /// be there without acceleration would only cost time.
+    /// have no acceleration there would only cost time.
     fn slack(&self, knots: &[usize], start: f64) -> Vec<usize> {
         let spans = self.spans(knots);
         let mut velocity = start;
@@ -170,7 +170,7 @@ impl Envelope<'_> {
         slack
     }
 
-    /// The segments between the knots, with the velocities that the way to the end allows.
+    /// The segments between the knots, with the velocities that the rest of the path allows.
     fn spans(&self, knots: &[usize]) -> Vec<Interval> {
         let mut spans: Vec<Interval> = knots
             .windows(2)
@@ -205,7 +205,7 @@ impl Envelope<'_> {
         Some(stretches.collect())
     }
 
-    /// Whether a profile has its highest velocity in one of the stages beside a transition, where it
+    /// Whether a profile has its highest velocity in one of the stages next to a transition at which it
     /// is too fast.
     fn peaks_beside(&self, at: usize, way: f64, profile: &VelocityProfile) -> bool {
         let (steady, top) = profile.steady();
@@ -220,7 +220,7 @@ impl Envelope<'_> {
         })
     }
 
-    /// The transitions that were no knots and are passed too fast.
+    /// The transitions that were not knots and are passed too fast.
     fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[ProfileSpan]) -> Vec<usize> {
         let mut broken = Vec::new();
         let mut passed = passed.iter().copied().peekable();
@@ -276,7 +276,7 @@ fn touches(stages: &[PlanInput], velocities: &[f64], at: usize) -> bool {
     velocities[at] >= bound(stages, at) * (1.0 - TOUCH)
 }
 
-/// The velocity that a stage's acceleration makes of another one.
+/// The velocity reached from another one with a stage's acceleration.
 fn gained(velocity: f64, stage: &PlanInput) -> f64 {
     (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
 }
@@ -312,7 +312,7 @@ impl Interval {
             let (start, end) = (velocities[at], velocities[at + 1]);
             let squares = f64::midpoint(start * start, end * end);
             let apex = (squares + stage.bounds.acceleration * stage.length).sqrt();
-            // Beside a knot that was given up, the plan is compared with the bound afterwards.
+            // Next to a knot that was dropped, the plan is compared with the bound afterwards.
             let is_beside = [at, at + 1]
                 .into_iter()
                 .any(|at| from < at && at < to && touches(stages, velocities, at));

@@ -27,13 +27,13 @@ pub struct PlannerOptions {
 }
 
 impl PlannerOptions {
-    /// The same with another value of [`cycle_s`](Self::cycle_s).
+    /// Sets [`cycle_s`](Self::cycle_s).
     pub fn with_cycle_s(mut self, cycle_s: f64) -> Self {
         self.cycle_s = cycle_s;
         self
     }
 
-    /// The same with another value of [`max_cycles`](Self::max_cycles).
+    /// Sets [`max_cycles`](Self::max_cycles).
     pub fn with_max_cycles(mut self, max_cycles: u64) -> Self {
         self.max_cycles = max_cycles;
         self
@@ -50,7 +50,7 @@ impl Default for PlannerOptions {
     }
 }
 
-/// Why a motion is left out whose start is not known.
+/// Reason to leave out a motion whose start is not known.
 const UNKNOWN_START: &str = "the position of the axes before this motion is not known";
 
 /// Turns the rows of a session into the commanded trace of some axes.
@@ -63,7 +63,7 @@ pub struct TrajectoryPlanner {
     main: Arc<[bool]>,
     /// End of the path, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
-    /// The same, to the last bit of the last segment.
+    /// The end of the path, to the last bit of the last segment.
     end: Vec<f64>,
     running: Running,
     friction: Arc<[State]>,
@@ -75,12 +75,12 @@ pub struct TrajectoryPlanner {
     /// Whether a motion was left out for another reason than its start.
     has_lost: bool,
     left_out: u64,
-    /// Those of them that are not known to be rapid.
+    /// The number of them that are not known to be rapid.
     left_out_feed: u64,
     remarks: MotionRemarks,
 }
 
-/// A difference, in mm or degrees, that rounding makes and no program.
+/// A difference, in mm or degrees, that is due to rounding and not to a program.
 const NOTHING: f64 = 1e-9;
 
 /// Whether a straight motion goes nowhere.
@@ -195,7 +195,7 @@ impl TrajectoryPlanner {
         self.left_out_feed
     }
 
-    /// Returns the messages on the motions, each once a place.
+    /// Returns the messages on the motions, each once per place.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         self.remarks.diagnostics()
     }
@@ -274,7 +274,7 @@ impl TrajectoryPlanner {
         }
     }
 
-    /// The path breaks off: it goes on after the next motion whose start is known.
+    /// Breaks the path off: it continues after the next motion whose start is known.
     fn lose(
         &mut self,
         row: &Row<'_>,
@@ -289,7 +289,7 @@ impl TrajectoryPlanner {
         ControlFlow::Continue(())
     }
 
-    /// The segment of a motion; `None` where nothing moves.
+    /// The segment of a motion; `None` if nothing moves.
     fn segment(
         &mut self,
         row: &Row<'_>,
@@ -318,14 +318,14 @@ impl TrajectoryPlanner {
                 (Some(_), None) => {
                     return Err(PlanObstacle::Reason("its end is not known"));
                 }
-                // It does not move: where it stands does not matter.
+                // It does not move: its position does not matter.
                 (None, _) => (0.0, 0.0),
             };
             from.push(start);
             to.push(end);
         }
         if self.running == Running::Yes {
-            // What was too short to be a motion is made up for by the next one.
+            // A distance too short to be a motion is made up for by the next one.
             for (start, end) in from.iter_mut().zip(&self.end) {
                 if (*start - end).abs() < SAME_PLACE {
                     *start = *end;
@@ -401,7 +401,7 @@ impl TrajectoryPlanner {
         })
     }
 
-    /// A motion that is not part of the trace.
+    /// Leaves a motion out of the trace.
     fn leave_out(&mut self, row: &Row<'_>, reason: &'static str, sink: &mut dyn TraceSink) {
         self.left_out += 1;
         let is_rapid =
@@ -416,7 +416,7 @@ impl TrajectoryPlanner {
         });
     }
 
-    /// A motion before the trace begins. Once it has begun, what made it break off was reported.
+    /// Notes a motion before the trace begins. Once it has begun, the reason for its break was reported.
     fn note_before(&mut self, row: &Row<'_>, travel: &Travel) {
         if self.has_lost || !self.stand.is_empty() {
             return;
@@ -426,7 +426,7 @@ impl TrajectoryPlanner {
         self.remarks.note_before(row, names);
     }
 
-    /// The axes that matter to a motion, and of which it is not known where they stand before it.
+    /// The axes that matter to a motion and whose position before it is not known.
     fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
         let ends = travel.from.iter().zip(&travel.to).enumerate();
         let matters = |axis, to: &Option<f64>| {

@@ -1,4 +1,4 @@
-//! Motion along the path in time: seven phases at most.
+//! Motion along the path in time: at most seven phases.
 //!
 //! A ramp leads from one velocity to another, without acceleration at both ends: the acceleration
 //! rises with the jerk, stays at its bound, and falls again (Biagiotti, Melchiorri: *Trajectory
@@ -23,8 +23,8 @@ pub(super) struct Bounds {
     pub(super) ramps: RampForm,
 }
 
-/// Form of the ramps of the acceleration. In the same ramp time both forms change the velocity by
-/// as much, and on a symmetrical change of velocity they take the same way.
+/// Form of the ramps of the acceleration. In the same ramp time both forms change the velocity
+/// equally, and on a symmetrical change of velocity they take the same distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RampForm {
     /// With a constant jerk.
@@ -50,7 +50,7 @@ struct Ramp {
     jerking: f64,
     /// Seconds of constant acceleration between them.
     steady: f64,
-    /// The way that the ramp takes.
+    /// The distance of the ramp.
     way: f64,
 }
 
@@ -74,10 +74,10 @@ impl Ramp {
     }
 }
 
-/// Number of halvings that find a velocity to the last bit of its bracket.
+/// Number of halvings to find a velocity to the last bit of its bracket.
 const HALVINGS: usize = 60;
 
-/// The highest velocity to which a ramp from `from` leads within `length`; the same backwards, for
+/// The highest velocity that a ramp from `from` reaches within `length`; the same backwards, since
 /// ramps are symmetrical.
 pub(super) fn reach(from: f64, length: f64, bounds: &Bounds) -> f64 {
     let mut low = from;
@@ -147,7 +147,7 @@ impl VelocityProfile {
                     peak = middle;
                 }
             }
-            // What rounding leaves is travelled at the peak.
+            // The rest due to rounding is travelled at the peak.
             peak = if low > 0.0 { low } else { peak };
         }
         let (up, down, way) = ways(peak);
@@ -176,13 +176,13 @@ impl VelocityProfile {
                 (down.jerking, -fall * jerk),
             ],
         );
-        // Neither ramp leaves an acceleration over, whatever rounding says.
+        // Neither ramp leaves any acceleration, regardless of rounding.
         profile.phases[3].acceleration = 0.0;
         profile.phases[3].velocity = peak;
         profile
     }
 
-    /// Lays the phases one after the other: their seconds and jerks.
+    /// Arranges the phases one after the other: their seconds and jerks.
     fn lay(&mut self, mut state: Phase, phases: [(f64, f64); 7]) {
         for (place, (seconds, jerk)) in self.phases.iter_mut().zip(phases) {
             state.jerk = jerk;
@@ -215,19 +215,19 @@ impl VelocityProfile {
         self.length
     }
 
-    /// The ways between which the velocity is steady, and that velocity.
+    /// The distances between which the velocity is constant, and that velocity.
     pub(super) fn steady(&self) -> (RangeInclusive<f64>, f64) {
         let (from, to) = (self.phases[3], self.phases[4]);
         (from.way..=to.way, from.velocity)
     }
 
-    /// The highest velocity on the way.
+    /// The highest velocity along the path.
     pub(super) fn top_velocity(&self) -> f64 {
         let phases = self.phases.iter().map(|phase| phase.velocity);
         phases.fold(self.end_velocity, f64::max)
     }
 
-    /// The velocity after a way.
+    /// The velocity after a distance.
     pub(super) fn velocity_after(&self, way: f64) -> f64 {
         let (mut early, mut late) = (0.0, self.duration);
         for _ in 0..HALVINGS {
@@ -263,7 +263,7 @@ impl VelocityProfile {
 }
 
 impl Phase {
-    /// Way, velocity and acceleration some time into the phase.
+    /// Distance, velocity and acceleration some time into the phase.
     fn after(&self, seconds: f64) -> (f64, f64, f64) {
         let Self {
             way,
@@ -279,7 +279,7 @@ impl Phase {
         )
     }
 
-    /// The way, velocity and acceleration that the ramp adds some time into the phase.
+    /// The distance, velocity and acceleration that the ramp adds some time into the phase.
     fn ramped(&self, seconds: f64) -> [f64; 3] {
         let square = seconds * seconds;
         match self.form {
@@ -353,7 +353,7 @@ mod tests {
         result.is_ok().then(|| trajectory.get_duration())
     }
 
-    /// The number of cases, the same each time unless `PROPTEST_RNG_SEED` asks for others.
+    /// The number of cases, the same each time unless `PROPTEST_RNG_SEED` selects others.
     fn seeded(cases: u32) -> ProptestConfig {
         let config = ProptestConfig::with_cases(cases);
         let rng_seed = match config.rng_seed {

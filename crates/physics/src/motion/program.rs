@@ -11,8 +11,8 @@ use frictcomp::interpreter::EndedBy;
 use frictcomp::machine::Machine;
 use frictcomp::timeline::{Record, Sink};
 
-/// Makes the commanded trace of some axes from the records of a session, which must say what their
-/// blocks move ([`Motions::Taken`](frictcomp::interpreter::Motions::Taken)).
+/// Makes the commanded trace of some axes from the records of a session, which must include the motions
+/// of blocks ([`Motions::Taken`](frictcomp::interpreter::Motions::Taken)).
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -81,7 +81,7 @@ impl<S: TraceSink> ProgramTrace<S> {
         }
     }
 
-    /// The session is over: the rest of the trace goes out. `Break` where the sink took no more.
+    /// Ends the session: the rest of the trace is given out. `Break` if the sink took no more.
     pub fn finish(&mut self) -> ControlFlow<()> {
         if self.over.is_continue() {
             self.over = self.planner.finish(&mut self.sink);
@@ -89,14 +89,14 @@ impl<S: TraceSink> ProgramTrace<S> {
         std::mem::replace(&mut self.over, ControlFlow::Break(()))
     }
 
-    /// The errors that the session reported and why it stopped a program, then what there is to say about
+    /// The errors that the session reported and why it stopped a program, then the messages about
     /// the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         (&self.errors, self.planner.diagnostics())
     }
 
-    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
-    /// follows there.
+    /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
+    /// known.
     pub fn is_cut_short(&self) -> bool {
         self.is_cut_short
     }

@@ -37,7 +37,7 @@ impl<'a> RemarkPlace<'a> {
     }
 }
 
-/// Something to say about a block.
+/// A remark on a block.
 pub(super) struct MotionRemark<'a> {
     pub(super) code: Code,
     pub(super) message: &'a str,
@@ -47,7 +47,7 @@ pub(super) struct MotionRemark<'a> {
 /// Key of a message: the code, file and line of a block, and its subject.
 type RemarkKey = (Code, Arc<str>, u32, &'static str);
 
-/// Messages on motions, each once a place.
+/// Messages on motions, each once per place.
 #[derive(Default)]
 pub(super) struct MotionRemarks {
     diagnostics: Vec<Diagnostic>,
@@ -57,12 +57,12 @@ pub(super) struct MotionRemarks {
     before: Option<BeforeTrace>,
 }
 
-/// The motions before the trace begins, because it is not known where the axes stand.
+/// The motions before the trace begins, because the axis positions are not known.
 struct BeforeTrace {
     /// The first of them.
     place: Place,
     count: u64,
-    /// The axes whose place at the start is not known.
+    /// The axes whose position at the start is not known.
     axes: BTreeSet<String>,
 }
 
@@ -76,8 +76,8 @@ impl MotionRemarks {
         self.simplified
     }
 
-    /// A motion before the trace begins, and the axes whose place before it is not known. After a
-    /// change of the origin it would not help to know where they stood at the start.
+    /// Notes a motion before the trace begins, and the axes whose position before it is not known. After a
+    /// change of the origin, their positions at the start would not help.
     pub(super) fn note_before(&mut self, row: &Row<'_>, unknown: Vec<String>) {
         let before = self.before.get_or_insert_with(|| BeforeTrace {
             place: RemarkPlace::of(row).place(),
@@ -106,10 +106,10 @@ impl MotionRemarks {
                 Advice::CompleteMotion,
             ),
             names => {
-                let stand = if names.len() == 1 { "stands" } else { "stand" };
+                let stand = if names.len() == 1 { "" } else { "s" };
                 let all = names.join(", ");
                 (
-                    format!("where {all} {stand} at the start is not known"),
+                    format!("unknown start position{stand} of {all}"),
                     Advice::GiveStart(names.to_vec()),
                 )
             }
@@ -119,7 +119,7 @@ impl MotionRemarks {
         self.diagnostics.insert(0, diagnostic);
     }
 
-    /// FC907 where something begins to hold that the trace does not follow in full.
+    /// FC907 at the start of something that the trace does not follow in full.
     pub(super) fn say_simplified(&mut self, row: &Row<'_>, holds: Simplifications) {
         for what in holds.without(self.simplified).iter() {
             let message = format!("the trace {}", what.instead());
@@ -146,7 +146,7 @@ impl MotionRemarks {
         self.say_once(key, &RemarkPlace::of(row), remark);
     }
 
-    /// Something that holds for the rest of the program: only the first is reported.
+    /// Adds a message that applies to the rest of the program: only the first is reported.
     pub(super) fn say(&mut self, at: &RemarkPlace<'_>, remark: MotionRemark<'_>) {
         self.say_once((remark.code, Arc::from(""), 0, ""), at, remark);
     }

@@ -1,4 +1,4 @@
-//! Transitions between straight blocks, as the control rounds them (R11.21, R11.22).
+//! Transitions between straight blocks, rounded as by the control (R11.21, R11.22).
 //!
 //! Short lines that follow a curve become that curve. Any other corner is rounded by two spans of a
 //! cubic B-spline, which leave the blocks at the same distance and bend nowhere at their ends.
@@ -17,16 +17,16 @@ use frictcomp::interpreter::{BlockEnd, Contouring, Joining};
 /// sagitta of 0.2 µm (R11.22), and the share of the third decimal.
 const FINE: f64 = 0.0015;
 
-/// The sharpest kink in a run, in rad: 1° (R11.22), and what the third decimal adds.
+/// The sharpest kink in a run, in rad: 1° (R11.22), and the share of the third decimal.
 const FINE_KINK: f64 = 0.05;
 
-/// A chord of a run is at most so many times as long as its neighbour.
+/// Largest ratio of a chord of a run to its neighbour.
 const EVEN: f64 = 4.0;
 
-/// From this angle on a corner turns back: it is not rounded (PM/475073291).
+/// Angle from which a corner turns back: it is not rounded (PM/475073291).
 const TURNS_BACK: f64 = 3.0;
 
-/// A smaller kink is only the decimals of the program.
+/// A smaller kink is due only to the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
 /// Largest deviation of the followed path from the programmed one.
@@ -47,7 +47,7 @@ pub struct Transitions {
     pub joined: u64,
     /// Number of rounded corners.
     pub rounded: u64,
-    /// Number of kinks that nothing rounds, and that are passed below 80 % of F.
+    /// Number of kinks that are not rounded, and that are passed below 80 % of F.
     pub slow: u64,
     /// Largest deviation by rounding from the programmed path.
     pub rounding: Departure,
@@ -57,7 +57,7 @@ pub struct Transitions {
 
 /// Passage of a transition.
 enum CornerPassage {
-    /// As it is.
+    /// Unchanged.
     Kink,
     /// The blocks are part of one curve.
     Joined {
@@ -76,11 +76,11 @@ struct Corner {
     departure: f64,
 }
 
-/// Rounds transitions, and hands the path on.
+/// Rounds transitions, and passes the path on.
 pub(super) struct Rounding {
     look_ahead: LookAhead,
     main: Arc<[bool]>,
-    /// The straight blocks of the run that are not handed on.
+    /// The straight blocks of the run that have not been passed on.
     blocks: VecDeque<Straight>,
     /// The number of the first of them in the run.
     next: usize,
@@ -106,7 +106,7 @@ impl Rounding {
         }
     }
 
-    /// Returns the known path, but for its roundings.
+    /// Returns the known path, except for its roundings.
     pub(super) fn look_ahead(&self) -> &LookAhead {
         &self.look_ahead
     }
@@ -119,7 +119,7 @@ impl Rounding {
         }
     }
 
-    /// Adds the next segment, and how the transition after it is rounded.
+    /// Adds the next segment, and the rounding of the transition after it.
     pub(super) fn add(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
@@ -171,7 +171,7 @@ impl Rounding {
         ControlFlow::Continue(())
     }
 
-    /// Lets the axes rest.
+    /// Holds the axes at rest.
     pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.flush(None, sink)?;
         self.look_ahead.rest(dwell, sink)
@@ -231,7 +231,7 @@ impl Rounding {
         ControlFlow::Continue(())
     }
 
-    /// Hands the rest of the run on, which ends at its last vertex or before it.
+    /// Passes the rest of the run on, which ends at its last vertex or before it.
     fn flush(&mut self, end: Option<AxisPositions>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         if self.blocks.is_empty() {
             return ControlFlow::Continue(());
@@ -252,7 +252,7 @@ impl Rounding {
         ControlFlow::Continue(())
     }
 
-    /// Hands on the next span of the curve that joins the blocks of the run.
+    /// Passes on the next span of the curve that joins the blocks of the run.
     fn hand_on_span(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let Some(block) = self.blocks.pop_front() else {
             return ControlFlow::Continue(());

@@ -8,12 +8,12 @@ use super::segment::PathSegment;
 use super::trace::{Cause, Dwell, Sample, TraceSink};
 use frictcomp::comp::AxisIndex;
 
-/// Goes along profiles in steps of a CNC cycle.
+/// Follows profiles in steps of a CNC cycle.
 pub(super) struct Sampler {
     followed: Vec<usize>,
     /// Seconds of a cycle.
     cycle: f64,
-    /// Cycles in a second, where they are whole: times are decimals then, as 0.003 is.
+    /// Cycles per second, if they are whole: times are decimals then, such as 0.003.
     rate: Option<f64>,
     /// The number of the next cycle.
     next: u64,
@@ -23,7 +23,7 @@ pub(super) struct Sampler {
     velocities: Vec<f64>,
     path_velocity: f64,
     programmed_velocity: f64,
-    /// The block that was followed last.
+    /// The last block that was followed.
     last: Option<Arc<Cause>>,
     /// Limit of the cycles.
     budget: u64,
@@ -103,7 +103,7 @@ impl Sampler {
         ControlFlow::Continue(())
     }
 
-    /// Rests where the path ends.
+    /// Rests at the end of the path.
     pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let Dwell { seconds, cause } = dwell;
         self.end += seconds;
@@ -115,7 +115,7 @@ impl Sampler {
         ControlFlow::Continue(())
     }
 
-    /// One more cycle, so that the axes are seen at rest at the end of the path.
+    /// Adds one more cycle, so that the axes are seen at rest at the end of the path.
     pub(super) fn settle(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.halt();
         if let Some(cause) = self.last.take() {
@@ -125,7 +125,7 @@ impl Sampler {
         ControlFlow::Continue(())
     }
 
-    /// The axes stand.
+    /// Stops the axes.
     fn halt(&mut self) {
         self.velocities.fill(0.0);
         self.path_velocity = 0.0;
@@ -154,7 +154,7 @@ impl Sampler {
     }
 }
 
-/// A number that is whole but for its rounding.
+/// A number that is whole apart from its rounding.
 fn whole(number: f64) -> Option<f64> {
     let near = number.round();
     (near >= 1.0 && (number - near).abs() <= 1e-12 * near).then_some(near)

@@ -1,4 +1,4 @@
-//! One piece of the path: where the axes are after a distance, where they head, how they turn.
+//! One piece of the path: the positions of the axes after a distance, their slopes and their bends.
 
 use std::sync::Arc as Shared;
 
@@ -17,7 +17,7 @@ const CIRCLE_JERK: f64 = 0.7;
 /// Share of the jerk for the change of path velocity on a circle, across the path.
 const CROSS_JERK: f64 = 0.5;
 
-/// A slope smaller than this is the rounding of a sine.
+/// A slope smaller than this is due to the rounding of a sine.
 const NO_SLOPE: f64 = 1e-12;
 
 /// A piece of the path.
@@ -28,10 +28,10 @@ pub(super) struct PathSegment {
     shape: SegmentShape,
     /// The distance along the path that the feed refers to, in mm or degrees.
     pub(super) length: f64,
-    /// The highest path velocity that the program asks for.
+    /// The highest path velocity that the program sets.
     pub(super) feed: f64,
     pub(super) end: BlockEnd,
-    /// The profile of the acceleration, where the program selects one.
+    /// The profile of the acceleration, if the program selects one.
     pub(super) slope: Option<SlopeProfile>,
     /// The highest path velocity at its end.
     pub(super) end_velocity: f64,
@@ -67,7 +67,7 @@ pub(super) struct Ends<'a> {
 }
 
 impl PathSegment {
-    /// A straight segment; `None` where nothing moves.
+    /// A straight segment; `None` if nothing moves.
     pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
         let way = |main: bool| {
             let axes = ends.from.iter().zip(&ends.to).zip(ends.main);
@@ -75,7 +75,7 @@ impl PathSegment {
                 .map(|((from, to), _)| to - from)
                 .fold(0.0, f64::hypot)
         };
-        // Axes beside the main ones follow; moving alone, the feed is theirs.
+        // Axes other than the main ones follow; if they move alone, the feed is theirs.
         let (main, beside) = (way(true), way(false));
         let length = if main > SAME_PLACE || beside == 0.0 {
             main
@@ -91,7 +91,7 @@ impl PathSegment {
     /// An arc or a helix.
     ///
     /// # Errors
-    /// What keeps the ends and the centre from making an arc.
+    /// The ends and the centre do not make an arc.
     pub(super) fn arc(
         ends: Ends<'_>,
         arc: &CircularArc,
@@ -107,7 +107,7 @@ impl PathSegment {
         Ok(Self::new(ends, SegmentShape::Arc(circle), length, cause))
     }
 
-    /// The same block along other lines: from one place to another, straight.
+    /// The block along another line: from one place to another, straight.
     pub(super) fn moved(&self, from: &[f64], to: &[f64], main: &[bool]) -> Option<Self> {
         let ends = Ends {
             from: from.into(),
@@ -118,7 +118,7 @@ impl PathSegment {
         Some(line.paced_as(self))
     }
 
-    /// The same block along the span of a B-spline with these control points.
+    /// The block along the span of a B-spline with these control points.
     pub(super) fn curved(&self, points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let curve = SplineSpan::new(points, main)?;
         let place = |along| {
@@ -152,7 +152,7 @@ impl PathSegment {
         matches!(self.shape, SegmentShape::Line)
     }
 
-    /// The arc that it is.
+    /// The arc, if it is one.
     fn circle(&self) -> Option<&PlaneArc> {
         match &self.shape {
             SegmentShape::Arc(circle) => Some(circle),
@@ -174,7 +174,7 @@ impl PathSegment {
         }
     }
 
-    /// The path velocity at which one axis moves at its limit, and none beyond.
+    /// The path velocity at which one axis moves at its limit and none beyond it.
     pub(super) fn fastest(&self, limits: &[AxisLimits]) -> f64 {
         let open = Self {
             feed: f64::INFINITY,

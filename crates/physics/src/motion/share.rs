@@ -8,7 +8,7 @@ use super::profile::{Bounds, RampForm};
 pub(super) enum Share {
     /// All of them.
     Whole,
-    /// The share beside a kink at one of its ends.
+    /// The share next to a kink at one of its ends.
     BesideKink,
 }
 

@@ -2,12 +2,12 @@
 //!
 //! The coordinates of a program are rounded, and a curve through rounded vertices has a curvature
 //! that is mostly noise: with chords of 0.1 mm the last of four decimals bends the path as much as a
-//! radius of 100 mm does. Vertices are therefore weighted means of their neighbours, with weights that leave
-//! straight and evenly curved paths as they are; they are the control points of a cubic B-spline.
+//! radius of 100 mm does. Vertices are therefore weighted means of their neighbours, with weights that keep
+//! straight and evenly curved paths unchanged; they are the control points of a cubic B-spline.
 
 use std::collections::VecDeque;
 
-/// Limit of the vertices weighed on either side.
+/// Maximum number of vertices weighed on either side.
 const WIDEST: usize = 12;
 
 /// The weights of a vertex and its neighbours to one side: a Gaussian times a parabola, whose second
@@ -35,11 +35,11 @@ fn weights(half: usize) -> Vec<f64> {
 /// Positions of axes.
 pub(super) type AxisPositions = Box<[f64]>;
 
-/// The vertices of a run of short lines, of which control points are made as it goes on.
+/// The vertices of a run of short lines, from which control points are made as it continues.
 #[derive(Debug)]
 pub(super) struct SmoothRun {
     weights: Vec<Vec<f64>>,
-    /// The vertices that still matter.
+    /// The vertices that are still needed.
     vertices: VecDeque<AxisPositions>,
     /// The number of the first of them in the run.
     first: usize,
@@ -89,8 +89,8 @@ impl SmoothRun {
         self.last = Some(self.newest());
     }
 
-    /// Whether the span after a vertex can be made: all vertices that it depends on are known, and
-    /// stay as they are, which the newest may not.
+    /// Whether the span after a vertex can be made: all vertices that it depends on are known and
+    /// final, which the newest may not be.
     pub(super) fn is_ready(&self, span: usize) -> bool {
         self.last.is_some() || span + 4 + WIDEST <= self.newest()
     }
@@ -120,7 +120,7 @@ impl SmoothRun {
         ]
     }
 
-    /// Forgets the vertices that no span from one on depends on.
+    /// Forgets the vertices that are not needed for any span from one on.
     pub(super) fn forget_before(&mut self, span: usize) {
         while self.first + WIDEST + 2 < span {
             self.vertices.pop_front();
@@ -128,7 +128,7 @@ impl SmoothRun {
         }
     }
 
-    /// A control point: the smooth vertex, so far beyond it that the spline passes through it.
+    /// A control point: the smooth vertex, moved beyond it so that the spline passes through it.
     fn control(&self, number: usize) -> AxisPositions {
         let smooth = |number: usize| &self.smooth[number - self.first_smooth];
         let own = smooth(number);
@@ -169,7 +169,7 @@ impl SmoothRun {
     }
 }
 
-/// The place beyond the end of a path, as far away as another one before it.
+/// The place beyond the end of a path, at the distance of another one before it.
 fn mirrored(end: &AxisPositions, before: &AxisPositions) -> AxisPositions {
     let axes = end.iter().zip(before.iter());
     axes.map(|(end, before)| 2.0 * end - before).collect()

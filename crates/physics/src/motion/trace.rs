@@ -6,7 +6,7 @@ use std::sync::Arc;
 use frictcomp::comp::State;
 use frictcomp::interpreter::{PositionFrame, Simplifications};
 
-/// The block that a piece of the path comes from, and what holds while it is followed.
+/// The block that a piece of the path comes from, and the conditions while it is followed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Cause {
@@ -18,7 +18,7 @@ pub struct Cause {
     pub file: Arc<str>,
     /// The line on which the block starts, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
     /// Motion of the axes.
     pub movement: Movement,
@@ -54,15 +54,15 @@ pub struct Sample<'a> {
     pub positions: &'a [f64],
     /// Commanded velocity of each followed axis, in mm or degrees per second.
     pub velocities: &'a [f64],
-    /// Velocity of the path, in mm/s, or °/s where the feed is that of rotary axes.
+    /// Velocity of the path, in mm/s, or °/s if the feed is that of rotary axes.
     pub path_velocity: f64,
-    /// The path velocity that the program asks for in the same units, infinite in a rapid motion.
+    /// The programmed path velocity in the same units, infinite in a rapid motion.
     pub programmed_velocity: f64,
     /// The block that is followed.
     pub cause: &'a Arc<Cause>,
 }
 
-/// A motion that the trace leaves out, because where it leads or how fast is not known.
+/// A motion that the trace leaves out, because its target or its velocity is not known.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct SkippedMotion<'a> {
@@ -72,13 +72,13 @@ pub struct SkippedMotion<'a> {
     pub file: &'a str,
     /// The line of the block, from 1.
     pub line: u32,
-    /// The block number, where it is known.
+    /// The block number, if it is known.
     pub number: Option<i64>,
-    /// Why, in lower case.
+    /// The reason, in lower case.
     pub reason: &'static str,
 }
 
-/// A stay where the path ends.
+/// A dwell at the end of the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dwell<'a> {
     pub(super) seconds: f64,
@@ -87,13 +87,13 @@ pub(super) struct Dwell<'a> {
 
 /// Takes a commanded trace.
 pub trait TraceSink {
-    /// The trace begins, or begins again after something that is not known. The axes stand still.
+    /// Starts the trace, or restarts it after something that is not known. The axes are at standstill.
     fn begin(&mut self, time_s: f64, cause: &Arc<Cause>) -> ControlFlow<()>;
 
     /// Takes the next cycle; `Break` ends the trace.
     fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()>;
 
-    /// The trace leaves a motion out. The motions before it have been followed.
+    /// Leaves a motion out of the trace. The motions before it have been followed.
     fn left_out(&mut self, motion: &SkippedMotion<'_>) {
         let _ = motion;
     }

@@ -10,7 +10,7 @@ pub(super) struct DeadZone {
 }
 
 impl DeadZone {
-    /// A coupling with so much play in m whose motor has driven the load for a long time; at
+    /// Creates a coupling with a play in m whose motor has driven the load for a long time; at
     /// standstill the load is in the middle.
     pub(super) fn settled(play: f64, position: f64, velocity: f64) -> Self {
         let half = play / 2.0;

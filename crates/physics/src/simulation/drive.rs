@@ -26,7 +26,7 @@ pub struct Drive {
     parameters: DriveParameters,
     contact: Contact,
     coupling: DeadZone,
-    /// Stiction compensation, where it acts.
+    /// Stiction compensation, if it acts.
     stiction: Option<Stiction>,
     /// Position of the motor in m; the position loop measures it.
     position: f64,
@@ -34,13 +34,13 @@ pub struct Drive {
     velocity: f64,
     /// Force of the motor in N.
     force: f64,
-    /// Velocity in m/s that the position loop asks for.
+    /// Velocity in m/s that the position loop demands.
     target: f64,
     /// Force in N of the feed forward and the additive current.
     forward: f64,
-    /// Force in N that the speed loop asked for last.
+    /// Force in N that the speed loop demanded last.
     asked: f64,
-    /// Force in N that it asked for a cycle before: the dead time.
+    /// Force in N that it demanded a cycle before: the dead time.
     command: f64,
     /// Integral part of the speed loop in N.
     integral: f64,
@@ -109,14 +109,14 @@ impl Drive {
         self.force
     }
 
-    /// In how many cycles of the speed loop the force was limited.
+    /// The number of cycles of the speed loop in which the force was limited.
     pub fn saturated_cycles(&self) -> u64 {
         self.saturated
     }
 
-    /// Begins a cycle of the position loop: the velocity `Kv·(x_set - x) + k_ff·v_set`, and what
-    /// stiction compensation adds, is asked of the speed loop; the force `k_a·m·a_set + k_I·I_added`
-    /// is added to what it gives.
+    /// Begins a cycle of the position loop: the velocity `Kv·(x_set - x) + k_ff·v_set`, plus the
+    /// stiction compensation, is demanded from the speed loop; the force `k_a·m·a_set + k_I·I_added`
+    /// is added to its output.
     #[inline]
     pub fn follow(&mut self, setpoint: Setpoint) {
         let drive = &self.parameters;
@@ -130,9 +130,9 @@ impl Drive {
             + drive.force_per_unit_n * setpoint.added_units;
     }
 
-    /// Begins a cycle of the speed loop: `F = Kp·e + I + forward`, limited to what the drive can
-    /// give. The integral part waits while it would drive the force further into its limit. The
-    /// motor gets what was asked for a cycle ago.
+    /// Begins a cycle of the speed loop: `F = Kp·e + I + forward`, limited to the force of the drive.
+    /// The integral part waits while it would drive the force further into its limit. The
+    /// motor gets the force that was demanded a cycle ago.
     #[inline]
     pub fn control(&mut self) {
         self.command = self.asked;
@@ -150,7 +150,7 @@ impl Drive {
     }
 
     /// A simulation step: first the current loop, exactly, then the velocity, then the position.
-    /// Gives the position of the load in m at its end.
+    /// Returns the position of the load in m at its end.
     #[inline]
     pub fn step(&mut self) -> f64 {
         self.force = self.command + (self.force - self.command) * self.current_decay;

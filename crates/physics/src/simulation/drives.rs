@@ -34,7 +34,7 @@ impl<const N: usize> Drives<N> {
         }
     }
 
-    /// The drives with stiction compensation, those that have it.
+    /// Adds stiction compensation to the drives that have it.
     #[must_use]
     pub fn with_stiction(mut self, parameters: [Option<&StictionParameters>; N]) -> Self {
         for (drive, parameters) in self.axes.iter_mut().zip(parameters) {
@@ -71,13 +71,13 @@ impl<const N: usize> Drives<N> {
         &self.axes
     }
 
-    /// In how many cycles of the speed loop a force was limited, of all drives together.
+    /// The number of cycles of the speed loop in which a force was limited, of all drives together.
     pub fn saturated_cycles(&self) -> u64 {
         self.axes.iter().map(Drive::saturated_cycles).sum()
     }
 }
 
-/// Cycles of the position loop in a CNC cycle of so many seconds, at least one.
+/// Cycles of the position loop in a CNC cycle in seconds, at least one.
 fn ticks(cycle_s: f64) -> u32 {
     let ticks = (cycle_s / POSITION_LOOP_S).round();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates

@@ -15,11 +15,11 @@ use frictcomp::lists::Given;
 use frictcomp::text::SourceFile;
 
 impl Plant {
-    /// The plant that a TOML file describes. Keys at the top are for both axes, those in `[x]` and
-    /// `[y]` for one; what is not there comes from the plant that `base` names, `stiff` without it.
+    /// Reads the plant from a TOML file. Keys at the top are for both axes, those in `[x]` and
+    /// `[y]` for one; missing values come from the plant that `base` names, `stiff` without it.
     ///
     /// # Errors
-    /// FC110 with the place: no TOML, an unknown key, a value out of its range, or values that do
+    /// FC110 with the place: invalid TOML, an unknown key, a value out of its range, or values that do
     /// not fit together.
     pub fn from_toml(source: SourceFile) -> Result<Self, ConfigError> {
         let source = Arc::new(source);
@@ -52,8 +52,8 @@ fn base(name: &Given<String>) -> Result<Preset, ConfigError> {
     })
 }
 
-/// A drive with the values of a table in place of those that it had. What follows from others by a
-/// formula follows from the new ones, unless it is written itself.
+/// A drive with the values of a table in place of its own. Values that follow from others by a
+/// formula follow from the new ones, unless they are given themselves.
 fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParameters, ConfigError> {
     let mut drive = drive.clone();
     if let Some(mass) = table.number(PlantQuantity::Mass) {
@@ -90,7 +90,7 @@ fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParame
     Ok(drive)
 }
 
-/// Stiction compensation with the values of a table in place of those that it had.
+/// Stiction compensation with the values of a table in place of its own.
 fn compensated(
     mut parameters: StictionParameters,
     table: &StictionTable,
@@ -118,7 +118,7 @@ fn compensated(
     Ok(parameters)
 }
 
-/// The parameter that a number is; `None` where others follow from it or it has another unit.
+/// The parameter of a number; `None` if others follow from it or it has another unit.
 pub(super) fn parameter(drive: &mut DriveParameters, quantity: PlantQuantity) -> Option<&mut f64> {
     let friction = &mut drive.friction;
     Some(match quantity {

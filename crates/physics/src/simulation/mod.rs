@@ -2,7 +2,7 @@
 //!
 //! A [`Plant`] has two [`DriveParameters`]. A [`Drive`] is one of them in motion: position loop,
 //! speed loop, current loop, moved mass and a contact with [`Friction`]; [`Drives`] take several
-//! through a CNC cycle. Nothing here knows which path is driven or what it is judged by.
+//! through a CNC cycle. Nothing here depends on the driven path or on how it is judged.
 //!
 //! All quantities are in SI units, and the names of public numbers end in theirs.
 

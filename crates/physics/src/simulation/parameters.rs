@@ -51,7 +51,7 @@ pub struct DriveParameters {
     pub backlash_m: f64,
     /// The friction of the guideway.
     pub friction: Friction,
-    /// Stiction compensation by the control, where it has that (R8.6).
+    /// Stiction compensation by the control, if it has that (R8.6).
     pub stiction: Option<StictionParameters>,
 }
 
@@ -87,7 +87,7 @@ impl DriveParameters {
         self.friction.level_n(speed) + self.friction.viscous_n_s_per_m * speed
     }
 
-    /// The same axis with a contact so many times as stiff, its damping as a part of the critical one
+    /// Returns the axis with the contact stiffness times this factor, its damping as a part of the critical one
     /// unchanged.
     #[must_use]
     pub fn with_contact(&self, factor: f64) -> Self {
@@ -101,7 +101,7 @@ impl DriveParameters {
         axis
     }
 
-    /// The same axis with more friction forwards than backwards, by this part of their mean.
+    /// Returns the axis with more friction forwards than backwards, by this part of their mean.
     #[must_use]
     pub fn uneven(&self, part: f64) -> Self {
         let mut axis = self.clone();

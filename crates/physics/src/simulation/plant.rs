@@ -34,7 +34,7 @@ frictcomp::words! {
     }
 }
 
-/// A word that names no preset.
+/// A word that is not the name of a preset.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no plant `{0}`")]
 pub struct UnknownPreset(pub String);
@@ -90,7 +90,7 @@ impl DriveParameters {
 }
 
 impl Plant {
-    /// The same plant with more or less friction on both axes: every force of the curves times
+    /// Returns the plant with more or less friction on both axes: every force of the curves times
     /// `factor`.
     #[must_use]
     pub fn with_friction(&self, factor: f64) -> Self {

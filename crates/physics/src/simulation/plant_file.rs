@@ -23,7 +23,7 @@ pub(super) struct PlantFile {
     pub(super) axes: [Option<DriveTable>; 2],
 }
 
-/// The values of a drive that a table has, each within its range.
+/// The values of a drive in a table, each within its range.
 #[derive(Debug, Clone)]
 pub(super) struct DriveTable {
     numbers: Vec<(PlantQuantity, Given<f64>)>,
@@ -133,7 +133,7 @@ impl DriveTable {
             .find_map(|(other, number)| (other == quantity).then_some(number))
     }
 
-    /// The error about a number, at its place, or at the table without it.
+    /// The error about a number, at its place, or at the table if it is not given.
     pub(super) fn refuse(
         &self,
         quantity: PlantQuantity,

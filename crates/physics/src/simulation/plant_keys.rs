@@ -14,7 +14,7 @@ const PRESETS: [&str; Preset::ALL.len()] = {
     names
 };
 
-/// Elements of the Maxwell-slip model at most.
+/// Maximum number of elements of the Maxwell-slip model.
 pub(super) const MAX_ELEMENTS: usize = 20;
 
 /// A key whose value is one number.
@@ -66,10 +66,10 @@ pub(super) enum StictionKey {
 pub(super) struct KeyFacts {
     /// The symbol of the equations.
     pub(super) key: &'static str,
-    /// Its unit, empty where it has none; except in `[stiction]` and for backlash those of SI.
+    /// Its unit, empty if it has none; except in `[stiction]` and for backlash those of SI.
     pub(super) unit: &'static str,
-    /// The smallest and the largest value that are accepted. The ranges are wide; they are there
-    /// against wrong units and against values that the step of the simulation could not follow.
+    /// The smallest and the largest accepted value. The ranges are wide; they guard against wrong units
+    /// and against values that the step of the simulation could not follow.
     pub(super) range: [f64; 2],
 }
 

@@ -24,7 +24,7 @@ pub fn plant_list(drive: &DriveParameters) -> FrictionList {
     plant_list_at(drive, &inputs)
 }
 
-/// The same with points at these velocities in µm/s.
+/// The value list of a drive with points at these velocities in µm/s.
 pub(crate) fn plant_list_at(drive: &DriveParameters, inputs: &[f64]) -> FrictionList {
     let table = inputs.iter().map(|&input| {
         let speed = input * 1e-6;

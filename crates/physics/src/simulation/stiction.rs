@@ -8,15 +8,15 @@ use crate::stiction::StictionParameters;
 pub(super) struct Stiction {
     /// Cycles of the position loop in a control loop cycle.
     cycle: u32,
-    /// Cycles of the position loop until the servo lag is looked at again.
+    /// Cycles of the position loop until the servo lag is sampled again.
     wait: u32,
-    /// The servo lag in m when it was looked at last.
+    /// The servo lag in m when it was last sampled.
     lag: f64,
     /// The largest change that counts, in m.
     limit: f64,
     /// Velocity in m/s that a change of 1 m adds: `k_v · MP1511 / t_C`.
     gain: f64,
-    /// Velocity in m/s that is added until the next look.
+    /// Velocity in m/s that is added until the next sample.
     added: f64,
 }
 
@@ -37,7 +37,7 @@ impl Stiction {
     }
 
     /// The velocity in m/s that is added in a cycle of the position loop with this servo lag in m.
-    /// Between two looks at the lag it stays as it is.
+    /// It does not change between two samples of the lag.
     #[inline]
     pub(super) fn added(&mut self, lag: f64) -> f64 {
         if self.wait == 0 {

@@ -48,7 +48,7 @@ pub const FORMULAS: [Formula; 3] = [
 ];
 
 impl Formula {
-    /// The quantities that it has.
+    /// The quantities in it.
     pub fn quantities(&self) -> impl Iterator<Item = Quantity> {
         self.terms.iter().map(|(quantity, _)| *quantity)
     }
@@ -58,7 +58,7 @@ impl Formula {
         self.quantities().any(|it| it == quantity)
     }
 
-    /// The value of one quantity when the others have theirs; `None` where the formula cannot be
+    /// The value of one quantity when the others are known; `None` if the formula cannot be
     /// solved for it because of a value that is 0.
     pub(super) fn value(&self, wanted: Quantity, known: impl Fn(Quantity) -> f64) -> Option<f64> {
         let power = self

@@ -1,8 +1,8 @@
 //! Stiction compensation of the Heidenhain TNC 407, 415 and 425 (chapter 8): the formulas of machine
 //! parameters MP1511 to MP1513, solved for any of their terms.
 //!
-//! The control adds to the commanded feed what the servo lag changed over one control loop cycle, times
-//! a factor. [`solve`] takes the quantities that are known and computes those that follow;
+//! The control adds to the commanded feed the change of the servo lag over one control loop cycle, times
+//! a factor. [`solve`] takes the known quantities and computes those that follow;
 //! [`StictionParameters`] is what a simulated drive needs of them.
 
 mod formula;

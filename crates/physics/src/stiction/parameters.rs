@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::guideline::{Guideline, not_kept};
 
-/// Stiction compensation of one axis, as the control is set.
+/// Stiction compensation of one axis, as set on the control.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StictionParameters {
@@ -40,8 +40,8 @@ impl StictionParameters {
         self.mp1512 * self.gp_um / 256.0
     }
 
-    /// Whether stiction is compensated at a commanded feed (R8.2). It takes feed precontrol, too,
-    /// which only the drive knows.
+    /// Whether stiction is compensated at a commanded feed (R8.2). It also requires feed precontrol, which
+    /// only the drive has.
     pub fn acts_at(&self, feed_m_per_min: f64) -> bool {
         self.mp1513_m_per_min
             .is_none_or(|most| feed_m_per_min <= most)

@@ -45,7 +45,7 @@ struct QuantityFacts {
     /// Its key in records, and its name for a host.
     name: &'static str,
     unit: &'static str,
-    /// Further units and what a value in them is multiplied by.
+    /// Further units, each with the factor of a value in it.
     units: &'static [(&'static str, f64)],
 }
 
@@ -95,15 +95,15 @@ const TABLE: [QuantityFacts; 13] = [
     facts(Quantity::Mp1513, ["MP1513", "mp1513"], "m/min", FEEDS),
 ];
 
-/// A text that is no value of a quantity.
+/// A text that is not a value of a quantity.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
     /// It does not begin with a number.
     #[error("`{0}` does not begin with a number")]
     NoNumber(String),
-    /// The unit is none of those that the quantity has.
-    #[error("`{unit}` is no unit of {quantity}, which has {known}")]
+    /// The unit is not one of those of the quantity.
+    #[error("`{unit}` is not a unit of {quantity}, which has {known}")]
     Unknown {
         /// The quantity.
         quantity: Quantity,

@@ -9,10 +9,10 @@ use super::formula::{FORMULAS, Formula};
 use super::guideline::{Guideline, MP1511_RANGE_US, not_kept};
 use super::quantity::Quantity;
 
-/// Values that a formula gives and that are given may differ by so much of them.
+/// Largest relative difference between a given value and the result of a formula.
 const TOLERANCE: f64 = 1e-6;
 
-/// The value of a quantity and where it comes from.
+/// The value of a quantity and its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Solved {
@@ -20,7 +20,7 @@ pub struct Solved {
     pub quantity: Quantity,
     /// Its value in its own unit.
     pub value: f64,
-    /// The formula that gave it; absent where it was given.
+    /// The formula that gave it; absent if it was given.
     pub by: Option<&'static str>,
 }
 
@@ -43,7 +43,7 @@ pub enum FeedEffect {
 pub struct Solution {
     /// The values in the order of the quantities.
     pub values: Vec<Solved>,
-    /// `Δs_a` in mm as it acts, where the limit cuts it (R8.1).
+    /// The acting `Δs_a` in mm, if the limit cuts it (R8.1).
     pub clipped_to: Option<f64>,
     /// Whether it acts at the commanded feed.
     pub effect: FeedEffect,
@@ -51,7 +51,7 @@ pub struct Solution {
     pub guidelines: Vec<Guideline>,
 }
 
-/// Why nothing follows.
+/// Why nothing can be concluded.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StictionError {
@@ -78,7 +78,7 @@ pub enum StictionError {
         /// Given value.
         given: f64,
     },
-    /// A value is outside what it can be.
+    /// A value is out of range.
     #[error("{quantity} must be {expected}")]
     Range {
         /// The quantity.
@@ -94,17 +94,17 @@ pub enum StictionError {
         /// The quantity.
         quantity: Quantity,
     },
-    /// The limit keeps `Δs_a` below what would be needed.
+    /// The limit keeps `Δs_a` below the required value.
     #[error("F_add needs a Δs_a of {}, but the limit is {}", Quantity::DeltaSa.shown(*.needed_mm), Quantity::DeltaSa.shown(*.limit_mm))]
     Limited {
-        /// `Δs_a` that would be needed.
+        /// The required `Δs_a`.
         needed_mm: f64,
         /// Its limit.
         limit_mm: f64,
     },
 }
 
-/// Computes what follows from the quantities that are given, each in its own unit.
+/// Computes the quantities that follow from the given ones, each in its own unit.
 ///
 /// # Errors
 /// A value is outside its range, values contradict a formula, or nothing follows from them.
@@ -145,7 +145,7 @@ impl State {
         self.get(Quantity::DeltaSaLimit).map(|limit| limit / 1000.0)
     }
 
-    /// The value of a quantity as a formula takes it: `Δs_a` is cut to its limit (R8.1).
+    /// The value of a quantity for a formula: `Δs_a` is cut to its limit (R8.1).
     fn effective(&self, quantity: Quantity) -> f64 {
         let value = self.get(quantity).unwrap_or(f64::NAN);
         match (quantity, self.limit_mm()) {
@@ -194,13 +194,13 @@ impl State {
         }
     }
 
-    /// Whether a formula whose values are all known holds.
+    /// Checks a formula whose values are all known.
     fn compare(
         &self,
         formula: &Formula,
         given: &BTreeMap<Quantity, f64>,
     ) -> Result<(), StictionError> {
-        // What is compared is the last quantity that was given, so that the message names one.
+        // The last given quantity is compared, so that the message names one.
         let Some(quantity) = formula
             .quantities()
             .filter(|it| given.contains_key(it))

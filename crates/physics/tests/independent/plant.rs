@@ -1,12 +1,12 @@
 //! Recordings of an axis that drives circles, made without the crate: the additive current of chapter 4,
-//! the loops and the bristle of chapter 5.2, then the noise of an encoder and the steps of a drive.
+//! the loops and the bristle of chapter 5.2, then the noise of an encoder and the resolution of a drive.
 
 use std::f64::consts::TAU;
 
 /// The CNC cycle in s, and the time between two rows.
 const CYCLE_S: f64 = 0.001;
 
-/// What is recorded.
+/// The recorded drive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bench {
     pub(crate) stiffness: f64,
@@ -74,7 +74,7 @@ pub(crate) const SLOW: Bench = Bench {
     ..MID
 };
 
-/// N of a drive unit.
+/// N per drive unit.
 const UNIT: f64 = 5.0;
 
 /// µm after a reversal in which the current of the list builds up.
@@ -96,7 +96,7 @@ fn level(speed: f64) -> f64 {
     500.0 + 120.0 * (-speed.abs() / 0.003).exp()
 }
 
-/// The friction at a steady speed in m/s, in drive units: what the list holds.
+/// The friction at a steady speed in m/s, in drive units: the contents of the list.
 pub(crate) fn units_at(speed: f64) -> f64 {
     (level(speed) + 4000.0 * speed.abs()) / UNIT
 }

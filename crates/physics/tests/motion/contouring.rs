@@ -1,4 +1,4 @@
-//! Block transitions as the control rounds them.
+//! Block transitions, rounded as by the control.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use frictcomp_physics::motion::PlannerOptions;
 
 use super::{Trace, assert_limits, trace, trace_of};
 
-/// Axes of which nothing is known.
+/// Axes with nothing known about them.
 const DEFAULTS: &str = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"Y\"\n[[axis]]\nname = \"Z\"\n";
 
 /// A circle of 100 mm in chords, entered and left by a tangent.
@@ -37,7 +37,7 @@ fn follow(program: &str) -> Trace {
     trace_of(DEFAULTS, program, &["X", "Y"], PlannerOptions::default())
 }
 
-/// How far the trace is from the circle, in µm, without its ends.
+/// The distance of the trace from the circle, in µm, without its ends.
 fn off_circle(trace: &Trace) -> f64 {
     let on = trace.positions.iter().filter(|place| place[0] < 99.0);
     let off = on.map(|place| (place[0].hypot(place[1]) - 100.0).abs() * 1000.0);
@@ -178,7 +178,7 @@ fn a_corner_is_rounded_within_its_tolerance() {
     }
     let (nearest, _) = corner("#CONTOUR MODE ON [DIST PRE_DIST=2 POST_DIST=3]");
     assert!(nearest < 2.0, "{nearest}");
-    // A tolerance that is not known rounds nothing, and a block function rounds its own end.
+    // An unknown tolerance rounds nothing, and a block function rounds its own end.
     let (nearest, _) = corner("#CONTOUR MODE ON [DEV PATH_DEV=V.E.A]");
     assert!(nearest < 0.05, "{nearest}");
 }

@@ -1,4 +1,4 @@
-//! R5.1: what makes of F the velocity of the path: units, the spindle, weights and overrides.
+//! R5.1: the influences that make F the velocity of the path: units, the spindle, weights and overrides.
 
 use frictcomp::interpreter::Simplification;
 use frictcomp::lists::FeedUnit;
@@ -18,7 +18,7 @@ fn round(speed: f64) -> String {
     ((speed * 60.0 * 1e6).round() / 1e6).to_string()
 }
 
-/// A program on a machine whose channel list says something.
+/// A program on a machine with settings of the channel list.
 fn channel(program: &str, say: impl FnOnce(&mut Machine)) -> Trace {
     let mut machine = Machine::from_toml(MACHINE).expect("a machine");
     say(&mut machine);
@@ -39,7 +39,7 @@ fn the_channel_list_says_the_unit_of_f() {
     assert_eq!(unknown.positions.len(), 0);
     assert_eq!(unknown.said[1], ("FC903".to_owned(), 2));
     assert!(unknown.messages[1].contains("the unit of F is not known"));
-    // What G70 makes of m/min is not documented; G93 counts seconds all the same.
+    // The meaning of G70 for m/min is not documented; G93 counts seconds all the same.
     let metres = |program: &str| {
         channel(program, |machine| {
             machine.channel.feed_unit = FeedUnit::MetresPerMinute;
@@ -90,10 +90,10 @@ fn feeds_are_inches_with_g70() {
         (inches.end(), round(inches.top_speed(0))),
         (&[50.8][..], "508".to_owned())
     );
-    // The unit is that of the block in which F stands.
+    // The unit is that of the block with F.
     assert_eq!(top("G70 G01 X0 F20\nG71 X60\nM30"), "508");
     assert_eq!(top("G01 X0 F600\nG70 X2\nM30"), "600");
-    // Degrees are no lengths.
+    // Degrees are not lengths.
     let rotary = trace("G70 G01 C0 F600\nC50\nM30", &["C"]);
     assert!((rotary.top_speed(0) - 10.0).abs() < 1e-9);
     assert_eq!(top("G70 G95 S500 M3 G01 X0 F0.02\nX2\nM30"), "254");
@@ -109,7 +109,7 @@ fn g95_follows_the_main_spindle() {
         top("P1=800\nS[REV=P1 M3]\nG95 F0.5 G01 X0\nX50\nM30"),
         "400"
     );
-    // F of another mode does not hold (PM/206602507).
+    // F of another mode does not apply (PM/206602507).
     assert_eq!(top("S1200 G95 F1.5 G01 X0\nG94 F700 X50\nM30"), "700");
     for (program, why) in [
         ("G95 F1.5 G01 X0\nX50\nM30", "needs the speed"),
@@ -138,7 +138,7 @@ fn g95_follows_the_main_spindle() {
         let said = found.messages.join("\n");
         assert!(said.contains(why), "{program}: {said}");
     }
-    // Another spindle than the main one has no bearing where the list names them.
+    // A spindle other than the main one has no effect if the list names them.
     let named = |program: &str| {
         channel(program, |machine| {
             machine.channel.main_spindle = vec!["S1".to_owned()];
@@ -173,7 +173,7 @@ fn overrides_weight_feed_and_rapid_motions() {
         top("#OVERRIDE [FEED_FACT=120 RAPID_FACT=75]\nG00 X0\nX500\nM30"),
         "9000"
     );
-    // More than the axes can is not driven.
+    // More than the axes' limit is not driven.
     assert_eq!(
         top("#OVERRIDE [RAPID_FACT=150]\nG00 X0\nX500\nM30"),
         "12000"
@@ -224,7 +224,7 @@ fn e_is_the_feed_at_the_end_of_the_block() {
     let speed = found.path_velocities[next] * 60.0;
     assert!((600.0..660.0).contains(&speed), "{speed}");
     assert_eq!(round(found.top_speed(0)), "3000");
-    // More than F is F; it holds for its block, and with G94 only.
+    // More than F is F; it applies to its block, and only with G94.
     let plain = trace("G01 X0 F3000\nX50\nX100\nM30");
     for program in [
         "G01 X0 F3000\nX50 E9000\nX100\nM30",
@@ -240,7 +240,7 @@ fn e_is_the_feed_at_the_end_of_the_block() {
 
 #[test]
 fn what_is_not_modelled_is_shown_per_block() {
-    // R5.1: FC907 where it begins to hold, and in every cycle.
+    // R5.1: FC907 where it starts to apply, and in every cycle.
     let found = trace(
         "G01 X0 Y0 F1000\nG61 X10\nY10\nG261\nX20\nY20\nG260\nX30\nM30",
         &["X", "Y"],
@@ -280,7 +280,7 @@ fn what_is_not_modelled_is_shown_per_block() {
         assert_eq!(said.count(), 1, "{words}: {:?}", found.said);
         assert_eq!(found.end(), [20.0], "{words}");
     }
-    // What is modelled, and what only sets parameters, is not said.
+    // Modelled functions, and those that only set parameters, are not reported.
     for words in [
         "#CONTOUR MODE [DEV PATH_DEV=1]",
         "#SLOPE [TYPE=STEP]",

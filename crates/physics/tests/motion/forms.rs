@@ -1,4 +1,4 @@
-//! R5.1 and R5.3: what lines, arcs and dwells are followed along.
+//! R5.1 and R5.3: the forms of lines, arcs and dwells.
 
 use super::{CYCLE, MACHINE, Trace, assert_limits, trace};
 
@@ -20,7 +20,7 @@ fn block(trace: &Trace, line: u32) -> std::ops::Range<usize> {
     first.expect("the block")..last.expect("the block") + 1
 }
 
-/// The way that the axes cover.
+/// The distance that the axes cover.
 fn way(trace: &Trace) -> f64 {
     let steps = trace.positions.windows(2).map(|pair| {
         let squares = pair[0].iter().zip(&pair[1]).map(|(a, b)| (b - a) * (b - a));
@@ -46,7 +46,7 @@ fn full_circles_stay_on_the_arc_and_keep_the_feed() {
 
 #[test]
 fn velocities_pass_through_zero_at_the_quadrants() {
-    // R5.3: from X+ against the clock, X turns at X- only, Y at Y+ and Y-.
+    // R5.3: counter-clockwise from X+, X turns only at X-, Y at Y+ and Y-.
     let trace = trace("G01 X49 Y0 F1000\nX50\nG03 I-50\nM30", &["X", "Y"]);
     let circle = block(&trace, 3);
     for (axis, turns) in [(0, 1), (1, 2)] {
@@ -56,7 +56,7 @@ fn velocities_pass_through_zero_at_the_quadrants() {
             let v = trace.velocities[at][axis];
             if v * sign < 0.0 {
                 found += 1;
-                // It turns where it stands farthest out, within the way of a cycle.
+                // It turns where it is farthest out, within the distance of a cycle.
                 let other = trace.positions[at][1 - axis];
                 assert!(other.abs() < 1000.0 / 60.0 * CYCLE * 1.01, "{other}");
                 // The acceleration v²/r brings it through zero.
@@ -87,7 +87,7 @@ fn arcs_are_given_by_centres_and_by_radii() {
         ("G03 X0 Y10 G163=10", [0.0, 0.0], 10.0),
         ("P1=-10\nG163=P1\nG03 X0 Y10", [10.0, 10.0], 10.0),
         ("G70 G03 X0 Y[10/25.4] I[-10/25.4]", [0.0, 0.0], 10.0),
-        // A centre a little beside is moved to where both ends allow.
+        // A centre slightly off is moved to where both ends allow.
         (
             "G03 X0 Y10 I-10.01",
             [-0.005, -0.005],
@@ -160,10 +160,10 @@ fn dwells_and_feeds_of_all_modes() {
         let with = seconds(&format!("G01 X0 F1000\nX10\n{dwell}\nX0\nM30"));
         assert!((with - plain - 0.5).abs() < 2.0 * CYCLE, "{dwell}: {with}");
     }
-    // G93 gives the seconds of the block; speeding up and slowing down come on top.
+    // G93 gives the seconds of the block; speeding up and slowing down are added.
     let timed = seconds("G01 X0 F1000\nG93 F2 X10\nM30");
     assert!((2.0..2.1).contains(&timed), "{timed}");
-    // Axes beside the main ones follow; alone, the feed is theirs.
+    // Axes other than the main ones follow; if they move alone, the feed is theirs.
     let follows = trace("G01 X0 C0 F600\nX10 C1\nM30", &["X", "C"]);
     assert!((follows.top_speed(0) - 10.0).abs() < 1e-9);
     let alone = trace("G01 C0 F600\nC50\nM30", &["C"]);

@@ -8,7 +8,7 @@ const AXES: [&str; 4] = ["X", "Y", "Z", "C"];
 
 /// Seconds of the fastest motion over a length between two rests, in closed form.
 fn shortest(length: f64, velocity: f64, acceleration: f64, jerk: f64) -> f64 {
-    // The acceleration is reached where a²/j fits into the velocity.
+    // The acceleration is reached if a²/j fits into the velocity.
     let ramp = |peak: f64| {
         if peak * jerk <= acceleration * acceleration {
             2.0 * (peak / jerk).sqrt()
@@ -131,7 +131,7 @@ fn corners_stop_the_path_and_bends_slow_it_down() {
     assert!(slowest("G04 0.1\nX100") < 1e-9, "a dwell");
     assert!(
         slowest("G60 X60\nX100") < 0.5,
-        "an exact stop behind the next block"
+        "an exact stop after the next block"
     );
 }
 

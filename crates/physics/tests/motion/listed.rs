@@ -89,7 +89,7 @@ fn timed(found: Configuration, program: &str) -> (f64, f64) {
 
 #[test]
 fn the_trace_keeps_the_limits_of_the_lists() {
-    // R11.20: twice the root of v/j, or v/a + tr, beside the way at full speed; rapid has its own.
+    // R11.20: twice the root of v/j, or v/a + tr, in addition to the travel at full speed; rapid has its own.
     let (seconds, _) = timed(machine(AXIS, ""), "G01 X400 F6000\nM30\n");
     let expected = 4.0 + 2.0 * (100.0_f64 / 20_000.0).sqrt();
     assert!((seconds - expected).abs() < 0.003, "{seconds}");

@@ -58,7 +58,7 @@ pub(crate) struct Trace {
     pub(crate) lines: Vec<u32>,
     /// The cycles at which the trace begins, or begins anew.
     pub(crate) begins: Vec<usize>,
-    /// The codes that were said, with their lines.
+    /// The reported codes, with their lines.
     pub(crate) said: Vec<(String, u32)>,
     /// Their messages and help lines.
     pub(crate) messages: Vec<String>,
@@ -66,7 +66,7 @@ pub(crate) struct Trace {
     pub(crate) left_out: Vec<(u32, f64)>,
     pub(crate) causes: Vec<Arc<Cause>>,
     pub(crate) path_velocities: Vec<f64>,
-    /// What became of the transitions.
+    /// The treatment of the transitions.
     pub(crate) transitions: Transitions,
 }
 
@@ -135,7 +135,7 @@ pub(crate) fn trace_of(
     follow(machine, program, (axes, &[]), options)
 }
 
-/// The trace of the named axes on a machine, from where they stand.
+/// The trace of the named axes on a machine, from their current positions.
 pub(crate) fn follow(
     machine: Machine,
     program: &str,
@@ -193,7 +193,7 @@ pub(crate) fn assert_limits(machine: &str, names: &[&str], trace: &Trace) {
         for part in parts.windows(2) {
             let cycles = &trace.positions[part[0]..part[1]];
             let positions: Vec<f64> = cycles.iter().map(|cycle| cycle[column]).collect();
-            // The axis stands before and after.
+            // The axis is at rest before and after.
             let rest = |at: Option<&f64>| vec![*at.expect("a cycle"); 3];
             let positions = [
                 rest(positions.first()),

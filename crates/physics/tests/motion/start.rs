@@ -1,4 +1,4 @@
-//! R5.1 and R5.4: where a trace begins, what it leaves out, and what each cycle belongs to.
+//! R5.1 and R5.4: the start of a trace, the motions that it leaves out, and the cause of each cycle.
 
 use frictcomp::machine::Machine;
 use frictcomp_physics::motion::{Movement, PlannerOptions, PositionFrame};
@@ -24,7 +24,7 @@ fn a_start_that_is_given_makes_the_first_motion_known() {
     let found = from("G01 X5 Y5 F1000\nX10\nM30", &["X", "Y"], &[("X", 0.0)]);
     assert_eq!(found.said, [("FC906".to_owned(), 1)]);
     assert!(
-        found.messages[0].contains("where Y stands"),
+        found.messages[0].contains("unknown start position of Y"),
         "{:?}",
         found.messages
     );
@@ -38,11 +38,11 @@ fn a_start_is_proposed_where_it_is_not_known() {
     assert_eq!(
         found.messages,
         [
-            "the trace leaves out 3 motions, of which this is the first: where X, Y, Z stand at \
-             the start is not known; give the place at the start of X, Y, Z"
+            "the trace leaves out 3 motions, of which this is the first: unknown start positions of \
+             X, Y, Z; give the start position of X, Y, Z"
         ]
     );
-    // After homing it would not help to know where the axes stood.
+    // After homing, the axis positions at the start would not help.
     let found = trace("G74 X1\nG01 G91 X5 F1000\nX10\nM30", &["X"]);
     assert_eq!(found.said, [("FC903".to_owned(), 1)]);
     // An origin of the machine makes a start useless.

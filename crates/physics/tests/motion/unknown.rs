@@ -1,10 +1,10 @@
-//! R5.1 and R5.4: what is not known is left out and said.
+//! R5.1 and R5.4: what is not known is left out and reported.
 
 use frictcomp_physics::motion::PlannerOptions;
 
 use super::{MACHINE, trace, trace_of};
 
-/// What is said about a program, and where the trace of X begins.
+/// The messages about a program, and where the trace of X begins.
 fn said(program: &str) -> (Vec<(String, u32)>, usize) {
     let trace = trace(program, &["X"]);
     (trace.said, trace.begins.len())
@@ -79,7 +79,7 @@ fn transformed_positions_are_said_to_be_the_programs() {
 
 #[test]
 fn a_trace_is_bounded() {
-    // R5.1: without an end, and with numbers that nobody drives.
+    // R5.1: without an end, and with numbers that no axis can drive.
     let options = PlannerOptions::default().with_max_cycles(1000);
     for program in [
         "G01 X0 F1000\n$WHILE 1\nX10\nX0\n$ENDWHILE\nM30",

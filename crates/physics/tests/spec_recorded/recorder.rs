@@ -1,11 +1,11 @@
-//! A recorder of made-up circles: what a machine does around the circle, and what an encoder and
-//! a recorder make of it.
+//! A recorder of synthetic circles: the motion of a machine around the circle, and the effects of an
+//! encoder and a recorder on it.
 
 use std::f64::consts::TAU;
 
 use frictcomp_physics::circle::{Direction, RecordedTrace};
 
-/// Noise from a generator of its own, the same each time.
+/// Noise from a separate generator, the same each time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Noise {
     largest_um: f64,
@@ -20,7 +20,7 @@ impl Noise {
         }
     }
 
-    /// Evenly between plus and minus the largest, in mm.
+    /// A uniformly distributed number between plus and minus the largest, in mm.
     #[allow(clippy::cast_precision_loss)] // 32 bits of it
     fn next_mm(&mut self) -> f64 {
         self.state ^= self.state << 13;
@@ -36,17 +36,17 @@ impl Noise {
 pub(crate) struct Recorder {
     pub(crate) radius: f64,
     pub(crate) feed: f64,
-    /// Samples a second.
+    /// Samples per second.
     pub(crate) rate: f64,
     /// The step of the encoder; 0 for none.
     pub(crate) quantum_um: f64,
     pub(crate) centre: [f64; 2],
     pub(crate) start_deg: f64,
     pub(crate) noise: Noise,
-    /// The angle on the circle where the axes stand.
+    /// The current angle of the axes on the circle.
     pub(crate) angle: f64,
     pub(crate) samples: Vec<[f64; 2]>,
-    /// How far the machine shifts in a turn, in µm.
+    /// The shift of the machine per turn, in µm.
     pub(crate) drift_um: [f64; 2],
 }
 
@@ -74,7 +74,7 @@ impl Recorder {
         }
     }
 
-    /// The way of a sample in mm.
+    /// The distance of a sample in mm.
     fn step(&self) -> f64 {
         self.feed / 60.0 / self.rate
     }
@@ -97,7 +97,7 @@ impl Recorder {
         [self.radius * cos, self.radius * sin]
     }
 
-    /// So many turns with a radial deviation in µm.
+    /// Adds a number of turns with a radial deviation in µm.
     pub(crate) fn turns(
         mut self,
         direction: Direction,
@@ -119,7 +119,7 @@ impl Recorder {
         self
     }
 
-    /// The axes stand for so many seconds.
+    /// Adds a standstill of some seconds.
     pub(crate) fn standstill(mut self, seconds: f64) -> Self {
         let place = self.samples.last().copied();
         let place = place.map_or_else(
@@ -134,7 +134,7 @@ impl Recorder {
         self
     }
 
-    /// The way to the circle: that from it, backwards.
+    /// The path to the circle: the path from it, backwards.
     pub(crate) fn lead_in(
         mut self,
         lead: fn(Self, Direction) -> Self,
@@ -221,8 +221,8 @@ pub(crate) fn backlash([x, y]: [f64; 2], direction: Direction, angle: f64) -> f6
     0.5 * turning * (x * sin.signum() * cos - y * cos.signum() * sin)
 }
 
-/// The peaks in µm that friction leaves after every crossing: they rise at once and decay over so
-/// many degrees.
+/// The peaks in µm that friction leaves after every crossing: they rise at once and decay over this
+/// number of degrees.
 pub(crate) fn friction(height: f64, width_deg: f64, direction: Direction, angle: f64) -> f64 {
     let quarter = TAU / 4.0;
     let after = (direction.sign() * angle).rem_euclid(quarter).to_degrees();

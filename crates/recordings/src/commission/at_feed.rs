@@ -1,12 +1,12 @@
-//! The feed at which a recording was driven beside the planned one, and the glitch there.
+//! The feed of a recording compared with the planned one, and the glitch there.
 
 /// A measured speed is the planned one within this part.
 pub(super) const ON_FEED: f64 = 0.02;
 
-/// Two recordings are compared where the feeds that were driven differ by less than this part: v²/R by 5 %.
+/// Two recordings are compared if the feeds that were driven differ by less than this part: v²/R by 5 %.
 const SAME_FEED: f64 = 0.025;
 
-/// A recording stands for its planned feed where it was driven at no less than this part of it …
+/// A recording represents its planned feed if it was driven at no less than this part of it …
 const SLOWEST: f64 = 0.8;
 
 /// … and at no more than this.
@@ -26,13 +26,13 @@ impl AtFeed {
         (SLOWEST..=FASTEST).contains(&(self.driven / self.feed))
     }
 
-    /// By which part it was driven beside the planned feed; none within 2 %.
+    /// The deviation from the planned feed as a part of it; 0 within 2 %.
     pub(super) fn beside(&self) -> f64 {
         let part = (self.driven / self.feed - 1.0).abs();
         if part <= ON_FEED { 0.0 } else { part }
     }
 
-    /// Whether another recording of the planned feed was driven alike.
+    /// Whether another recording of the planned feed was driven at about the same feed.
     pub(super) fn is_driven_as(&self, other: &Self) -> bool {
         self.feed.total_cmp(&other.feed).is_eq()
             && (other.driven / self.driven - 1.0).abs() < SAME_FEED

@@ -1,8 +1,8 @@
-//! Why there is no plan.
+//! Why a plan cannot be made.
 
 use thiserror::Error;
 
-/// Why there is no plan (R16.8).
+/// Why a plan cannot be made (R16.8).
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -20,7 +20,7 @@ pub enum PlanError {
     },
     /// A circle is programmed in G17, G18 or G19.
     #[error(
-        "`{first}` and `{second}` are no plane: circles are planned for X and Y, Z and X, Y and Z"
+        "`{first}` and `{second}` are not a plane: circles are planned for X and Y, Z and X, Y and Z"
     )]
     Plane {
         /// The first axis.
@@ -54,7 +54,7 @@ pub enum PlanError {
         /// mm or degrees.
         unit: &'static str,
     },
-    /// The way of a run is longer than the travel.
+    /// The travel of a run is longer than that of the axis.
     #[error(
         "at {feed:.0} {unit}/min `{axis}` needs {needed:.1} {unit}: {ramp:.1} {unit} at each end to \
          accelerate, with 10 % to spare, and {steady:.1} {unit} at constant speed; the inner 90 % of its \
@@ -65,13 +65,13 @@ pub enum PlanError {
         axis: String,
         /// The feed in mm/min or °/min.
         feed: f64,
-        /// The way of one run.
+        /// The travel of one run.
         needed: f64,
-        /// The way to accelerate, with the spare part.
+        /// The travel to accelerate, with the spare part.
         ramp: f64,
-        /// The way at constant speed.
+        /// The travel at constant speed.
         steady: f64,
-        /// The way that there is.
+        /// The available travel.
         room: f64,
         /// mm or degrees.
         unit: &'static str,
@@ -85,9 +85,9 @@ pub enum PlanError {
         radius: f64,
         /// The axis with the shortest travel.
         axis: String,
-        /// The way that the circle takes.
+        /// The travel that the circle takes.
         needed: f64,
-        /// The way that there is.
+        /// The available travel.
         room: f64,
     },
     /// A circle that an axis cannot follow at a feed.
@@ -141,7 +141,7 @@ impl PlanError {
             }
             Self::Radius { .. } => "give a smaller radius, or more of the travel".to_owned(),
             Self::TooTight { .. } => "give a larger radius, or leave that feed out".to_owned(),
-            Self::Rounds(_) => "go on in a folder of its own".to_owned(),
+            Self::Rounds(_) => "continue in a separate folder".to_owned(),
             Self::Unconfigured(axis) => format!(
                 "set `lr_param.frict_comp 1` in the axis list of {axis}, restart the control, and describe it in `frictcomp.toml`"
             ),

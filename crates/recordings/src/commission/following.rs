@@ -1,9 +1,9 @@
-//! The following error of an axis: what its loops leave of the commanded motion, and what is left after reversals
+//! The following error of an axis: what its loops leave of the commanded motion, and the rest after reversals
 //! (R16.1, R16.9).
 //!
 //! A loop without friction answers a commanded motion with a following error that is linear in the velocity and in
-//! the accelerations of the last tenths of a second. This answer is fitted to the samples before reversals; what
-//! differs from it after one is the work of friction, or of a list.
+//! the accelerations of the last tenths of a second. This answer is fitted to the samples before reversals; the
+//! difference from it after a reversal is due to friction, or to a list.
 
 use std::cmp::Ordering;
 
@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use crate::identify::{Track, count, moving_average, noise_of, samples_in, solve_linear};
 
-/// Samples that are further apart do not show a glitch: twice the time that is asked for.
+/// Samples that are further apart do not show a glitch: twice the requested time.
 pub(super) const COARSEST_S: f64 = 0.002_05;
 
 /// Seconds over which signals are averaged.
@@ -20,7 +20,7 @@ const AVERAGED_S: f64 = 0.008;
 /// Seconds after a start or a reversal in which friction shows.
 const AFTER_S: f64 = 0.15;
 
-/// Slower than that in mm/s or °/s is standstill.
+/// Slower motion in mm/s or °/s is standstill.
 const STANDSTILL: f64 = 0.05;
 
 /// A reversal with a longer standstill in s is a stop and a start.
@@ -31,7 +31,7 @@ const KNOTS_S: [f64; 11] = [
     0.0, 0.004, 0.008, 0.014, 0.02, 0.03, 0.045, 0.065, 0.09, 0.13, 0.18,
 ];
 
-/// The part of the way that a following error may be beyond what its loops explain.
+/// The part of the travel by which a following error may exceed what its loops explain.
 const UNEXPLAINED: f64 = 0.01;
 
 /// Why a following error shows nothing.
@@ -39,7 +39,7 @@ const UNEXPLAINED: f64 = 0.01;
 #[non_exhaustive]
 pub enum NotFollowed {
     /// Neither the following error nor both positions.
-    #[error("it has neither the following error nor the actual position beside the commanded one")]
+    #[error("it has neither the following error nor the actual position with the commanded one")]
     Absent,
     /// Samples that are too far apart.
     #[error("a sample every {step_ms} ms does not show what a reversal does; record every ms")]
@@ -72,14 +72,14 @@ pub enum NotFollowed {
     },
 }
 
-/// A recorded axis and what its following error has beyond the answer of its loops.
+/// A recorded axis, and its following error beyond the answer of its loops.
 #[derive(Debug, Clone)]
 pub(super) struct Following {
     /// The time between two samples in s.
     step_s: f64,
     /// Commanded velocities in mm/s or °/s.
     velocities: Vec<f64>,
-    /// What is left of the following errors in mm or degrees.
+    /// The rest of the following errors in mm or degrees.
     left: Vec<f64>,
 }
 
@@ -90,15 +90,15 @@ pub(super) struct PassedReversal {
     pub(super) sign: f64,
     /// The fastest velocity of the stroke before it in mm/s or °/s.
     pub(super) speed: f64,
-    /// What is left of the following error after it in mm or degrees, positive where the axis stays behind.
+    /// The rest of the following error after it in mm or degrees, positive if the axis lags.
     pub(super) left: Vec<f64>,
 }
 
 impl Following {
-    /// The rest of following errors, commanded less actual position in 0.1 µm or 0.0001°.
+    /// Returns the rest of following errors, commanded less actual position in 0.1 µm or 0.0001°.
     ///
     /// # Errors
-    /// They are not there, too coarse, or those of another motion.
+    /// They are missing, too coarse, or those of another motion.
     pub(super) fn of(track: &Track, errors: &[f64]) -> Result<Self, NotFollowed> {
         if errors.is_empty() || errors.len() != track.times_s.len() {
             return Err(NotFollowed::Absent);
@@ -177,7 +177,7 @@ impl Following {
     }
 }
 
-/// The commanded velocities in mm/s or °/s: as they were recorded, or of the positions where those are less noisy.
+/// The commanded velocities in mm/s or °/s: as recorded, or from the positions if those are less noisy.
 fn commanded(track: &Track) -> Vec<f64> {
     let recorded = track.velocities.as_ref();
     let recorded: Option<Vec<f64>> = recorded.map(|it| it.iter().map(|it| it * 1e-3).collect());
@@ -228,13 +228,13 @@ impl<'a> CommandedMotion<'a> {
             if now == direction {
                 since += 1;
             } else {
-                // The averages shortly before hold what comes after.
+                // The averages shortly before contain later samples.
                 let before = at.saturating_sub(2 * samples_in(AVERAGED_S, step_s));
                 is_settled[before..at].fill(false);
                 since = 0;
             }
             direction = now;
-            // At standstill friction holds whatever the loops ask for.
+            // At standstill friction holds, whatever the loops command.
             is_settled[at] = now.is_ne() && since >= after;
         }
         Self {
@@ -248,7 +248,7 @@ impl<'a> CommandedMotion<'a> {
         }
     }
 
-    /// The way from one end to the other in mm or degrees.
+    /// The travel from one end to the other in mm or degrees.
     fn way(&self) -> f64 {
         let mut place = 0.0_f64;
         let [mut low, mut high] = [0.0_f64; 2];
@@ -260,7 +260,7 @@ impl<'a> CommandedMotion<'a> {
         high - low
     }
 
-    /// What the loops may answer to: a constant, the direction, the velocity, accelerations of the past.
+    /// What the loops may answer to: a constant, the direction, the velocity, past accelerations.
     fn causes(&self, at: usize) -> Vec<f64> {
         let velocity = self.velocities[at];
         let direction = if velocity.abs() < STANDSTILL {
@@ -286,7 +286,7 @@ impl<'a> CommandedMotion<'a> {
             .sum()
     }
 
-    /// The answer that fits the settled samples best; `None` where nothing decides it.
+    /// The answer that fits the settled samples best; `None` if nothing determines it.
     fn answer(&self, errors: &[f64]) -> Option<Vec<f64>> {
         /// Keeps what no motion determines at 0.
         const NEARLY: f64 = 1e-9;
@@ -308,7 +308,7 @@ impl<'a> CommandedMotion<'a> {
     }
 }
 
-/// The samples ago and the weights of a knot, which is linear between its neighbours.
+/// The earlier samples and the weights of a knot, which is linear between its neighbours.
 fn shares(knot: usize, step_s: f64) -> Vec<(usize, f64)> {
     let at = KNOTS_S[knot];
     let before = knot.checked_sub(1).map_or(at, |it| KNOTS_S[it]);
@@ -328,8 +328,8 @@ fn shares(knot: usize, step_s: f64) -> Vec<(usize, f64)> {
     weighed.filter(|(_, share)| *share > 0.0).collect()
 }
 
-/// Says where an actual position does not follow the commanded one; nothing where it was not recorded, or too
-/// coarsely to tell.
+/// Returns where an actual position does not follow the commanded one; nothing if it was not recorded, or too
+/// coarsely for that.
 pub fn actual_elsewhere(track: &Track, following_errors: &[f64]) -> Option<NotFollowed> {
     let error = Following::of(track, following_errors).err();
     error.filter(|it| matches!(it, NotFollowed::Elsewhere { .. }))

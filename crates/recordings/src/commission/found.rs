@@ -19,14 +19,14 @@ const STEADY: f64 = 0.1;
 /// friction.
 const EVEN: f64 = 0.2;
 
-/// The ratios of the recorded to the planned speeds scatter by less than this part, where only an override
+/// The ratios of the recorded to the planned speeds scatter by less than this part if only an override
 /// differs.
 const ONE_RATIO: f64 = 0.05;
 
 /// The greatest additive current as a part of the measured friction.
 pub const MOST_CURRENT: f64 = 1.3;
 
-/// A scaling factor with which the outputs are what they say.
+/// A scaling factor with which the outputs have their nominal values.
 const UNSCALED: i16 = 1000;
 
 /// The friction of an axis in a recorded program.
@@ -41,18 +41,18 @@ pub struct FrictionFound {
     pub offset: f64,
     /// The recorded speeds as a part of the planned ones.
     pub override_part: Option<f64>,
-    /// The curve through them, where one fits.
+    /// The curve through them, if one fits.
     pub fit: Option<Fit>,
     /// The points of a value list: µm/s or 0.001°/s, drive units.
     pub table: Vec<[f64; 2]>,
     /// Remarks.
     pub notes: Vec<String>,
-    /// Reasons for which no list is made of it.
+    /// Reasons why no list is made of it.
     pub against: Vec<String>,
 }
 
 impl FrictionFound {
-    /// Judges what was identified in the recording of a program with these speeds in mm/s or °/s.
+    /// Judges the friction identified in the recording of a program with these speeds in mm/s or °/s.
     pub fn of(axis: &str, found: &Identified, planned: &[f64]) -> Self {
         let mut notes: Vec<String> = found
             .findings
@@ -86,7 +86,7 @@ impl FrictionFound {
         if found.offset.abs() > EVEN * least {
             notes.push(format!(
                 "the offset of {:.1} is {:.0} % of the friction: weight, or friction that differs between the \
-                 directions, which one list cannot compensate; it is no part of the list",
+                 directions, which one list cannot compensate; it is not part of the list",
                 found.offset,
                 found.offset.abs() / least * 100.0
             ));
@@ -111,8 +111,8 @@ impl FrictionFound {
         }
     }
 
-    /// Checks that a recording, from its strokes on, is as long as its program in s, `None` where its strokes are
-    /// not in it, and that it has every ms.
+    /// Checks that a recording, from its strokes on, is as long as its program in s, `None` if its strokes are
+    /// not in it, and that it has a sample every ms.
     pub fn check_length(&mut self, track: &Track, planned_s: Option<f64>) {
         const WHOLE: f64 = 0.97;
         const FINE_S: f64 = 0.0015;
@@ -136,8 +136,8 @@ impl FrictionFound {
         }
     }
 
-    /// By how much the friction of two recordings of one program differs at most, as a part of the first;
-    /// `None` where they have no common speed.
+    /// The largest difference in friction between two recordings of one program, as a part of the first;
+    /// `None` if they have no common speed.
     pub fn apart_from(&self, other: &Self) -> Option<f64> {
         let pairs = self
             .speeds
@@ -175,8 +175,8 @@ impl FrictionFound {
         }
     }
 
-    /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and how many times the
-    /// friction that is; `None` without friction.
+    /// The recorded speed in mm/s or °/s at which a list adds most of the friction, and the ratio to the
+    /// friction there; `None` without friction.
     pub fn strongest(&self, list: &FrictionList) -> Option<(f64, f64)> {
         let points: Vec<[f64; 2]> = list.table.iter().map(|it| [it.input, it.output]).collect();
         let scale = f64::from(list.scaling_factor) / 1000.0;
@@ -202,7 +202,7 @@ impl FrictionFound {
         }
     }
 
-    /// The same list with no output above the greatest part of the friction that may be added.
+    /// The list with no output above the greatest part of the friction that may be added.
     #[must_use]
     pub fn bounded(&self, list: &FrictionList) -> FrictionList {
         let scale = f64::from(list.scaling_factor) / f64::from(UNSCALED);
@@ -249,8 +249,8 @@ fn uneven(found: &Identified) -> Option<String> {
     })
 }
 
-/// The part of the friction by which the offset grows with it; `None` where friction differs too little over the
-/// speeds, or the offset too much from a line, to tell.
+/// The part of the friction by which the offset grows with it; `None` if friction differs too little over the
+/// speeds, or the offset too much from a line, to determine it.
 fn growing_offset(found: &Identified) -> Option<f64> {
     const TIMES: f64 = 3.0;
     /// Friction differs over the speeds by this part of its mean.
@@ -274,7 +274,7 @@ fn growing_offset(found: &Identified) -> Option<f64> {
     (differs && slope.abs() > TIMES * error).then_some(slope)
 }
 
-/// The recorded speeds as a part of the planned ones; `None` where no single part explains them.
+/// The recorded speeds as a part of the planned ones; `None` if no single part explains them.
 fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
     let fastest = found.pairs.last()?.speed;
     let part = fastest / planned.last()?;
@@ -282,7 +282,7 @@ fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
         let mut wanted = planned.iter().map(|it| it * part);
         wanted.any(|it| (it - speed).abs() <= ONE_RATIO * it)
     };
-    // An axis may miss a speed that is too slow to be seen; it has none that was not planned.
+    // An axis may miss a speed that is too slow to be seen, but has none that was not planned.
     let strange = found
         .pairs
         .iter()
@@ -299,7 +299,7 @@ pub struct CirclesFound {
     pub feed: f64,
     /// The recorded feed in mm/min; `None` without times.
     pub measured_feed: Option<f64>,
-    /// v²/R in mm/s² as it was recorded, else as it was planned.
+    /// v²/R in mm/s² as recorded, otherwise as planned.
     pub acceleration: f64,
     /// The mean centre of both directions.
     pub centre_mm: [f64; 2],
@@ -309,11 +309,11 @@ pub struct CirclesFound {
     pub worst_um: f64,
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
-    /// The glitch of each axis as predictions are compared with it, without noise.
+    /// The glitch of each axis for comparison with predictions, without noise.
     pub heights_um: Option<[f64; 2]>,
     /// Remarks.
     pub notes: Vec<String>,
-    /// Reasons for which nothing is concluded from it.
+    /// Reasons why nothing is concluded from it.
     pub against: Vec<String>,
 }
 
@@ -373,7 +373,7 @@ impl CirclesFound {
         }
     }
 
-    /// The glitch at the feed that was driven; `None` where it is not known.
+    /// The glitch at the feed that was driven; `None` if that is not known.
     pub(super) fn at_feed(&self) -> Option<AtFeed> {
         self.measured_feed.map(|driven| AtFeed {
             feed: self.feed,
@@ -382,7 +382,7 @@ impl CirclesFound {
         })
     }
 
-    /// By which part it was driven beside the planned feed; none within 2 %, infinite where it is not known.
+    /// The deviation from the planned feed as a part of it; 0 within 2 %, infinite if it is not known.
     pub fn beside(&self) -> f64 {
         self.at_feed().map_or(f64::INFINITY, |it| it.beside())
     }
@@ -394,7 +394,7 @@ impl CirclesFound {
     }
 }
 
-/// Figures of ISO 230-4 in µm, where a recording has them.
+/// Figures of ISO 230-4 in µm, if a recording has them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct IsoFigures {
@@ -420,7 +420,7 @@ impl IsoFigures {
     }
 }
 
-/// A recording whose circles go the other way round than those of the programs.
+/// A recording whose circles run in the opposite direction to those of the programs.
 fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     let begin = |direction: Direction| {
         let mut circles = circles.iter();
@@ -435,7 +435,7 @@ fn begins_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// Points that are too far apart in time for what a reversal does.
+/// Points that are too far apart in time to show a reversal.
 fn coarse(circle: &RecordedCircle) -> Option<String> {
     let step_s = circle.turn_s? / count(circle.points);
     (step_s > COARSEST_S).then(|| {
@@ -446,7 +446,7 @@ fn coarse(circle: &RecordedCircle) -> Option<String> {
     })
 }
 
-/// Samples that are missing in a turn: what a reversal does may be among them.
+/// Samples that are missing in a turn: a reversal may be among them.
 fn gap(circle: &RecordedCircle) -> Option<String> {
     const STEPS: f64 = 5.0;
     let step_s = circle.turn_s? / count(circle.points);
@@ -471,7 +471,7 @@ fn too_round(recording: &Recording) -> Option<String> {
     })
 }
 
-/// Directions at different feeds, of which no single v²/R is left.
+/// Directions at different feeds, which have no common v²/R.
 fn driven_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     let feeds = circles.iter().filter_map(RecordedCircle::feed_mm_per_min);
     let (slowest, fastest) = feeds.fold((f64::INFINITY, 0.0_f64), |(low, high), it| {
@@ -484,7 +484,7 @@ fn driven_otherwise(circles: &[RecordedCircle]) -> Option<String> {
     })
 }
 
-/// A direction of which less is recorded than its program drives: three turns with the halves before and after.
+/// A direction with less recorded than its program drives: three turns with the halves before and after.
 fn cut_short(circle: &RecordedCircle) -> Option<String> {
     const DRIVEN: f64 = 3.0;
     const NEARLY: f64 = 0.9;
@@ -497,7 +497,7 @@ fn cut_short(circle: &RecordedCircle) -> Option<String> {
     })
 }
 
-/// A turn that leaves more than the one from which everything is concluded.
+/// A turn that leaves more than the one on which all conclusions are based.
 fn worse_turn(circle: &RecordedCircle) -> Option<String> {
     let worse = circle.whole_turns()?.worse?;
     Some(format!("its turns are not alike: {worse}"))

@@ -1,4 +1,4 @@
-//! The recordings of a round of learning: which turns are of one circle, and whether they are two (R16.4).
+//! The recordings of a round of learning: the turns of each circle, and whether there are two (R16.4).
 
 use thiserror::Error;
 
@@ -7,13 +7,13 @@ use frictcomp_physics::circle::{
     RecordedTwice, WorseTurn,
 };
 
-/// Feeds at least: between four up to 1.8 µm hide (R16.4).
+/// Minimum number of feeds: between four up to 1.8 µm remain hidden (R16.4).
 pub const LEAST_FEEDS: usize = 6;
 
-/// Turns are of one feed within this part, and of one radius.
+/// Turns are at the same feed within this part, and of the same radius.
 const SAME: f64 = 0.02;
 
-/// Centres of one machine are at most so far apart, in mm.
+/// Centres of one machine are at most this far apart, in mm.
 const SAME_CENTRE_MM: f64 = 1.0;
 
 /// Two recordings of one list differ by at most this part of their mean at a reversal …
@@ -36,7 +36,7 @@ pub struct RecordedTurn {
 #[derive(Debug, Clone)]
 pub struct LearnedCircles(pub [Vec<LearnedCircle>; 2]);
 
-/// Recordings that make no round.
+/// Recordings that do not make a round.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LearnError {
@@ -155,7 +155,7 @@ impl LearnedCircles {
     /// `reference`, the first turn of the first round.
     ///
     /// # Errors
-    /// Turns that make no round.
+    /// The turns do not make a round.
     pub fn of(
         turns: &[RecordedTurn],
         reference: &RecordedTurn,

@@ -1,4 +1,4 @@
-//! Commissioning: the measuring programs, and how their recordings are told apart (chapter 16 of the
+//! Commissioning: the measuring programs, and the recognition of their recordings (chapter 16 of the
 //! rules).
 //!
 //! [`Plan`] holds programs as steps within the travel of the axes. Lengths are in mm or degrees, feeds in mm

@@ -17,7 +17,7 @@ const FEEDS: std::ops::RangeInclusive<usize> = 4..=12;
 const SECOND_ROUND: u16 = 64;
 const NUMBERS: u16 = 16;
 
-/// The last round whose numbers a signature has.
+/// The last round whose numbers fit a signature.
 const LAST_ROUND: u16 = 61;
 
 /// Compensation while the programs of a plan run.
@@ -27,7 +27,7 @@ const LAST_ROUND: u16 = 61;
 pub enum Stage {
     /// Off: the friction and the machine as it is.
     Off,
-    /// On, with a list that is known.
+    /// On, with a known list.
     On,
 }
 
@@ -110,7 +110,7 @@ fn first_number(round: u16) -> u16 {
     }
 }
 
-/// Axes that can be measured together, and values that are numbers above 0.
+/// Checks that the axes can be measured together, and that the values are numbers above 0.
 fn check(request: &PlanRequest, stage: Stage) -> Result<(), PlanError> {
     let axes = &request.axes[..];
     if let [first, second] = axes {

@@ -1,4 +1,4 @@
-//! The plant that was fitted to recorded circles, what it predicts, and the reasons against it (R16.3, R16.9).
+//! The plant that was fitted to recorded circles, its predictions, and the reasons against it (R16.3, R16.9).
 
 use serde::{Deserialize, Serialize};
 
@@ -6,13 +6,13 @@ use crate::identify::Fit;
 use frictcomp_physics::circle::{Extent, FittedDrive};
 use frictcomp_physics::simulation::DriveParameters;
 
-/// Feeds at least that a plant is fitted to.
+/// Minimum number of feeds that a plant is fitted to.
 const FITTED_FEEDS: usize = 4;
 
-/// The fastest of them is at least so many times as fast as the slowest: a decade, as fast as it was driven.
+/// Minimum ratio of the fastest of them to the slowest: a decade, less the tolerance of the driven feed.
 const DECADE: f64 = 9.8;
 
-/// Feeds of which one is held out.
+/// Number of feeds of which one is held out.
 const HELD_OUT: usize = 3;
 
 /// A prediction may miss the recording by this part of it …
@@ -24,10 +24,10 @@ const MISSED_UM: f64 = 0.5;
 /// Predictions that differ by less than this in µm are the same.
 const SAME_UM: f64 = 0.1;
 
-/// A list is a gain where it leaves at most this part.
+/// A list is a gain if it leaves at most this part.
 const GAIN: f64 = 0.95;
 
-/// A plant with what was made of it.
+/// A plant with the results based on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct PlantFound {
@@ -68,7 +68,7 @@ pub struct PlantAxis {
     pub delay: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
-    /// The root mean square in µm that is left of the recorded deviations.
+    /// The root mean square of the recorded deviations that is left, in µm.
     pub left: f64,
     /// Number of recorded reversals.
     pub reversals: usize,
@@ -91,7 +91,7 @@ pub struct PredictedGlitch {
     pub predicted_um: f64,
 }
 
-/// A recorded glitch, as a prediction is compared with it.
+/// A recorded glitch for comparison with a prediction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct RecordedGlitch {
@@ -107,7 +107,7 @@ pub struct RecordedGlitch {
 }
 
 /// A recorded glitch at a feed that neither the fit nor the tuning has seen, or with a list that was tuned on the
-/// plant, beside its prediction.
+/// plant, with its prediction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ComparedGlitch {
@@ -134,7 +134,7 @@ pub struct TunedList {
     /// The largest predicted glitch in µm over all recorded feeds.
     #[serde(rename = "predicted_glitch")]
     pub predicted_um: f64,
-    /// Reasons for which it is not to be recorded.
+    /// Reasons why it is not to be recorded.
     pub against: Vec<String>,
 }
 
@@ -154,7 +154,7 @@ impl PlantAxis {
         }
     }
 
-    /// Says which parameter ends at the bound of its search. Damping is left out: it is hardly ever determined.
+    /// Names a parameter that ends at the bound of its search. Damping is left out: it is hardly ever determined.
     fn at_a_bound(&self) -> Option<String> {
         let found = [
             ("the contact", self.contact),
@@ -174,7 +174,7 @@ impl PlantAxis {
 }
 
 impl ComparedGlitch {
-    /// Says by how much the recording misses the prediction, where that rejects the plant.
+    /// States how far the recording misses the prediction, if that rejects the plant.
     pub fn missed(&self) -> Option<String> {
         let (recorded, predicted) = (&self.recorded, self.predicted_um);
         let is_missed = (predicted - recorded.um).abs() > MISSED_UM.max(MISSED * recorded.um);
@@ -228,7 +228,7 @@ impl PlantFound {
         self.axes.iter().filter_map(PlantAxis::at_a_bound).collect()
     }
 
-    /// Recorded glitches beside their predictions.
+    /// Returns the recorded glitches with their predictions.
     pub fn compared(&self, recorded: Vec<RecordedGlitch>) -> Vec<ComparedGlitch> {
         let compared = recorded.into_iter().filter_map(|recorded| {
             let list = recorded.list.as_deref();
@@ -248,7 +248,7 @@ impl PlantFound {
         predicted.max_by(f64::total_cmp)
     }
 
-    /// Says where a list is predicted to leave hardly less than the old one.
+    /// States that a list is predicted to leave hardly less than the old one, if so.
     pub fn no_gain(&self, axis: &str, list: &str, old: &str) -> Option<String> {
         let new_um = self.largest(axis, list)?;
         let old_um = self.largest(axis, old)?;
@@ -260,8 +260,8 @@ impl PlantFound {
         })
     }
 
-    /// Held-out feeds at which a list is predicted to leave more than there is without one, or than the old one
-    /// leaves.
+    /// Held-out feeds at which a list is predicted to leave more than is left without a list, or with the old
+    /// one.
     pub fn fails_held_out(&self, axis: &str, list: &str, old: Option<&str>) -> Vec<String> {
         let mut against = Vec::new();
         for &feed in &self.held_out {
@@ -296,7 +296,7 @@ pub fn held_out(feeds: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (of(fitted), of(out))
 }
 
-/// Reasons for which no plant is fitted to circles at these feeds, slowest first, recorded off and on.
+/// Reasons why no plant is fitted to circles at these feeds, slowest first, recorded off and on.
 pub fn against_plant(feeds: &[f64]) -> Vec<String> {
     let mut against = Vec::new();
     if feeds.len() < FITTED_FEEDS {
@@ -392,7 +392,7 @@ mod tests {
 
     #[test]
     fn a_value_at_the_bound_of_its_search_speaks_against_the_plant() {
-        // R16.9: also where other selections of the reversals give the range a width.
+        // R16.9: also if other selections of the reversals give the range a width.
         let extent = |at_bound| Extent {
             value: 2.0,
             low: 1.8,

@@ -53,7 +53,7 @@ pub enum Measurement {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PlanStep {
-    /// A comment before what follows.
+    /// A comment before the next motion.
     Note(String),
     /// Standstill in s.
     Dwell(f64),

@@ -1,10 +1,10 @@
-//! The wishes and the machine that a plan is made for.
+//! The requirements on a plan, and the machine that it is made for.
 
 use serde::{Deserialize, Serialize};
 
 use frictcomp::machine::AxisType;
 
-/// Wishes and machine that a plan is made for.
+/// Requirements on a plan, and the machine that it is made for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRequest {
     /// The axes that are measured: one alone, or two linear ones.
@@ -34,7 +34,7 @@ pub struct MeasuredAxis {
     pub dynamics: Dynamics,
     /// Friction compensation at the start of the control.
     pub installed: Installed,
-    /// The way in which the torque repeats, a pitch of the screw, in mm or degrees.
+    /// The period of the torque along the travel, a pitch of the screw, in mm or degrees.
     pub pitch: Option<f64>,
     /// The axes of a gantry that follow it.
     pub followers: Vec<String>,
@@ -68,7 +68,7 @@ pub enum Installed {
     Unconfigured,
     /// On from the start of the control, or with the first valid list.
     On,
-    /// Configured, switched on by programs alone.
+    /// Configured, switched on only by programs.
     Off,
 }
 
@@ -94,7 +94,7 @@ impl Dynamics {
         }
     }
 
-    /// The way from standstill to a speed.
+    /// The travel from standstill to a speed.
     pub fn way_to(&self, speed: f64) -> f64 {
         self.time_to(speed) * speed / 2.0
     }

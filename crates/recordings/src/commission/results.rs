@@ -14,7 +14,7 @@ pub struct RecordingResult {
     pub file: String,
     /// The SHA-256 of its bytes.
     pub sha256: String,
-    /// The SHA-256 of the plan and the options that it was read with; with others it is read again.
+    /// The SHA-256 of the plan and the options that it was read with; if they change, it is read again.
     pub read_with: String,
     /// The number of its program.
     pub program: Option<u16>,
@@ -33,12 +33,12 @@ pub enum RecordingOutcome {
     Circles(CirclesFound),
     /// Strokes of an axis alone.
     Strokes(StrokesFound),
-    /// Nothing that is used, with the reason.
+    /// No usable result, with the reason.
     Refused(String),
 }
 
 impl RecordingOutcome {
-    /// Reasons for which nothing is concluded from it.
+    /// Reasons why nothing is concluded from it.
     pub fn against(&self) -> &[String] {
         match self {
             Self::Friction(found) => &found.against,
@@ -58,13 +58,13 @@ impl RecordingOutcome {
         }
     }
 
-    /// Whether it counts for its program: there is no reason against it, and it was driven at the planned feeds or
-    /// near them. A first pass at 10 % override is none.
+    /// Whether it counts for its program: there are no reasons against it, and it was driven at the planned feeds or
+    /// near them. A first pass at 10 % override does not count.
     pub fn is_used(&self) -> bool {
         self.against().is_empty() && self.reversals().all(|it| it.is_near())
     }
 
-    /// The recorded feeds as a part of the planned ones, where they are known.
+    /// The recorded feeds as a part of the planned ones, if they are known.
     pub fn driven_part(&self) -> Option<f64> {
         match self {
             Self::Friction(found) => found.override_part,
@@ -72,7 +72,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// Says that nothing is concluded from it.
+    /// Refuses it with a reason.
     pub fn refuse(&mut self, reason: String) {
         match self {
             Self::Friction(found) => found.against.push(reason),
@@ -92,7 +92,7 @@ impl RecordingOutcome {
         }
     }
 
-    /// What reversals show at each feed.
+    /// The results of reversals at each feed.
     fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {
             Self::Circles(found) => found.at_feed(),
@@ -111,7 +111,7 @@ impl RecordingOutcome {
     }
 }
 
-/// Glitches at a feed with compensation off and on, as they were recorded: in µm, or 0.001° of an axis that turns.
+/// Recorded glitches at a feed with compensation off and on: in µm, or 0.001° of a rotary axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct BeforeAfter {
@@ -126,26 +126,26 @@ pub struct BeforeAfter {
 }
 
 impl BeforeAfter {
-    /// Whether compensation leaves more than there was without it.
+    /// Whether compensation leaves more than is left without it.
     pub fn is_worse(&self) -> bool {
         self.on > self.off
     }
 
-    /// Whether compensation leaves clearly less than there was without it.
+    /// Whether compensation leaves clearly less than is left without it.
     pub fn shows_an_effect(&self) -> bool {
         const LEAST: f64 = 0.05;
         self.on < self.off * (1.0 - LEAST)
     }
 
-    /// Whether off and on are alike here, although compensation leaves at most a part of what there is without it at
-    /// two feeds next to it: it was on in both recordings, or in none.
+    /// Whether off and on are alike here, although compensation leaves at most a part of the glitch without it at
+    /// the two neighbouring feeds: it was on in both recordings, or in none.
     fn stands_out(&self, next: [&Self; 2], part: f64) -> bool {
         !self.shows_an_effect() && next.iter().all(|it| it.on < it.off * part)
     }
 }
 
-/// The feeds, slowest first, at which off and on are alike, although at the next feeds they are not. At the slowest one
-/// they may be: there compensation takes little away.
+/// The feeds, slowest first, at which off and on are alike, although at the neighbouring feeds they are not. At the
+/// slowest one they may be: there compensation takes little away.
 pub fn without_effect(recorded: &[BeforeAfter]) -> Vec<f64> {
     const BETWEEN: f64 = 0.8;
     const FASTEST: f64 = 0.6;
@@ -163,9 +163,9 @@ pub fn without_effect(recorded: &[BeforeAfter]) -> Vec<f64> {
     alike
 }
 
-/// The feeds that were recorded with compensation off and on and that nothing speaks against, slowest
+/// The feeds that were recorded with compensation off and on, and with no reasons against the recordings, slowest
 /// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
-/// the program, else those next to it; of those the smallest glitch without and the largest with compensation.
+/// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation.
 pub fn before_after(
     results: &[RecordingResult],
     is_off: impl Fn(u16) -> bool,
@@ -210,7 +210,7 @@ pub fn before_after(
 /// Refuses recordings that cannot belong to the others: the same bytes twice, and circles about another centre
 /// than those before them (R16.9).
 pub fn refuse_strangers(results: &mut [RecordingResult]) {
-    /// Centres of one machine are at most so far apart, in mm.
+    /// Centres of one machine are at most this far apart, in mm.
     const SAME_CENTRE_MM: f64 = 1.0;
     let mut first: Option<([f64; 2], String)> = None;
     for at in 0..results.len() {

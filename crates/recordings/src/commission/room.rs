@@ -6,13 +6,13 @@ use super::request::MeasuredAxis;
 /// The part of the travel at each end that stays free.
 const FREE_END: f64 = 0.05;
 
-/// The part by which the way to accelerate is longer than computed.
+/// The factor by which the travel to accelerate is longer than computed.
 pub(super) const SPARE: f64 = 1.1;
 
-/// Wanted seconds at constant speed.
+/// Desired seconds at constant speed.
 const STEADY_S: f64 = 2.0;
 
-/// The fewest seconds at constant speed.
+/// Minimum seconds at constant speed.
 const LEAST_STEADY_S: f64 = 0.5;
 
 /// The inner part of the travel of an axis.
@@ -59,8 +59,8 @@ impl<'a> Room<'a> {
         })
     }
 
-    /// The way of a run at a speed, with its ramps: two seconds, or a pitch where that is longer; less
-    /// where the travel ends.
+    /// The travel of a run at a speed, with its ramps: two seconds, or a pitch if that is longer; less if the
+    /// travel of the axis ends.
     ///
     /// # Errors
     /// Half a second at that speed does not fit.

@@ -10,7 +10,7 @@ use super::signature::Signature;
 /// Standstill between two motions in s.
 const PAUSE_S: f64 = 0.2;
 
-/// The radius that is taken where it fits, in mm.
+/// The radius that is used if it fits, in mm.
 const RADIUS: f64 = 100.0;
 
 /// The programs of axes in their rooms.
@@ -194,14 +194,14 @@ impl MeasuringProgram {
         }
     }
 
-    /// Puts the signature of a number in front and into the name of the file.
+    /// Prepends the signature of a number, and puts the number into the file name.
     pub(super) fn begin_with(&mut self, number: u16) {
         let Some(signature) = Signature::new(number) else {
             return;
         };
         let axis = self.signed_axis();
         let place = self.start.get(axis).copied().unwrap_or_default();
-        // Circles begin at the upper end of their way, runs at the lower one.
+        // Circles begin at the upper end of their travel, runs at the lower one.
         let inwards = if matches!(self.role, Measurement::Circles { .. }) {
             -1.0
         } else {

@@ -3,19 +3,19 @@
 /// Bits of the number.
 const BITS: u16 = 10;
 
-/// Strokes back and forth: the number, then how many of its bits are set, modulo 4.
+/// Strokes back and forth: the number, then the number of its set bits, modulo 4.
 const STROKES: usize = 12;
 
-/// The way of a short stroke in mm or degrees; a long one is twice as long.
+/// The length of a short stroke in mm or degrees; a long one is twice as long.
 const SHORT: f64 = 1.0;
 
-/// A stroke may deviate by this from its way.
+/// Permitted deviation of a stroke from its length.
 const TOLERANCE: f64 = 0.25;
 
-/// Standstill in s before and after the strokes that is looked for; [`Signature::DWELL_S`] is programmed.
+/// Minimum standstill in s before and after the strokes; [`Signature::DWELL_S`] is programmed.
 const REST_S: f64 = 1.2;
 
-/// The time between two looks at the position in s.
+/// The time between two samples of the position in s.
 const LOOK_S: f64 = 0.02;
 
 /// Slower motion is standstill, in mm/s or °/s: a tenth of half the feed of the strokes.
@@ -32,7 +32,7 @@ impl Signature {
     /// Standstill before and after the strokes in s.
     pub const DWELL_S: f64 = 2.0;
 
-    /// The longest way from the start in mm or degrees.
+    /// The greatest distance from the start in mm or degrees.
     pub const REACH: f64 = 2.0 * SHORT;
 
     /// The signature of a number from 1 to 1023.
@@ -45,7 +45,7 @@ impl Signature {
         self.0
     }
 
-    /// The ways of the strokes in mm or degrees, each forth and then back.
+    /// The lengths of the strokes in mm or degrees, each forth and then back.
     pub fn strokes(self) -> [f64; STROKES] {
         let check = u16::try_from(self.0.count_ones() % 4).unwrap_or_default();
         let bits = (self.0 << 2) | check;
@@ -56,8 +56,8 @@ impl Signature {
     }
 }
 
-/// Looks for signatures in the commanded or actual positions of an axis in mm or degrees, at steps of so
-/// many seconds, and gives each with the sample after its strokes.
+/// Searches the commanded or actual positions of an axis in mm or degrees, a given number of seconds apart,
+/// for signatures, and returns each with the sample after its strokes.
 pub fn signature_in(positions: &[f64], step_s: f64) -> Vec<(Signature, usize)> {
     let moves = Move::all(positions, step_s);
     let length = 2 * STROKES;
@@ -135,7 +135,7 @@ impl Move {
     }
 }
 
-/// Samples between two looks.
+/// Number of samples between two positions.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -168,7 +168,7 @@ mod tests {
         places.resize(places.len() + (seconds / STEP_S) as usize, place);
     }
 
-    /// Appends a way there and back at a part of the feed of the strokes.
+    /// Appends a stroke there and back at a part of the feed of the strokes.
     fn stroke(places: &mut Vec<f64>, way: f64, part: f64) {
         for to in [way, 0.0] {
             let from = places.last().copied().unwrap_or_default();
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(Signature::new(1024), None);
     }
 
-    /// R16.1: strokes that are no number, with a stroke too few or one of another length, are none.
+    /// R16.1: strokes that encode no number, with one too few or one of another length, are rejected.
     #[test]
     fn other_strokes_are_no_number() {
         let strokes = Signature::new(682).expect("a number").strokes();

@@ -9,13 +9,13 @@ use crate::identify::{Track, count};
 /// Reversals without a stop at each feed: the ends of four strokes back and forth, without the last one.
 const REVERSALS: usize = 7;
 
-/// A feed is one of the program where the fastest of both differ by the same part, within this.
+/// A feed belongs to the program if it and the fastest differ from the plan by the same part, within this.
 const ONE_RATIO: f64 = 0.05;
 
-/// Standard errors above which a glitch is seen.
+/// Number of standard errors above which a glitch is visible.
 const SEEN: f64 = 5.0;
 
-/// No glitch of less is seen, in µm or 0.001°: the least that is named on circles, too (R5.28).
+/// Smallest visible glitch in µm or 0.001°: the smallest that is named on circles, too (R5.28).
 const LEAST_SEEN: f64 = 0.5;
 
 /// The strokes of a recorded program.
@@ -24,13 +24,13 @@ const LEAST_SEEN: f64 = 0.5;
 pub struct StrokesFound {
     /// Name of the axis.
     pub axis: String,
-    /// The unit of the glitches: µm, or 0.001° of an axis that turns.
+    /// The unit of the glitches: µm, or 0.001° of a rotary axis.
     pub unit: String,
     /// The reversals at each feed, slowest first.
     pub reversals: Vec<FeedReversals>,
     /// Remarks.
     pub notes: Vec<String>,
-    /// Reasons for which nothing is concluded from it.
+    /// Reasons why nothing is concluded from it.
     pub against: Vec<String>,
 }
 
@@ -65,7 +65,7 @@ impl StrokesFound {
     /// Judges the strokes of an axis, named with its unit of length, at these planned feeds.
     ///
     /// # Errors
-    /// The following error is not there, or not that of this motion.
+    /// The following error is missing, or is not that of this motion.
     pub fn of(
         (axis, unit): (&str, &str),
         recorded: RecordedStrokes<'_>,
@@ -123,7 +123,7 @@ impl StrokesFound {
             .fold(0.0, f64::max)
     }
 
-    /// Whether friction is seen at any reversal.
+    /// Whether friction is visible at any reversal.
     pub fn is_seen(&self) -> bool {
         let mut reversals = self.reversals.iter();
         reversals.any(|it| it.glitch > (SEEN * it.error).max(LEAST_SEEN))

@@ -18,16 +18,16 @@ const QUESTIONS: [Question; 5] = [
     Question::Below,
 ];
 
-/// Samples in which two combinations differ by less of the largest current say nothing.
+/// Samples in which two combinations differ by less than this part of the largest current do not count.
 const DIFFERS: f64 = 0.02;
 
-/// Fewer samples decide nothing.
+/// Minimum number of samples for a decision.
 const LEAST_SAMPLES: usize = 3;
 
-/// The difference of two combinations in all samples is at least so many times the noise of one.
+/// Minimum ratio of the difference of two combinations in all samples to the noise of one.
 const CLEAR: f64 = 10.0;
 
-/// By which part of the largest current a sample may differ from what explains it.
+/// The part of the largest current by which a sample may differ from its explanation.
 const MISFIT: f64 = 0.1;
 
 /// The part of the samples that may be unexplained.
@@ -36,7 +36,7 @@ const UNEXPLAINED: f64 = 0.02;
 /// The noise may be this part of the largest current.
 const NOISIEST: f64 = 0.25;
 
-/// By how much the recorded current as a whole may be larger or smaller than that of the list.
+/// The part by which the recorded current as a whole may be larger or smaller than that of the list.
 const GAIN: f64 = 0.1;
 
 /// Judges the five questions on the additive current by the recording of an axis with its value list.
@@ -53,7 +53,7 @@ pub fn judge_currents(recorded: &EvidenceRecording, list: &FrictionList) -> Vec<
     evidence.collect()
 }
 
-/// What explains the recording, for the questions.
+/// The explanation of the recording, for the questions.
 struct Judgement<'a> {
     recorded: &'a EvidenceRecording,
     list: &'a FrictionList,
@@ -67,14 +67,14 @@ struct Judgement<'a> {
     open: Vec<Question>,
 }
 
-/// How clearly a combination is left by the recording.
+/// How clearly the recording deviates from a combination.
 struct Margin {
     rival: Explained,
     /// Samples in which it differs from the best one.
     samples: usize,
     /// The difference in all of them.
     difference: f64,
-    /// 1 where the recording follows the best one, 0 where it follows the rival.
+    /// 1 if the recording follows the best one, 0 if it follows the rival.
     share: f64,
 }
 
@@ -310,7 +310,7 @@ fn taken(reading: Reading, question: Question) -> Alternative {
     }
 }
 
-/// The usual difference of the samples from what explains them, as a standard deviation.
+/// The usual difference of the samples from their explanation, as a standard deviation.
 fn noise_of(best: &Explained, counted: &Counted) -> f64 {
     let mut rests: Vec<f64> = best.rests(counted).collect();
     let middle = rests.len() / 2;

@@ -6,7 +6,7 @@ use frictcomp::lists::FrictionList;
 use frictcomp::readings::Question;
 use frictcomp_physics::current::{CommandedRow, Switched};
 
-/// Why the readings of a question give the same current with a value list, whatever moves.
+/// Why the readings of a question give the same current with a value list, whatever the motion.
 pub(super) fn no_difference(question: Question, list: &FrictionList) -> Option<String> {
     let first = list.table.first();
     let is_silent = list.scaling_factor == 0 || list.table.iter().all(|it| it.output == 0.0);
@@ -80,7 +80,7 @@ pub(super) fn not_moved(
                 ReadableNumber(first)
             ));
         }
-        Question::Standstill => "the axis never stands still after a motion",
+        Question::Standstill => "the axis is never at standstill after a motion",
         Question::Start => "the axis never starts again in the direction in which it stopped",
         Question::Decay => "the axis never reverses",
         _ => "the axis never changes its velocity",

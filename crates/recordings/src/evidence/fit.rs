@@ -1,4 +1,4 @@
-//! The recorded current beside those that combinations of readings give.
+//! The recorded current, compared with the currents of all combinations of readings.
 
 use super::recorded::{CycleMotion, EvidenceRecording};
 use frictcomp::lists::FrictionList;
@@ -7,7 +7,7 @@ use frictcomp_physics::current::{AdditiveCurrent, Reading, Switched};
 /// Cycles by which current and motion of a recording may be apart.
 const SHIFTS: [isize; 5] = [0, 1, -1, 2, -2];
 
-/// Cycles around a switch of the state that count for nothing.
+/// Cycles around a switch of the state that do not count.
 const AROUND: usize = 3;
 
 /// The samples of the current that count, on the cycles of the motion.
@@ -16,7 +16,7 @@ pub(super) struct Counted {
     pub(super) samples: Vec<(usize, f64)>,
 }
 
-/// A combination of readings, and by how many cycles the current comes after the motion.
+/// A combination of readings, and the number of cycles by which the current follows the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hypothesis {
     pub(super) reading: Reading,
@@ -38,7 +38,7 @@ pub(super) struct Model<'a> {
 }
 
 impl Counted {
-    /// The samples in which the current depends on nothing that was before the recording, or before
+    /// The samples in which the current does not depend on anything before the recording, or before
     /// compensation was switched on.
     pub(super) fn of(
         recorded: &EvidenceRecording,
@@ -131,12 +131,12 @@ impl Model<'_> {
 }
 
 impl Explained {
-    /// The sum of what it leaves unexplained.
+    /// The sum of the unexplained currents.
     pub(super) fn cost(&self, counted: &Counted) -> f64 {
         self.rests(counted).sum()
     }
 
-    /// What it leaves unexplained in each sample.
+    /// The unexplained current in each sample.
     pub(super) fn rests<'a>(&'a self, counted: &'a Counted) -> impl Iterator<Item = f64> + 'a {
         let pairs = self.currents.iter().zip(&counted.samples);
         pairs.map(|(current, (_, recorded))| (recorded - current).abs())

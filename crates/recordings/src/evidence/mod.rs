@@ -1,8 +1,8 @@
 //! Evidence in the recording of an axis for the questions that the documents leave open (R15.2).
 //!
 //! The current of every combination of readings is computed for the recorded motion. A question is decided
-//! where the recorded current follows one combination, and leaves every combination with its other reading
-//! by more than noise.
+//! if the recorded current follows one combination, and deviates from every combination with its other
+//! reading by more than noise.
 
 mod currents;
 mod doubts;

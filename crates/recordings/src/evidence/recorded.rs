@@ -7,13 +7,13 @@ use frictcomp_physics::current::{
 /// The longest CNC cycle that is taken from the step of a recording.
 const LONGEST_CYCLE_S: f64 = 0.0045;
 
-/// The CNC cycle where neither the user nor the recording gives it.
+/// The CNC cycle if neither the user nor the recording gives it.
 const USUAL_CYCLE_S: f64 = 0.001;
 
-/// Cycles of a step that is still one sample a cycle.
+/// Maximum number of cycles in a step that still counts as one sample per cycle.
 const ONE_CYCLE: f64 = 1.25;
 
-/// Usual steps from which a step is a gap.
+/// Number of usual steps from which a step is a gap.
 const GAP: f64 = 5.5;
 
 /// Samples with their times in seconds.
@@ -38,9 +38,9 @@ pub struct EvidenceRecording {
     pub current: Option<Samples>,
     /// Whether friction compensation is active, 0 or 1, on its own clock.
     pub state: Option<Samples>,
-    /// The CNC cycle, where it is known.
+    /// The CNC cycle, if it is known.
     pub cycle_s: Option<f64>,
-    /// By what the recorded current is multiplied on its way to the drive (R7.8); 1 before it.
+    /// The factor that multiplies the recorded current on its way to the drive (R7.8); 1 before it.
     pub torque_scale: f64,
 }
 
@@ -63,7 +63,7 @@ impl EvidenceRecording {
     /// The motion in CNC cycles, compensation switched as recorded.
     ///
     /// # Errors
-    /// The times are none of a recording, or have a gap.
+    /// The times are not those of a recording, or have a gap.
     pub(super) fn motion(&self) -> Result<CycleMotion, String> {
         let clocks = [
             Some(&self.times_s),

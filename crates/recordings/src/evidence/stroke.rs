@@ -2,10 +2,10 @@
 
 use super::recorded::{CycleMotion, EvidenceRecording, step};
 
-/// The stroke has been left on the way back below this part of it.
+/// The axis has turned back once it is below this part of the stroke.
 const BACK: f64 = 0.95;
 
-/// Samples are so near to each other, as a part of the stroke.
+/// Maximum distance of samples, as a part of the stroke.
 const NEAR: f64 = 0.015;
 
 /// Cycles within this part of the stroke are around a place.

@@ -5,8 +5,8 @@ use super::stroke::{StrokeOut, StrokeSwitch};
 use super::verdict::Conclusion;
 use frictcomp::readings::{Alternative, Question};
 
-/// The blocks in which the program of R1.9 moves, as parts of its stroke: the command off stands before them,
-/// one of the commands on, off, on in each of the others.
+/// The blocks in which the program of R1.9 moves, as parts of its stroke: the command off precedes them,
+/// and each of the others has one of the commands on, off, on.
 pub const WITH_MOTION_PARTS: [f64; 4] = [0.3, 0.2, 0.3, 0.2];
 
 /// The blocks in which the program of R1.57 moves: between them off, on, nothing, off; on follows the last.
@@ -15,10 +15,10 @@ pub const LOOK_AHEAD_PARTS: [f64; 5] = [0.3, 0.2, 0.15, 0.15, 0.2];
 /// A switch of the state lies within this part of the stroke from where it is expected.
 const NEAR: f64 = 0.05;
 
-/// At a lower part of the usual speed the path stops.
+/// Part of the usual speed below which the path stops.
 const STOPS: f64 = 0.05;
 
-/// At a higher one it goes on.
+/// Part of the usual speed above which it continues.
 const RUNS_ON: f64 = 0.5;
 
 /// Judges from a recording of its program whether a command acts before the motion of its block.
@@ -98,11 +98,11 @@ fn look_ahead(recorded: &EvidenceRecording) -> Result<(Alternative, String), Str
         return Ok((Alternative::Second, words));
     }
     Err(format!(
-        "{words}: it neither stops nor goes on at all of them"
+        "{words}: it neither stops nor continues at all of them"
     ))
 }
 
-/// Whether the switches are those of a program, and where it has them.
+/// Whether the switches are those of a program, at their places.
 fn are_at(switches: &[StrokeSwitch], expected: &[(bool, f64)]) -> bool {
     let mut pairs = switches.iter().zip(expected);
     let fits = pairs.all(|(switch, (is_on, part))| {

@@ -8,14 +8,14 @@ use frictcomp::readings::{Alternative, Question};
 pub struct Conclusion {
     /// The question.
     pub question: Question,
-    /// The reading that the recording shows; `None` where it decides nothing.
+    /// The reading that the recording shows; `None` if it decides nothing.
     pub reading: Option<Alternative>,
-    /// What shows it, or the reason for none.
+    /// The evidence for it, or the reason why there is none.
     pub words: String,
 }
 
 impl Conclusion {
-    /// Nothing can be concluded, for a reason.
+    /// Returns the conclusion that nothing is decided, with a reason.
     pub fn none(question: Question, reason: impl Into<String>) -> Self {
         Self {
             question,

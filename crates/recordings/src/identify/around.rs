@@ -1,10 +1,10 @@
 //! Signals around reversals, and what all reversals have in common.
 //!
-//! Noise of an encoder is in the following error and, through its derivative, larger in what the loops
-//! make of it: a least-squares fit of the torque by a noisy error takes the error for smaller than it is.
-//! What a signal does in time after *other* reversals has no part of the noise of this one. Each signal
-//! is therefore replaced by what the other reversals let expect of it (instrumental variables, the
-//! instruments of each window fitted without it).
+//! Noise of an encoder is in the following error and, through its derivative, larger in the output of the
+//! loops: a least-squares fit of the torque to a noisy error underestimates the error's effect. What a
+//! signal does in time after *other* reversals is free of the noise of this one. Each signal is therefore
+//! replaced by what the other reversals predict of it (instrumental variables, the instruments of each
+//! window fitted without it).
 
 use super::curve::inverse;
 use super::statistics::count;
@@ -23,9 +23,9 @@ pub(super) struct Instruments {
     rows: Vec<Vec<Vec<f64>>>,
     /// For each window the products of the instruments.
     products: Vec<Vec<Vec<f64>>>,
-    /// For each window the inverse of what the others have.
+    /// For each window the inverse for the other windows.
     others: Vec<Vec<Vec<f64>>>,
-    /// The inverse of what all have.
+    /// The inverse for all windows.
     all: Vec<Vec<f64>>,
 }
 
@@ -39,7 +39,7 @@ const KNOTS_S: [f64; 20] = [
 const NEARLY: f64 = 1e-7;
 
 impl Instruments {
-    /// Instruments of windows; `known` gives what is known of a sample without noise.
+    /// Creates the instruments of windows; `known` returns the noise-free signals of a sample.
     pub(super) fn new(
         windows: &[SignalWindow],
         (step_s, signs): (f64, &[f64]),
@@ -131,7 +131,7 @@ impl Instruments {
         }
     }
 
-    /// The squares of what the instruments find in something with these moments.
+    /// The squares of the part of a signal with these moments that the instruments find.
     pub(super) fn found_in(&self, moments: &[f64]) -> f64 {
         dot(moments, &times(&self.all, moments))
     }
@@ -146,20 +146,20 @@ pub(super) struct SignalAround {
     moments: Vec<Vec<f64>>,
     /// Their sum.
     pub(super) total: Vec<f64>,
-    /// For each window what the other windows let expect, by instrument.
+    /// For each window the prediction of the other windows, by instrument.
     expected: Vec<Vec<f64>>,
-    /// The products of the instruments times that.
+    /// The products of the instruments with that.
     spread: Vec<Vec<f64>>,
 }
 
 impl SignalAround {
-    /// The product of what is expected of this signal with another signal.
+    /// The product of the prediction of this signal with another signal.
     pub(super) fn expected_with(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.moments);
         pairs.map(|(one, other)| dot(one, other)).sum()
     }
 
-    /// The product of what is expected of both.
+    /// The product of the predictions of both.
     pub(super) fn both_expected(&self, other: &Self) -> f64 {
         let pairs = self.expected.iter().zip(&other.spread);
         pairs.map(|(one, other)| dot(one, other)).sum()
@@ -200,7 +200,7 @@ fn products_of(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     products
 }
 
-/// Returns the share of each knot at a time: 1 together.
+/// Returns the share of each knot at a time; they add up to 1.
 fn shares_of_knots(time_s: f64) -> [f64; KNOTS_S.len()] {
     let mut shares = [0.0; KNOTS_S.len()];
     let after = KNOTS_S.partition_point(|knot| *knot <= time_s);

@@ -46,22 +46,22 @@ impl OnCircles {
     }
 }
 
-/// Speeds of points, up to a number of them.
+/// Maximum number of speeds of points.
 const POINTS: u32 = 10;
 
 /// The slowest point in mm/s.
 const SLOWEST: f64 = 0.5;
 
-/// So far after a reversal, in mm, the contact is still winding up.
+/// Distance after a reversal, in mm, over which the contact is still winding up.
 const WINDING: f64 = 0.05;
 
-/// And so long, in s, the loops still answer to it.
+/// Time after a reversal, in s, over which the loops still respond to it.
 const SETTLING_S: f64 = 0.05;
 
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
-/// The same as [`identify_measured_circles`] of the actual torque in drive units.
+/// Calls [`identify_measured_circles`] for the actual torque in drive units.
 ///
 /// # Errors
 /// The recordings cannot be used.
@@ -69,8 +69,8 @@ pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
     identify_measured_circles(tracks, &Measured::default())
 }
 
-/// Torque is the friction of the direction at points of the speed, linear in between, an inertia
-/// times the acceleration, and an offset: their least squares over all circles.
+/// Models the torque as the friction of the direction at points of the speed, linear in between, an inertia
+/// times the acceleration, and an offset, by least squares over all circles.
 ///
 /// # Errors
 /// The recordings cannot be used, or are not what they seem.
@@ -172,7 +172,7 @@ impl NormalEquations {
         }
     }
 
-    /// The parts that have enough samples.
+    /// Solves for the parts that have enough samples.
     fn solve(&self) -> Option<OnCircles> {
         let nodes = self.speeds.len();
         let is_kept = |at: usize| at >= nodes || self.weights[at] >= FEWEST;

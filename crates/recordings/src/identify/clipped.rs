@@ -1,16 +1,16 @@
-//! Segments in which the torque stands at a limit (R6.21).
+//! Segments in which the torque is at a limit (R6.21).
 
 use super::segment::Segment;
 use super::track::AxisSamples;
 
-/// Fewer samples at the limit are no clipping.
+/// Fewer samples at the limit are not clipping.
 const FEWEST: usize = 5;
 
 /// Noise alone puts fewer samples at the extreme of a segment: this many times the usual part, or
 /// half-way from it to the whole.
 const UNUSUAL: f64 = 3.0;
 
-/// A segment of which this part is at the limit does not show its mean.
+/// A segment with this part at the limit does not show its mean.
 const MOSTLY: f64 = 0.5;
 
 /// Samples of a segment at the limit.
@@ -34,7 +34,7 @@ pub(super) fn clipped(samples: &AxisSamples, segments: &[Segment]) -> Vec<usize>
     found
 }
 
-/// The same at one end: the greatest value, or with the sign -1 the least.
+/// The segments cut off at one end: at the greatest value, or with the sign -1 at the least.
 fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usize> {
     let torque = |at: usize| sign * samples.torques[at];
     let limit = (0..samples.torques.len()).map(torque).fold(0.0, f64::max);
@@ -49,7 +49,7 @@ fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usi
     }
     let is_flat = |it: &AtLimit| it.share >= MOSTLY;
     if usual.is_empty() {
-        // Every segment is at the limit: nothing but the noise elsewhere tells it from friction.
+        // Every segment is at the limit: only the noise elsewhere distinguishes it from friction.
         let varies = varies_elsewhere(samples, segments, limit);
         at_limit.retain(|it| is_flat(it) && varies);
         return at_limit.into_iter().map(|it| it.segment).collect();
@@ -70,7 +70,7 @@ fn clipped_at(samples: &AxisSamples, segments: &[Segment], sign: f64) -> Vec<usi
     cut.map(|it| it.segment).collect()
 }
 
-/// The greatest value of a segment, and how much of it is there.
+/// The greatest value of a segment, and its samples there.
 fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f64, AtLimit) {
     let range = segment.samples.clone();
     let most = range.clone().map(&torque).fold(f64::NEG_INFINITY, f64::max);
@@ -96,8 +96,8 @@ fn extreme(index: usize, segment: &Segment, torque: impl Fn(usize) -> f64) -> (f
     (most, found)
 }
 
-/// Whether the torque between the segments, where it is smaller than the limit, changes from sample to
-/// sample more often than not.
+/// Whether the torque between the segments, where it is below the limit, changes in most samples
+/// from one to the next.
 fn varies_elsewhere(samples: &AxisSamples, segments: &[Segment], limit: f64) -> bool {
     const ENOUGH: usize = 20;
     let is_within = |at: &usize| segments.iter().any(|it| it.samples.contains(at));

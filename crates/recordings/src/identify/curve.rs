@@ -29,14 +29,14 @@ pub struct Fit {
     pub shape: f64,
     /// Viscous friction fv in drive units per mm/s.
     pub viscous: f64,
-    /// The weighted squares of what is left over, for each degree of freedom.
+    /// The weighted squares of the residuals, per degree of freedom.
     pub chi_square: f64,
 }
 
-/// A part of the friction that no pair is expected to be better than.
+/// The least error of a pair, as a part of the friction.
 const LEAST_ERROR: f64 = 0.002;
 
-/// A fit with more left over is not used.
+/// A fit with larger residuals is not used.
 pub(super) const WORST_CHI_SQUARE: f64 = 2.0;
 
 /// Standard errors beyond which residuals weigh less (Huber).
@@ -46,8 +46,8 @@ const HUBER: f64 = 1.345;
 const STEPS: u32 = 80;
 
 impl FrictionCurve {
-    /// The friction at a speed in mm/s. Below the slowest and above the fastest of the lines their
-    /// ends are held.
+    /// The friction at a speed in mm/s. Below the slowest and above the fastest point of lines the value
+    /// is held.
     pub fn at(&self, speed: f64) -> f64 {
         match self {
             Self::Fit(fit) => fit.at(speed),
@@ -81,12 +81,12 @@ struct SignedPoints {
     errors: Vec<f64>,
 }
 
-/// The best fit through the pairs; `None` where there are fewer of them than it has parameters.
+/// The best fit through the pairs; `None` if there are fewer of them than parameters.
 pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
     if pairs.len() < 4 {
         return None;
     }
-    // Where the torque runs against the speed, all of it is turned over.
+    // If the torque opposes the speed, all of it is inverted.
     let sign = pairs.iter().map(|pair| pair.friction).sum::<f64>().signum();
     let points = SignedPoints {
         speeds: pairs.iter().map(|pair| pair.speed).collect(),
@@ -148,7 +148,7 @@ fn refined(at: f64, start: Fit, step: f64, try_at: impl Fn(f64) -> Option<Fit>) 
 
 impl SignedPoints {
     /// The linear parameters for one vs: Fc above 0, Fs not below Fc, fv not below 0; repeated with
-    /// less weight for what lies far off.
+    /// less weight for outliers.
     fn solve(&self, stribeck: f64, shape: f64) -> Option<Fit> {
         let rows: Vec<[f64; 3]> = self
             .speeds
@@ -184,8 +184,8 @@ impl SignedPoints {
         found
     }
 
-    /// Weighted least squares of which Fs - Fc and fv are not negative: the best of all choices of
-    /// those that are 0.
+    /// Weighted least squares with Fs - Fc and fv not negative: the best of all choices of those that
+    /// are 0.
     fn least_squares(&self, rows: &[[f64; 3]], weights: &[f64]) -> Option<[f64; 3]> {
         const CHOICES: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[0, 2], &[0]];
         let mut best: Option<(f64, [f64; 3])> = None;
@@ -231,14 +231,14 @@ impl SignedPoints {
     }
 }
 
-/// Solves a system of linear equations, the right side in the last column of each row; `None` where
+/// Solves a system of linear equations, the right side in the last column of each row; `None` if
 /// it has no single solution.
 pub(crate) fn solve_linear(rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let solved = solve_systems(rows)?;
     Some(solved.into_iter().map(|row| row[0]).collect())
 }
 
-/// The inverse of a square matrix, where it has one.
+/// The inverse of a square matrix, if it has one.
 pub(super) fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let unit = |at: usize| (0..matrix.len()).map(move |it| if it == at { 1.0 } else { 0.0 });
     let rows = matrix.iter().enumerate();

@@ -1,4 +1,4 @@
-//! The faults of a recording: it is refused, or its fault is named before anything else (R6.21).
+//! The faults of a recording: it is refused, or its fault is reported before anything else (R6.21).
 
 use super::clipped::clipped;
 use super::finding::TraceFinding;
@@ -12,25 +12,25 @@ use super::track::AxisSamples;
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
 
-/// With more of the speeds clipped, nothing is identified.
+/// Part of the clipped speeds above which nothing is identified.
 const MOST_CLIPPED: f64 = 0.2;
 
 /// Friction below this part of the rated torque is that of a compensated loop.
 const LEAST_OF_RATED: f64 = 0.02;
 
-/// Friction above this part of the rated torque is worth a question, above the whole of it no axis
-/// moves for long.
+/// Friction above this part of the rated torque is questionable; above the whole of it no axis moves for
+/// long.
 const MUCH_OF_RATED: f64 = 0.5;
 
 /// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 3.0;
 
-/// A fault for which there is no list.
+/// A fault that rules out a list.
 fn refused(code: Code, message: String, help: &str) -> IdentifyError {
     IdentifyError::Refused(TraceFinding::new(code, message, help))
 }
 
-/// Whether velocity and position go the same way, and the velocity both ways.
+/// Checks that velocity and position have the same direction, and that the velocity has both signs.
 pub(super) fn check_directions(
     samples: &AxisSamples,
     segments: &[Segment],
@@ -69,7 +69,7 @@ pub(super) fn check_directions(
     }
 }
 
-/// Whether all segments go one way; without segments, whether all velocities do.
+/// Whether all segments have one direction; without segments, whether all velocities do.
 fn is_one_way(samples: &AxisSamples, segments: &[Segment]) -> bool {
     /// Noise around standstill is a smaller part of the fastest speed.
     const NOISE: f64 = 0.1;
@@ -93,9 +93,9 @@ fn unsigned_velocity(message: &str) -> IdentifyError {
     )
 }
 
-/// A speed in what seems one direction with torques that differ as those of both directions do.
+/// A speed in apparently one direction with torques that differ as in both directions.
 fn two_torques(samples: &AxisSamples, segments: &[Segment]) -> Option<(f64, [f64; 2])> {
-    /// A difference by this part of the greater one is no drift.
+    /// A difference by this part of the greater one is not drift.
     const APART: f64 = 0.3;
     let mean = |segment: &Segment| trimmed_mean(&samples.torques[segment.samples.clone()]);
     segments.windows(2).find_map(|pair| {
@@ -106,7 +106,7 @@ fn two_torques(samples: &AxisSamples, segments: &[Segment]) -> Option<(f64, [f64
     })
 }
 
-/// Drops segments whose torque is clipped, and says so.
+/// Drops segments whose torque is clipped, and reports them.
 pub(super) fn drop_clipped(
     samples: &AxisSamples,
     segments: &mut Vec<Segment>,
@@ -140,7 +140,7 @@ pub(super) fn drop_clipped(
     Ok(Some(TraceFinding::new(Code::Fc520, message, help)))
 }
 
-/// Rows that the times leave out.
+/// Rows that are missing according to the times.
 pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding> {
     let (mut rows, mut gaps) = (0.0, 0_u32);
     for pair in times_s.windows(2) {
@@ -163,7 +163,7 @@ pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding>
     })
 }
 
-/// Whether the torque changes so little that no friction is in it.
+/// Whether the torque changes so little that it contains no friction.
 pub(super) fn is_still(samples: &AxisSamples, measured: &Measured) -> bool {
     let torques = samples.torques.iter();
     let [low, high] = torques.fold([f64::MAX, f64::MIN], |[low, high], it| {
@@ -172,7 +172,7 @@ pub(super) fn is_still(samples: &AxisSamples, measured: &Measured) -> bool {
     high - low < LEAST_OF_RATED * measured.rated.unwrap_or_default()
 }
 
-/// Friction at some speeds that is that of no axis, or of a recording that is not what it seems.
+/// Checks for friction that no axis has, or that shows that the recording is not what it seems.
 pub(super) fn check_pairs(
     pairs: &[Pair],
     samples: &AxisSamples,
@@ -185,7 +185,7 @@ pub(super) fn check_pairs(
     Ok(said)
 }
 
-/// The same for the points from circles.
+/// Checks the points from circles in the same way.
 pub(super) fn check_points(
     points: &[[f64; 2]],
     samples: &AxisSamples,
@@ -207,7 +207,7 @@ pub(super) fn check_points(
     Ok(said.into_iter().flatten().collect())
 }
 
-/// A torque that never changes its sign has the friction in what is the same in both directions.
+/// A torque that never changes its sign has the friction in the part that is equal in both directions.
 fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), IdentifyError> {
     let torques = || samples.torques.iter().copied();
     let is_unsigned = torques().all(|it| it >= 0.0) || torques().all(|it| it <= 0.0);
@@ -237,7 +237,7 @@ fn check_unsigned_torque(pairs: &[Pair], samples: &AxisSamples) -> Result<(), Id
     Ok(())
 }
 
-/// Friction against the motion at some speeds, or at all of them.
+/// Friction that opposes the motion at some speeds, or at all of them.
 fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, IdentifyError> {
     let is_so = |sign: f64| {
         move |it: &&Pair| it.friction * sign > SIGNIFICANT * it.error && it.offset.is_some()
@@ -278,9 +278,9 @@ fn signs(pairs: &[Pair], samples: &AxisSamples) -> Result<Option<TraceFinding>, 
     )))
 }
 
-/// Whether the torque has the sign of the acceleration, where it is strong enough to show.
+/// Whether the torque has the sign of the acceleration, if that is strong enough to show.
 fn accelerates_rightly(samples: &AxisSamples) -> bool {
-    /// A correlation that noise does not make.
+    /// A correlation that noise does not produce.
     const CLEAR: f64 = 0.2;
     let width = samples_in(0.01, samples.step_s);
     let velocities = &samples.velocities;
@@ -296,7 +296,7 @@ fn accelerates_rightly(samples: &AxisSamples) -> bool {
     product > CLEAR * (squares * torques).sqrt() && squares > 0.0
 }
 
-/// The part of the rated torque that friction takes.
+/// The part of the rated torque that is friction.
 fn against_rated(
     pairs: &[Pair],
     measured: &Measured,
@@ -350,7 +350,7 @@ fn against_rated(
     }))
 }
 
-/// Whether the torque holds what compensation adds; of one that does not, compensation was off.
+/// Whether the torque contains what compensation adds; for one that does not, compensation was off.
 pub(super) fn check_compensation(
     measured: &Measured,
 ) -> Result<Option<TraceFinding>, IdentifyError> {
@@ -371,7 +371,7 @@ pub(super) fn check_compensation(
         (_, Some(Switched::On)) => Err(refused(
             Code::Fc521,
             "friction compensation was on, and the torque is not known to contain what it adds".to_owned(),
-            "if it is the actual torque of the drive, say so; else record that",
+            "if it is the actual torque of the drive, specify it as such; otherwise record that",
         )),
         (_, None) => Ok(Some(TraceFinding::new(
             Code::Fc521,
@@ -383,7 +383,7 @@ pub(super) fn check_compensation(
     }
 }
 
-/// The recording contradicts what is given about it: no list unless it does not matter.
+/// The recording contradicts a statement about it: no list unless it does not matter.
 fn contradicted(
     contradiction: Contradiction,
     measured: &Measured,
@@ -410,7 +410,7 @@ fn contradicted(
     Err(refused(Code::Fc521, message, help))
 }
 
-/// A place that the axis passes harder in both directions.
+/// A place where the axis moves harder in both directions.
 pub(super) fn tight(
     samples: &AxisSamples,
     segments: &[Segment],

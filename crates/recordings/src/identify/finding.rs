@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use frictcomp::diagnostic::{Code, Severity};
 
-/// A statement about a recording: a sentence in lower case, and what to do.
+/// A statement about a recording: a sentence in lower case, and advice.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TraceFinding {

@@ -18,7 +18,7 @@ use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 pub struct IdentifyOptions {
     /// Number of support points.
     pub wanted: RequestedPoints,
-    /// The accuracy that the friction should have, as a part of it.
+    /// The desired accuracy of the friction, as a part of it.
     pub accuracy: f64,
     /// The speed in mm/s or °/s at which the machine works.
     pub working_speed: f64,
@@ -57,7 +57,7 @@ pub enum IdentifyError {
     /// A torque that does not depend on the direction.
     #[error("the torque hardly depends on the direction: {friction:.3} of {spread:.3} drive units")]
     NoFriction {
-        /// Half of what differs between the directions.
+        /// Half of the difference between the directions.
         friction: f64,
         /// Its standard error.
         spread: f64,
@@ -100,11 +100,11 @@ pub struct Identified {
     pub points: Vec<TablePoint>,
     /// The largest error of the straight lines between the points, in drive units.
     pub point_error: f64,
-    /// Part that repeats along the way.
+    /// Part that repeats along the travel.
     pub ripple: Option<Ripple>,
-    /// Change of friction over the recording, where speeds were visited more than once.
+    /// Change of friction over the recording, if speeds were visited more than once.
     pub drift: Option<Drift>,
-    /// Positions in mm or degrees, and what the torque there differs from the mean of its segment.
+    /// Positions in mm or degrees, and the difference of the torque there from the mean of its segment.
     pub residuals: Vec<[f64; 2]>,
     /// Remarks; those on a wrong recording come first.
     pub findings: Vec<TraceFinding>,
@@ -129,7 +129,7 @@ impl Identified {
         self.offset.abs() < 0.01 * self.level()
     }
 
-    /// The fit where the curve is one.
+    /// The fit if the curve is one.
     pub fn used_fit(&self) -> Option<&Fit> {
         match &self.curve {
             FrictionCurve::Fit(fit) => Some(fit),

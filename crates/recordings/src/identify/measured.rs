@@ -10,9 +10,9 @@ frictcomp::words! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum TorqueKind {
-        /// Torque or current as the drive measures it, the additive current included.
+        /// Torque or current as measured by the drive, including the additive current.
         Actual = "actual",
-        /// Torque as it is commanded within the drive.
+        /// Torque as commanded within the drive.
         Command = "command",
         /// Output of the speed controller, without the additive current.
         Loop = "loop",
@@ -67,7 +67,7 @@ const WORDS: [(TorqueKind, &[&str]); 3] = [
 ];
 
 impl TorqueKind {
-    /// The kind that name, symbol or comment of a channel give.
+    /// The kind named by the name, symbol or comment of a channel.
     pub fn of(channel: &Channel) -> Option<Self> {
         let texts = [&channel.name, &channel.symbol, &channel.comment];
         let plain = texts.map(|text| text.to_lowercase().replace(['_', ' ', '.', '-'], ""));
@@ -106,18 +106,18 @@ pub enum Contradiction {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Measured {
-    /// Kind of torque; `None` where it is not known.
+    /// Kind of torque; `None` if it is not known.
     pub kind: Option<TorqueKind>,
-    /// Whether friction compensation was on; `None` where that is not known.
+    /// Whether friction compensation was on; `None` if that is not known.
     pub compensation: Option<Switched>,
-    /// The rated torque in the unit of the channel, where it is known.
+    /// The rated torque in the unit of the channel, if it is known.
     pub rated: Option<f64>,
     /// A statement that the recording contradicts.
     pub contradiction: Option<Contradiction>,
 }
 
 impl Measured {
-    /// Returns the properties with what the user says of the torque.
+    /// Returns the properties with the user's statements about the torque.
     #[must_use]
     pub fn stated(self, kind: Option<TorqueKind>, compensation: Option<Switched>) -> Self {
         let is_loop = self.kind == Some(TorqueKind::Loop);

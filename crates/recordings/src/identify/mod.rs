@@ -1,7 +1,7 @@
 //! From recorded torque to a value list (chapter 6 of the rules).
 //!
-//! [`identify`] looks for constant speeds in a [`Track`], takes friction and offset from what both
-//! directions have in torque, draws a curve through them and chooses the points of a value list.
+//! [`identify`] finds constant speeds in a [`Track`], takes friction and offset from the torques in both
+//! directions, draws a curve through them and chooses the points of a value list.
 //! Speeds are in mm/s or °/s, torque and friction in drive units.
 
 mod around;

@@ -1,4 +1,4 @@
-//! Speeds in both directions: friction is half of what differs, the offset what does not (R6.12,
+//! Speeds in both directions: friction is half of the difference, the offset the common part (R6.12,
 //! R6.13).
 
 use std::ops::Range;
@@ -21,21 +21,21 @@ pub struct Pair {
     pub speed: f64,
     /// The friction in drive units, with the sign that it has at positive velocity.
     pub friction: f64,
-    /// Part that is the same in both directions; `None` where only one was recorded.
+    /// Part that is the same in both directions; `None` if only one was recorded.
     pub offset: Option<f64>,
     /// The standard error of the friction.
     pub error: f64,
-    /// The friction of each visit, with the time in s at which it was.
+    /// The friction of each visit, with its time in s.
     pub visits: Vec<Visit>,
     /// The segments that it comes from.
     pub segments: Vec<usize>,
 }
 
-/// A speed that was driven, in both directions where they follow each other.
+/// A driven speed, in both directions if they follow each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Visit {
-    /// When, in s.
+    /// The time in s.
     pub time_s: f64,
     /// The friction in drive units.
     pub friction: f64,
@@ -78,10 +78,10 @@ impl PairedSpeeds {
             }
         }
         let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
-        // Not weighted: ripple makes small errors at high speeds, not right ones.
+        // Not weighted: ripple makes errors at high speeds small, but not right.
         let offset = median(&offsets).unwrap_or(0.0);
         for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
-            // Only one direction: what its torque is without the offset of the others.
+            // Only one direction: its torque without the offset of the others.
             let sign = segments[pair.segments[0]].velocity.signum();
             pair.friction = sign * (pair.friction - offset);
             for visit in &mut pair.visits {
@@ -97,8 +97,8 @@ impl PairedSpeeds {
 }
 
 impl Pair {
-    /// Takes out of the offset what friction changed from one direction to the other, while it rises
-    /// by a part of it each second.
+    /// Removes from the offset the change of friction from one direction to the other, while it rises by a
+    /// part of it each second.
     fn take_drift(&mut self, segments: &[Segment], rate: f64) {
         let couples = couples(segments, &self.segments);
         let Some(offset) = &mut self.offset else {
@@ -210,7 +210,7 @@ impl Measure<'_> {
     fn mean(&self, range: Range<usize>) -> Mean {
         let torques = &self.samples.torques[range];
         let error = standard_error(torques, samples_in(BLOCK_S, self.samples.step_s));
-        // What is finer than a step of the drive is not seen unless noise hides the step.
+        // A spread finer than a step of the drive is not seen unless noise hides the step.
         let unseen = self.step / 12.0_f64.sqrt();
         let is_hidden = torques
             .iter()
@@ -244,22 +244,22 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
     couples
 }
 
-/// Change of friction over the recording, where speeds were visited more than once.
+/// Change of friction over the recording, if speeds were visited more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Drift {
-    /// By which part friction is larger at the end of the recording than at its beginning.
+    /// The part by which friction is larger at the end of the recording than at its beginning.
     pub part: f64,
     /// Whether it is more than the errors of the visits.
     pub is_seen: bool,
 }
 
-/// The drift of all speeds that were visited more than once; `None` where there are too few.
+/// The drift of all speeds that were visited more than once; `None` if there are too few.
 fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
     /// Standard errors from which a difference counts as real.
     const SIGNIFICANT: f64 = 4.0;
     let (mut product, mut square) = (0.0, 0.0);
-    // Of a speed in one direction, friction is not known yet.
+    // For a speed in one direction, friction is not known yet.
     let paired = pairs.iter().filter(|pair| pair.offset.is_some());
     for pair in paired.filter(|pair| pair.visits.len() > 1) {
         let visits = count(pair.visits.len());

@@ -20,7 +20,7 @@ pub struct AxisChannels {
     torque: Option<Pick>,
     /// Whether friction compensation was on.
     state: Option<Pick>,
-    /// The actual position beside the commanded one, or the following error itself.
+    /// The actual position in addition to the commanded one, or the following error itself.
     followed: Option<(FollowingForm, Pick)>,
 }
 
@@ -39,12 +39,12 @@ enum FollowingForm {
 pub struct AxisRecording {
     /// Motion and torque.
     pub track: Track,
-    /// Commanded less actual position at each sample in 0.1 µm or 0.0001°; empty where it was not
+    /// Commanded less actual position at each sample in 0.1 µm or 0.0001°; empty if it was not
     /// recorded.
     pub following_errors: Vec<f64>,
     /// Known properties of the torque.
     pub measured: Measured,
-    /// The unit of the torque, where it is no drive unit.
+    /// The unit of the torque, if it is not in drive units.
     pub torque_unit: Option<String>,
     /// Steps in which the file was read, each a sentence in lower case.
     pub remarks: Vec<String>,
@@ -57,16 +57,16 @@ impl AxisChannels {
     /// state of friction compensation.
     ///
     /// # Errors
-    /// A channel that is named or needed is not there.
+    /// A channel that is named or needed is missing.
     pub fn find(selection: &ChannelSelection, channels: &[Channel]) -> Result<Self, SelectError> {
         let torque = selection.require(ChannelQuantity::Torque, channels)?;
         Self::with(Some(torque), selection, channels)
     }
 
-    /// The same channels; the torque may be missing.
+    /// Finds the channels without requiring the torque.
     ///
     /// # Errors
-    /// A channel that is named is not there, or neither a velocity nor a position is.
+    /// A channel that is named is missing, or neither a velocity nor a position exists.
     pub fn of_motion(
         selection: &ChannelSelection,
         channels: &[Channel],
@@ -124,7 +124,7 @@ impl AxisChannels {
     /// The samples of the channels at common times. Rows without times are `cycle_s` apart.
     ///
     /// # Errors
-    /// There are no common times.
+    /// The channels have no common times.
     pub fn take(
         &self,
         recording: &TraceRecording,
@@ -194,7 +194,7 @@ impl AxisChannels {
         }
     }
 
-    /// The units of channels that were taken by their short names alone.
+    /// The units of channels that were chosen by their short names alone.
     fn names_that_were_taken(&self, recording: &TraceRecording) -> Option<String> {
         let taken = self.picks().filter_map(|(quantity, pick)| {
             let channel = &recording.channels()[pick.channel.get()];
@@ -206,7 +206,7 @@ impl AxisChannels {
         (!taken.is_empty()).then(|| format!("taken by their names: {}", taken.join(", ")))
     }
 
-    /// FC519 for every unit that was not given, unless the channel has the short name that says it.
+    /// FC519 for every unit that was not given, unless the channel has a short name that implies it.
     fn unit_findings(&self, recording: &TraceRecording) -> Vec<TraceFinding> {
         let finding = |(quantity, pick): (ChannelQuantity, Pick)| {
             let channel = &recording.channels()[pick.channel.get()];
@@ -254,15 +254,15 @@ fn followed_of(
     Ok(None)
 }
 
-/// Whether a channel has the short name that says its unit.
+/// Whether a channel has the short name that implies its unit.
 fn is_short(name: &str) -> bool {
     ["v", "x", "torque"]
         .iter()
         .any(|it| name.eq_ignore_ascii_case(it))
 }
 
-/// The channel `comp`, or the object of the control that says whether friction compensation is
-/// active (`frict_comp.f_is_active`), of the axis where several are recorded.
+/// The channel `comp`, or the object of the control for the state of friction compensation
+/// (`frict_comp.f_is_active`), of the axis if several are recorded.
 pub fn state_channel(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
     let is_state = |channel: &Channel| {
         let texts = [&channel.name, &channel.symbol];

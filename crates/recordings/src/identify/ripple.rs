@@ -1,4 +1,4 @@
-//! The part of the torque that repeats along the way: the pitch of a screw, the poles of a motor
+//! The part of the torque that repeats along the travel: the pitch of a screw, the poles of a motor
 //! (R6.16).
 
 use std::f64::consts::TAU;
@@ -15,14 +15,14 @@ use super::track::AxisSamples;
 pub struct Ripple {
     /// The period in mm or degrees.
     pub period: f64,
-    /// Half of what it goes up and down, in drive units.
+    /// Half of its peak-to-peak value, in drive units.
     pub amplitude: f64,
 }
 
-/// Millimetres over which residuals are averaged at least, and the most averages.
+/// Maximum number of averages of the residuals.
 const MOST: usize = 20_000;
 
-/// More frequencies are not tried.
+/// Maximum number of frequencies that are tried.
 const FREQUENCIES: usize = 1500;
 
 /// The shortest period in mm.
@@ -31,7 +31,7 @@ const SHORTEST: f64 = 0.4;
 /// A ripple with its place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wave {
-    /// Periods in a mm or degree.
+    /// Periods per mm or degree.
     frequency: f64,
     /// Parts of its cosine and its sine, in drive units.
     parts: [f64; 2],
@@ -53,8 +53,8 @@ impl Wave {
         self.parts[0] * cosine + self.parts[1] * sine
     }
 
-    /// The wave of a frequency that fits best where every segment has a mean of its own: a segment
-    /// that is shorter than a period says little of it.
+    /// The wave of a frequency that fits best if every segment has a separate mean: a segment shorter than a
+    /// period says little about it.
     fn fitted(samples: &AxisSamples, segments: &[Segment], frequency: f64) -> Option<Self> {
         let mut sums = [[0.0; 3]; 2];
         for segment in segments {
@@ -87,7 +87,7 @@ impl Wave {
     }
 }
 
-/// The largest ripple of the segments, if it stands out of the noise.
+/// The largest ripple of the segments, if it stands out from the noise.
 pub(super) fn wave(samples: &AxisSamples, segments: &[Segment]) -> Option<Wave> {
     let residuals = residuals(samples, segments);
     let positions = residuals.iter().map(|it| it[0]);
@@ -132,7 +132,7 @@ fn amplitude(residuals: &[[f64; 2]], frequency: f64) -> f64 {
     2.0 * cosine.hypot(sine) / count(residuals.len())
 }
 
-/// Pairs of position and of what the torque differs from the mean of its segment.
+/// Pairs of position and the difference of the torque from the mean of its segment.
 pub(super) fn residuals(samples: &AxisSamples, segments: &[Segment]) -> Vec<[f64; 2]> {
     let all: usize = segments.iter().map(|segment| segment.samples.len()).sum();
     let block = (all / MOST).max(1);

@@ -10,7 +10,7 @@ use super::track::AxisSamples;
 /// The moving average in s.
 const AVERAGED_S: f64 = 0.05;
 
-/// A segment is at least so long, in s.
+/// Minimum length of a segment, in s.
 const SHORTEST_S: f64 = 0.3;
 
 /// Speeds are the same within 30 µm/s, here in mm/s …
@@ -25,7 +25,7 @@ const STEADY_SIGMA: f64 = 5.0;
 /// Slower segments are ignored, in mm/s.
 const SLOWEST: f64 = 0.1;
 
-/// Part cut off in front, or duration if that is more; and part cut off at the end.
+/// Part cut off at the start, or duration if that is more; and part cut off at the end.
 const CUT_FRONT: f64 = 0.15;
 const CUT_FRONT_S: f64 = 0.15;
 const CUT_END: f64 = 0.1;
@@ -36,9 +36,9 @@ const CUT_END: f64 = 0.1;
 pub struct Segment {
     /// Samples in use.
     pub samples: Range<usize>,
-    /// From when, in s.
+    /// Start, in s.
     pub from_s: f64,
-    /// Until when, in s.
+    /// End, in s.
     pub to_s: f64,
     /// The speed with its sign, in mm/s or °/s.
     pub velocity: f64,
@@ -46,7 +46,7 @@ pub struct Segment {
     pub velocity_error: f64,
 }
 
-/// Speeds are one within this part.
+/// Two speeds are the same within this part.
 const SAME: f64 = 0.05;
 
 impl Segment {
@@ -55,7 +55,7 @@ impl Segment {
         f64::midpoint(self.from_s, self.to_s)
     }
 
-    /// Whether two segments have one speed, in whatever direction, as far as noise lets it be seen.
+    /// Whether two segments have the same speed, in any direction, to the extent that noise permits.
     pub(super) fn is_as_fast_as(&self, other: &Self) -> bool {
         let [one, another] = [self.velocity.abs(), other.velocity.abs()];
         let unsure = 3.0 * self.velocity_error.hypot(other.velocity_error);
@@ -84,12 +84,12 @@ pub(super) fn segments(samples: &AxisSamples) -> Vec<Segment> {
     found
 }
 
-/// Speeds in which steady ones are looked for, from whatever was recorded with less noise.
+/// Speeds that are searched for steady ones, from the recorded signal with less noise.
 struct SteadySpeeds<'a> {
     averaged: Vec<f64>,
     /// The standard deviation of the averaged noise.
     noise: f64,
-    /// The standard deviation of the noise on the positions, where the speeds come from them.
+    /// The standard deviation of the noise on the positions, if the speeds come from them.
     of_positions: Option<f64>,
     /// Speeds of single samples, and their noise.
     single: Cow<'a, [f64]>,
@@ -159,7 +159,7 @@ impl<'a> SteadySpeeds<'a> {
         })
     }
 
-    /// Appends a segment, or lets the last one go on where noise alone had ended it.
+    /// Appends a segment, or extends the last one if noise alone had ended it.
     fn join(&self, samples: &AxisSamples, found: &mut Vec<Segment>, next: Segment) {
         /// Longest cut between two pieces of one segment, in s.
         const APART_S: f64 = 1.0;
@@ -176,10 +176,10 @@ impl<'a> SteadySpeeds<'a> {
         found.push(next);
     }
 
-    /// Divides a stretch where noise hides that it has two speeds: where the means of both sides
-    /// differ by far more than their errors.
+    /// Divides a stretch in which noise hides two speeds: where the means of both sides differ by far
+    /// more than their errors.
     fn split(&self, range: Range<usize>, pieces: &mut Vec<Range<usize>>) {
-        /// Standard errors from which a step counts as real, wherever it is looked for.
+        /// Standard errors from which a step counts as real, wherever it is searched for.
         const SIGNIFICANT: f64 = 7.0;
         let values = &self.single[range.clone()];
         let total: f64 = values.iter().sum();
@@ -237,8 +237,8 @@ fn unbroken(samples: &AxisSamples) -> Vec<Range<usize>> {
     stretches
 }
 
-/// The longest stretches one after the other within which no two speeds differ by more than twice
-/// what is admitted.
+/// The longest successive stretches within which no two speeds differ by more than twice the permitted
+/// difference.
 fn steady(averaged: &[f64], noise: f64, shortest: usize) -> Vec<Range<usize>> {
     let admitted = |speed: f64| {
         let steady = STEADY.max(STEADY_PART * speed.abs());

@@ -1,15 +1,15 @@
-//! How much of the current of a list is in a recorded torque (R6.22).
+//! The share of the current of a list in a recorded torque (R6.22).
 //!
 //! The torque follows its command after a dead time and with the time constant of the current loop. The
-//! command is linear in the following error, its derivative and its integral, in what feed-forward adds
-//! of the motion, and in the current of the list. Time constant, delay of the error and shift of the
-//! current are not known: each set of them is fitted, and counts as much as it is likely.
+//! command is linear in the following error, its derivative and its integral, in the feed-forward of the
+//! motion, and in the current of the list. Time constant, delay of the error and shift of the current are
+//! not known: each set of them is fitted, and weighted by its likelihood.
 
 use super::around::{Instruments, SignalAround, SignalWindow, dot};
 use super::curve::inverse;
 use super::statistics::{count, median, noise_of, samples_in};
 
-/// The part of the current of a list that is in a torque, with what it may be as well.
+/// The part of the current of a list that is in a torque, with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Share {
     pub(super) value: f64,
@@ -28,7 +28,7 @@ pub(super) struct Signals<'a> {
     pub(super) motion: [&'a [f64]; 3],
     /// The direction of each sample.
     pub(super) signs: &'a [f64],
-    /// Samples at which the axis turns without standing still.
+    /// Samples at which the axis reverses without standstill.
     pub(super) turns: &'a [usize],
     pub(super) step_s: f64,
     /// Samples in a CNC cycle.
@@ -47,19 +47,19 @@ const DEAD_TIMES: u32 = 7;
 /// Shifts of the current that are tried, in CNC cycles (R6.22).
 const SHIFTS: std::ops::RangeInclusive<i32> = -4..=8;
 
-/// Parts of a sample, between which signals are followed.
+/// Parts of a sample between which signals are evaluated.
 const PARTS: usize = 4;
 
-/// Seconds before a reversal from which it is looked at …
+/// Seconds before a reversal at which a window starts …
 const BEFORE_S: f64 = 0.04;
 
-/// … and for how many seconds at most.
+/// … and maximum seconds after it.
 const AFTER_S: f64 = 0.15;
 
-/// With less of it, a reversal shows nothing.
+/// Minimum seconds after a reversal.
 const LEAST_AFTER_S: f64 = 0.03;
 
-/// Reversals that are looked at, at most.
+/// Maximum number of windows.
 const MOST_WINDOWS: usize = 24;
 
 /// Shifts of the current in CNC cycles that serve as instruments.
@@ -68,11 +68,11 @@ const KNOWN_SHIFTS: [f64; 6] = [-1.0, 0.0, 1.0, 2.0, 4.0, 8.0];
 /// Least error of the equations of the loops, as a share of the current.
 const LEAST_ERROR: f64 = 0.005;
 
-/// The noise of a torque is at least this, in drive units: it comes in whole ones.
+/// Minimum noise of a torque, in drive units: it comes in whole ones.
 const LEAST_NOISE: f64 = 0.28;
 
 impl Signals<'_> {
-    /// The share, where two reversals or more were recorded that do not follow each other too soon.
+    /// The share, if two reversals or more were recorded that do not follow each other too soon.
     pub(super) fn share(&self) -> Option<Share> {
         let windows = self.windows();
         if windows.len() < 2 {
@@ -128,7 +128,7 @@ impl Signals<'_> {
         TorqueFit::together(&fits)
     }
 
-    /// Windows around reversals, evenly chosen where there are many.
+    /// Windows around reversals, evenly chosen if there are many.
     fn windows(&self) -> Vec<SignalWindow> {
         let samples = |time_s: f64| samples_in(time_s, self.step_s);
         // The shifts of the current need samples, too.
@@ -225,7 +225,7 @@ impl TorqueFit {
             }
             left
         };
-        // The first windows tell the noise of all.
+        // The noise is determined from the first windows.
         let noises: Vec<f64> = (0..torque.values.len().min(4))
             .map(|window| noise_of(&left(&|it| &it.values[window])))
             .collect();
@@ -240,7 +240,7 @@ impl TorqueFit {
         })
     }
 
-    /// The share that the fits have together, each as much as it is likely.
+    /// The combined share of the fits, each weighted by its likelihood.
     fn together(fits: &[Self]) -> Option<Share> {
         let valid = || {
             fits.iter()
@@ -248,7 +248,7 @@ impl TorqueFit {
         };
         let best = valid().min_by(|one, other| one.misfit.total_cmp(&other.misfit))?;
         let (mut weights, mut sum, mut squares) = (0.0, 0.0, 0.0);
-        // What even the best one leaves beyond the noise makes all of them less certain.
+        // A misfit of even the best one beyond the noise makes all of them less certain.
         let excess = (best.misfit / best.free).max(1.0);
         for fit in valid() {
             let error = fit.error * excess.sqrt();

@@ -1,4 +1,4 @@
-//! The way from a recording at constant speeds to the points of a value list.
+//! From a recording at constant speeds to the points of a value list.
 
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
 use super::doubts;
@@ -34,7 +34,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     let residuals = residuals(&samples, &segments);
     let wave = wave(&samples, &segments);
     if let Some(wave) = wave {
-        // What repeats along the way is neither friction nor weight.
+        // What repeats along the travel is neither friction nor weight.
         samples.take_away(|position| wave.at(position));
     }
     let PairedSpeeds {
@@ -94,7 +94,7 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     Ok(identified)
 }
 
-/// Whether the torque has anything to do with the direction.
+/// Checks that the torque depends on the direction.
 fn check_friction(pairs: &[Pair]) -> Result<(), IdentifyError> {
     let weighted =
         |value: fn(&Pair) -> f64| pairs.iter().map(value).sum::<f64>() / count(pairs.len());

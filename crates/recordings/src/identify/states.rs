@@ -1,11 +1,11 @@
-//! One axis in several states, cold and warm for instance (R16.6).
+//! One axis in several states, for example cold and warm (R16.6).
 
 use super::identified::Identified;
 
-/// Two speeds are one within this part.
+/// Two speeds are the same within this part.
 const SAME: f64 = 0.05;
 
-/// Friction of one axis in several states, at the speeds of the state for which the list is.
+/// Friction of one axis in several states, at the speeds of the state that the list is for.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ComparedStates {
@@ -19,7 +19,7 @@ pub struct ComparedStates {
 pub struct StateRow {
     /// The speed in mm/s or °/s.
     pub speed: f64,
-    /// Friction and its standard error in drive units; `None` where a state has no such speed.
+    /// Friction and its standard error in drive units; `None` if a state has no such speed.
     pub frictions: Vec<Option<[f64; 2]>>,
     /// The largest less the smallest friction, as a part of that of the working state; `None` with one of
     /// them alone.
@@ -27,7 +27,7 @@ pub struct StateRow {
 }
 
 impl ComparedStates {
-    /// Compares states at the speeds of the working one, which is named by its place.
+    /// Compares states at the speeds of the working one, which is given by its index.
     pub fn of(states: &[&Identified], working: usize) -> Self {
         let Some(reference) = states.get(working) else {
             return Self { rows: Vec::new() };
@@ -58,7 +58,7 @@ impl ComparedStates {
         }
     }
 
-    /// The row with the largest spread; `None` where no two states have a common speed.
+    /// The row with the largest spread; `None` if no two states have a common speed.
     pub fn widest(&self) -> Option<&StateRow> {
         let spread = |row: &&StateRow| row.spread;
         let rows = self.rows.iter().filter(|row| spread(row).is_some());

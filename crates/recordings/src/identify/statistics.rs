@@ -1,4 +1,4 @@
-//! Means, middles and spreads of samples.
+//! Means, medians and spreads of samples.
 
 use std::collections::VecDeque;
 
@@ -32,7 +32,7 @@ pub(crate) fn noise_of(values: &[f64]) -> f64 {
     median(&second).unwrap_or(0.0) * NORMAL / 6.0_f64.sqrt()
 }
 
-/// The mean of what lies between the 5th and the 95th of a hundred.
+/// The mean of the values between the 5th and the 95th percentile.
 pub(super) fn trimmed_mean(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -56,7 +56,7 @@ pub(super) fn standard_error(values: &[f64], block: usize) -> f64 {
     (squares / count(means.len() - 1) / count(means.len())).sqrt()
 }
 
-/// The smallest step between two values: what the drive resolves.
+/// The smallest step between two values: the resolution of the drive.
 pub(super) fn resolution(values: &[f64]) -> f64 {
     let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let least = steps
@@ -79,7 +79,7 @@ pub(crate) fn count(samples: usize) -> f64 {
 
 /// The mean of the samples around each one.
 pub(crate) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
-    // Sums up to each sample, those that a mean still needs.
+    // Running sums, as far back as a mean still needs them.
     let mut sums = VecDeque::from([0.0]);
     let (mut sum, mut first) = (0.0, 0);
     (0..values.len())

@@ -110,11 +110,11 @@ impl CandidateTable {
         }
     }
 
-    /// The same points beside the curve, where that makes the largest error smaller: lines between
-    /// points of a bent curve are all on one side of it. The first point stays, since the value at
-    /// standstill is known.
+    /// The same number of points off the curve if that makes the largest error smaller: lines between points
+    /// of a bent curve are all on one side of it. The first point stays, since the value at standstill is
+    /// known.
     fn balanced(&self, on_curve: Support) -> Support {
-        /// By then nothing changes any more.
+        /// Number of rounds by which nothing changes any more.
         const ROUNDS: usize = 60;
         let mut best = on_curve.clone();
         let mut points = on_curve.points;
@@ -160,8 +160,8 @@ impl CandidateTable {
         above.max(-below)
     }
 
-    /// For every number of lines up to one less than `most` points, the smallest largest error and
-    /// its places. The first one, of no line, is not used.
+    /// For every number of lines up to one less than `most` points, the smallest largest error and its
+    /// places. The first one, without a line, is not used.
     fn best(&self, most: usize) -> Vec<(f64, Vec<usize>)> {
         let places = self.speeds.len();
         let mut errors = vec![0.0; places * places];

@@ -12,16 +12,16 @@ const PARTS: f64 = 20.0;
 /// Seconds over which residuals are averaged.
 const BLOCK_S: f64 = 0.01;
 
-/// Blocks in each direction that a place needs.
+/// Minimum number of blocks in each direction for a place.
 const FEWEST: f64 = 8.0;
 
 /// Number of standard errors that is significant.
 const SIGNIFICANT: f64 = 5.0;
 
-/// This part of the friction is worth a word.
+/// Part of the friction from which a place is reported.
 const PART: f64 = 0.05;
 
-/// A place that the axis passes harder.
+/// A place where the axis moves harder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TightSpot {
     /// Its ends in mm or degrees.
@@ -46,7 +46,7 @@ impl Sums {
         self.squares += value * value;
     }
 
-    /// The mean where it is significant.
+    /// The mean if it is significant.
     fn significant(&self) -> Option<f64> {
         let mean = self.sum / self.count;
         let spread = (self.squares / self.count - mean * mean).max(0.0);

@@ -1,9 +1,9 @@
-//! Whether the additive current of a list acted while a recording was made, and whether it came early
-//! or late (R6.22).
+//! Whether the additive current of a list acted during a recording, and whether it was early or late
+//! (R6.22).
 //!
 //! The total of the torque is friction, whatever supplies it, and the build-up of the loops looks like a
-//! lag: only the following error shows what the list did. The output of the loops is linear in the
-//! following error, its derivative and its integral; what is left of the torque is what was added.
+//! lag: only the following error shows the effect of the list. The output of the loops is linear in the
+//! following error, its derivative and its integral; the rest of the torque was added.
 
 use serde::{Serialize, Serializer};
 
@@ -11,19 +11,19 @@ use super::share::{Share, Signals};
 use super::statistics::{count, samples_in};
 use super::track::AxisSamples;
 
-/// A list whose share is smaller did not act (R6.22).
+/// Share below which a list did not act (R6.22).
 const NOT_ACTING: f64 = 0.2;
 
-/// A list whose share is larger, up to as much above 1, acted.
+/// Share from which a list acted, up to the same distance above 1.
 const ACTING: f64 = 0.8;
 
-/// Seconds after a reversal for which the following error is looked at …
+/// Seconds after a reversal over which the following error is examined …
 const AFTER_S: f64 = 0.15;
 
-/// … and for as long before it.
+/// … and before it.
 const BEFORE_S: f64 = 0.05;
 
-/// Following errors at reversals that are smaller say nothing, in mm.
+/// Following errors at reversals below this do not count, in mm.
 const NOTICEABLE: f64 = 0.0003;
 
 /// Number of standard errors that is significant.
@@ -34,13 +34,13 @@ const SIGNIFICANT: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ActingShare {
-    /// The part itself, 1 where all of the current is there.
+    /// The part itself, 1 if all of the current is there.
     #[serde(serialize_with = "in_hundredths")]
     pub share: f64,
-    /// The least that it may be.
+    /// The lower end of the interval.
     #[serde(serialize_with = "in_hundredths")]
     pub low: f64,
-    /// The most that it may be.
+    /// The upper end of the interval.
     #[serde(serialize_with = "in_hundredths")]
     pub high: f64,
 }
@@ -54,21 +54,21 @@ pub enum Timing {
     Open,
     /// The list did not act, or its current is not in the torque.
     Off(ActingShare),
-    /// Another list acted: the interval excludes both that this one acted and that none did.
+    /// Another list acted: the interval excludes both this list and no list.
     Other(ActingShare),
-    /// The interval is too wide to say which of them it is.
+    /// The interval is too wide to decide between them.
     Unclear(ActingShare),
     /// The list acted.
     On {
         /// Part of the list's current that is in the torque.
         #[serde(flatten)]
         share: ActingShare,
-        /// First swing of the following error after a reversal in µm: positive where the axis stays
-        /// behind, negative where it is ahead.
+        /// First swing of the following error after a reversal in µm: positive if the axis lags, negative if it
+        /// leads.
         swing_um: f64,
         /// Standard error of the swing over the reversals.
         error_um: f64,
-        /// Reversals that were looked at.
+        /// Number of examined reversals.
         reversals: usize,
     },
 }
@@ -97,7 +97,7 @@ impl ActingShare {
         self.low > ACTING && self.high < 2.0 - ACTING
     }
 
-    /// Neither this list nor none, by an interval that is no wider than that of a list that acted.
+    /// Neither this list nor none, by an interval no wider than that of a list that acted.
     fn is_other(&self) -> bool {
         let excludes = |value: f64| !(self.low..=self.high).contains(&value);
         excludes(0.0) && excludes(1.0) && self.high - self.low < 2.0 * (1.0 - ACTING)
@@ -145,7 +145,7 @@ impl Timing {
         }
     }
 
-    /// `early` or `late`, where the following error shows it.
+    /// `early` or `late`, if the following error shows it.
     pub fn early_or_late(&self) -> Option<&'static str> {
         let Self::On {
             swing_um, error_um, ..
@@ -158,7 +158,7 @@ impl Timing {
     }
 }
 
-/// µm in a mm.
+/// µm per mm.
 const UM: f64 = 1000.0;
 
 /// A recording with the current that a list adds.
@@ -170,7 +170,7 @@ pub(super) struct FollowedRecording<'a> {
     pub(super) predicted: &'a [f64],
     pub(super) velocities: &'a [f64],
     pub(super) accelerations: &'a [f64],
-    /// Samples at which the axis turns without standing still.
+    /// Samples at which the axis reverses without standstill.
     pub(super) turns: &'a [usize],
     /// The direction of each sample.
     pub(super) signs: &'a [f64],
@@ -217,7 +217,7 @@ impl FollowedRecording<'_> {
             let path = self.errors.get(turn..turn + after)?;
             let signed = path.iter().map(|it| (it - level) * self.signs[turn]);
             let most = signed.clone().map(f64::abs).fold(0.0, f64::max);
-            // The first way out that is no small one.
+            // The first extreme that is not small.
             signed.into_iter().find(|it| it.abs() > 0.5 * most)
         };
         let swings: Vec<f64> = self.turns.iter().filter_map(swing).collect();

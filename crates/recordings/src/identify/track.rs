@@ -10,9 +10,9 @@ use super::statistics::count;
 pub struct Track {
     /// Times in s.
     pub times_s: Vec<f64>,
-    /// Velocities in µm/s or 0.001°/s, where they were recorded.
+    /// Velocities in µm/s or 0.001°/s, if they were recorded.
     pub velocities: Option<Vec<f64>>,
-    /// Positions in 0.1 µm or 0.0001°, where they were recorded.
+    /// Positions in 0.1 µm or 0.0001°, if they were recorded.
     pub positions: Option<Vec<f64>>,
     /// Torque or current in drive units.
     pub torques: Vec<f64>,
@@ -21,7 +21,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Replaces the torque by the mean of that of several motors that drive the axis, each recorded at the same times.
+    /// Replaces the torque by the mean torque of several motors that drive the axis, recorded at the same times.
     pub fn average_torque(&mut self, others: &[&Self]) {
         let motors = count(1 + others.len());
         for (at, torque) in self.torques.iter_mut().enumerate() {
@@ -52,10 +52,10 @@ pub enum TrackError {
     /// Neither velocities nor positions.
     #[error("there is neither a velocity nor a position")]
     NoMotion,
-    /// Values that nothing measures.
+    /// Values outside anything that can be measured.
     #[error("at {time_s} s the {what} is {value:e}, which nothing measures")]
     Absurd {
-        /// When.
+        /// The time.
         time_s: f64,
         /// The quantity, in words.
         what: &'static str,
@@ -68,13 +68,13 @@ pub enum TrackError {
         /// Number of samples.
         samples: usize,
     },
-    /// Samples that are too far apart for motions to be seen.
+    /// Samples that are too far apart to show motions.
     #[error("{step_s} s between two samples are too long")]
     Slow {
         /// The time between two samples.
         step_s: f64,
     },
-    /// A velocity that moves the axis elsewhere.
+    /// A velocity that does not match the position.
     #[error(
         "velocity and position do not belong together: the position moves {ratio} times as far as the velocity says"
     )]
@@ -107,16 +107,16 @@ pub(super) struct AxisSamples {
     pub(super) velocities: Vec<f64>,
     /// In mm or degrees.
     pub(super) positions: Vec<f64>,
-    /// Whether the positions were recorded, and not made of the velocities.
+    /// Whether the positions were recorded, not computed from the velocities.
     pub(super) has_positions: bool,
     pub(super) torques: Vec<f64>,
     pub(super) step_s: f64,
 }
 
-/// Beyond that, squares and sums are not to be trusted.
+/// Limit beyond which squares and sums are not reliable.
 const ABSURD: f64 = 1e12;
 
-/// Fewer samples than a segment of the least length has.
+/// Minimum number of samples, below that of the shortest segment.
 const FEWEST: usize = 20;
 
 /// Samples that are further apart show no segments.
@@ -176,20 +176,20 @@ impl AxisSamples {
         Ok(samples)
     }
 
-    /// Takes a part of the torque away that depends on the position.
+    /// Removes a part of the torque that depends on the position.
     pub(super) fn take_away(&mut self, part: impl Fn(f64) -> f64) {
         for (torque, &position) in self.torques.iter_mut().zip(&self.positions) {
             *torque -= part(position);
         }
     }
 
-    /// Whether the position goes where the velocity says.
+    /// Checks that the position follows from the velocity.
     fn check_motion(&self) -> Result<(), TrackError> {
         /// Distances in mm below which nothing is reported.
         const LEAST: f64 = 0.5;
         let reached = integrated(&self.velocities, &self.times_s);
         let travel = |positions: &[f64]| -> f64 {
-            // Every tenth of a second, so that noise of single samples makes no way.
+            // Every tenth of a second, so that noise of single samples does not add travel.
             let every = (0.1 / self.step_s).ceil().max(1.0);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
             let coarse: Vec<f64> = positions.iter().step_by(every as usize).copied().collect();

@@ -4,13 +4,13 @@ use super::curve::fit;
 use super::identified::Identified;
 use super::statistics::count;
 
-/// A part of the friction that no speed is expected to be better than.
+/// The least error of a speed, as a part of the friction.
 const LEAST_ERROR: f64 = 0.002;
 
 /// Combined standard errors beyond which a difference is a change …
 const ERRORS: f64 = 3.0;
 
-/// … if it is more than this part, too.
+/// … if it also exceeds this part.
 const PART: f64 = 0.05;
 
 frictcomp::words! {
@@ -44,9 +44,9 @@ pub struct Level {
 pub struct FrictionLevels([Level; 4]);
 
 impl FrictionLevels {
-    /// The parameters of an identified friction; `None` where its curve is not the one that has them.
+    /// The parameters of an identified friction; `None` if its curve does not have them.
     ///
-    /// Each speed is moved by its error, and what that does to a parameter is added in squares.
+    /// Each speed is moved by its error, and the effects on a parameter are added in squares.
     pub fn of(found: &Identified) -> Option<Self> {
         let best = found.used_fit()?;
         let values = [best.coulomb, best.breakaway, best.viscous];
@@ -85,7 +85,7 @@ impl FrictionLevels {
     }
 }
 
-/// The standard error of the median of the offsets: of what they scatter, or of the torque if that is more.
+/// The standard error of the median of the offsets: from their scatter, or from the torque if that is more.
 fn offset_error(found: &Identified) -> f64 {
     const OF_MEDIAN: f64 = 1.2533;
     let offsets: Vec<f64> = found.pairs.iter().filter_map(|it| it.offset).collect();
@@ -96,17 +96,17 @@ fn offset_error(found: &Identified) -> f64 {
     OF_MEDIAN * (scatter.max(noise) / number / number).sqrt()
 }
 
-/// A parameter that changed between two recordings, which are named by their places.
+/// A parameter that changed between two recordings, which are given by their indices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FrictionChange {
     /// The parameter.
     pub parameter: FrictionParameter,
-    /// The recording that it is compared with.
+    /// The recording it is compared with.
     pub from: usize,
     /// The first recording in which it differs.
     pub to: usize,
-    /// By which part it differs: of its value, for the offset of Fc.
+    /// The part by which it differs: of its value, for the offset of Fc.
     pub part: f64,
     /// The difference in combined standard errors.
     pub errors: f64,

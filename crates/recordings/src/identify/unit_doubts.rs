@@ -5,25 +5,25 @@ use super::track::Track;
 use crate::trace::{Channel, Contains, Pick, Unit};
 use frictcomp::diagnostic::Code;
 
-/// No axis is faster, in mm/s: 200 m/min.
+/// Maximum speed of any axis, in mm/s: 200 m/min.
 const FASTEST: f64 = 200_000.0 / 60.0;
 
-/// Speed in mm/s below which no recording of friction stays as a whole: 10 mm/min.
+/// Speed in mm/s that every recording of friction exceeds: 10 mm/min.
 const SLOWEST: f64 = 10.0 / 60.0;
 
 /// Speeds in mm/s that recordings of friction usually reach.
 const USUAL: std::ops::Range<f64> = 5.0..1000.0;
 
-/// µm/s in a mm/s.
+/// µm/s per mm/s.
 const UM: f64 = 1000.0;
 
-/// 0.1 µm in a mm.
+/// 0.1 µm per mm.
 const POSITION_UNITS: f64 = 10_000.0;
 
 /// Units in which motion is recorded, the most usual first.
 const UNITS: [&str; 8] = ["mm/s", "µm/s", "mm/min", "m/min", "m/s", "mm", "µm", "nm"];
 
-/// FC524 where the fastest speed is one that no axis or no recording of friction has.
+/// FC524 if the fastest speed is one that no axis or no recording of friction has.
 pub(super) fn improbable_speed(
     channel: &Channel,
     pick: &Pick,
@@ -83,7 +83,7 @@ fn fastest(positions: &[f64], track: &Track) -> f64 {
         / POSITION_UNITS
 }
 
-/// Returns the remark on the factor and the offset with which Scope draws a channel, or FC519 where
+/// Returns the remark on the factor and the offset with which Scope draws a channel, or FC519 if
 /// it is not known whether the samples contain them.
 pub(super) fn scope_scale(
     channel: &Channel,

@@ -1,4 +1,4 @@
-//! A recorded torque against what a value list predicts (R6.20).
+//! A recorded torque compared with the prediction of a value list (R6.20).
 
 use super::curve::solve_linear;
 use super::identified::IdentifyError;
@@ -16,7 +16,7 @@ use frictcomp_physics::current::{
 pub struct Verified {
     /// Recorded friction as a part of the predicted one, over all speeds.
     pub scale: f64,
-    /// The same by ranges of speeds.
+    /// The scale by ranges of speeds.
     pub ranges: Vec<ScaleRange>,
     /// Part that is the same in both directions, in drive units.
     pub offset: f64,
@@ -28,7 +28,7 @@ pub struct Verified {
     pub step_s: f64,
     /// The CNC cycle, in which the control computes the additive current.
     pub cycle_s: f64,
-    /// The standard deviation of what is left over, in drive units.
+    /// The standard deviation of the residual, in drive units.
     pub residual: f64,
     /// The reversals of the recording.
     pub reversals: Vec<Reversal>,
@@ -50,7 +50,7 @@ pub struct ScaleRange {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Reversal {
-    /// When, in s.
+    /// The time in s.
     pub time_s: f64,
     /// The recorded step of the torque, in drive units, without inertia.
     pub recorded: f64,
@@ -61,7 +61,7 @@ pub struct Reversal {
 /// Ranges of speeds end here, in mm/s.
 const BOUNDS: [f64; 5] = [1.0, 5.0, 20.0, 80.0, f64::INFINITY];
 
-/// Slower than that in mm/s is rest.
+/// Slower motion in mm/s is rest.
 const REST: f64 = 0.05;
 
 /// Velocities with less noise in mm/s are commanded ones.
@@ -70,7 +70,7 @@ const QUIET: f64 = 0.002;
 /// Seconds over which the velocity is averaged.
 const AVERAGED_S: f64 = 0.01;
 
-/// Seconds after a reversal in which samples say nothing of the scale.
+/// Seconds after a reversal in which samples do not count for the scale.
 const AFTER_S: f64 = 0.05;
 
 /// A range with fewer samples has no scale.
@@ -87,7 +87,7 @@ pub struct Predictor<'a> {
     pub cycle_s: Option<f64>,
 }
 
-/// The same as [`verify_followed`] without a following error: the timing of the list stays open.
+/// Calls [`verify_followed`] without a following error: the timing of the list stays open.
 ///
 /// # Errors
 /// The recording cannot be used, or the axis moves in one direction only.
@@ -176,7 +176,7 @@ pub fn verify_followed(
     })
 }
 
-/// Cycles between two samples, at most.
+/// Maximum number of cycles between two samples.
 const MOST_CYCLES: f64 = 100.0;
 
 impl Predictor<'_> {
@@ -235,9 +235,9 @@ impl Predictor<'_> {
 struct PredictedMotion {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
-    /// Slower than that in mm/s is no direction.
+    /// Slower motion in mm/s has no direction.
     rest: f64,
-    /// The direction of each sample; at rest the last one goes on.
+    /// The direction of each sample; at rest the last one applies.
     signs: Vec<f64>,
     predicted: Vec<f64>,
 }
@@ -247,7 +247,7 @@ impl PredictedMotion {
         let velocities =
             moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
         let noise = noise_of(&samples.velocities);
-        // Commanded velocities turn where their sign changes; an average would turn elsewhere.
+        // Commanded velocities reverse where their sign changes; an average would reverse elsewhere.
         let (turning, rest) = if noise < QUIET {
             (&samples.velocities, REST.min(5.0 * noise))
         } else {
@@ -307,7 +307,7 @@ impl PredictedMotion {
         used
     }
 
-    /// Whether the axis turns without standing still: only then time is seen.
+    /// Whether the axis reverses without standstill: only then the timing is visible.
     fn turns_at_once(&self, at: usize) -> bool {
         const LONGEST: usize = 20;
         let moving = |index: usize| self.velocities[index].abs() > self.rest;

@@ -5,19 +5,19 @@ use super::finding::TraceFinding;
 use super::identified::{Identified, IdentifyOptions};
 use frictcomp::diagnostic::Code;
 
-/// A Stribeck velocity is seen from this part of it on.
+/// Part of a Stribeck velocity from which it is visible.
 const SEEN_FROM: f64 = 1.0;
 
-/// Without a fit, slower speeds than that in mm/s are needed.
+/// Speed in mm/s below which speeds are needed without a fit.
 const SLOW: f64 = 0.5;
 
-/// Fewer speeds show no curve.
+/// Minimum number of speeds for a curve.
 const FEWEST: usize = 4;
 
 /// Ripple of this part of the friction is reported.
 const RIPPLE: f64 = 0.01;
 
-/// Everything there is to say, in the order of the codes.
+/// All findings, in the order of the codes.
 pub(super) fn findings(found: &Identified, options: &IdentifyOptions) -> Vec<TraceFinding> {
     let checks: [fn(&Identified, &IdentifyOptions) -> Option<TraceFinding>; 8] = [
         slow_speeds,
@@ -42,7 +42,7 @@ fn slow_speeds(found: &Identified, _: &IdentifyOptions) -> Option<TraceFinding> 
         .filter(|fit| fit.breakaway.abs() > fit.coulomb.abs())
         .map(|fit| fit.stribeck);
     let wanted = stribeck.map_or(SLOW, |stribeck| stribeck * SEEN_FROM);
-    // What is held below the slowest speed matters unless the curve is flat there already.
+    // The held value below the slowest speed matters unless the curve is flat there already.
     if slowest <= wanted.min(SLOW) {
         return None;
     }
@@ -115,7 +115,7 @@ fn noise(found: &Identified, options: &IdentifyOptions) -> Option<TraceFinding> 
         .pairs
         .iter()
         .max_by(|one, other| one.error.total_cmp(&other.error))?;
-    // Two standard errors: what 95 of 100 recordings stay within.
+    // Two standard errors: 95 of 100 recordings stay within them.
     let part = 2.0 * worst.error / level;
     (part > options.accuracy).then(|| {
         let longer = (part / options.accuracy).powi(2).ceil();

@@ -27,10 +27,10 @@ pub struct Aligned {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotAligned {
-    /// A table without a column of times, and nothing that says how far its rows are apart.
+    /// A table without a column of times, and without a known distance between its rows.
     #[error("the trace has no times")]
     NoTimes,
-    /// A clock that jumps back or stands still.
+    /// A clock that jumps back or stops.
     #[error("the times do not rise: after {before_s} s comes {after_s} s")]
     Backwards {
         /// A time.
@@ -46,7 +46,7 @@ pub enum NotAligned {
         /// Another one.
         other: String,
     },
-    /// Fewer samples than anything can be said about.
+    /// Too few samples for any statement.
     #[error("the channel `{channel}` has too few samples: {samples}")]
     Short {
         /// Name of the channel.
@@ -174,7 +174,7 @@ impl TraceRecording {
         let missing = rows - times_s.len();
         if missing > 0 {
             remarks.push(format!(
-                "{missing} samples of `{}` are no numbers and left out",
+                "{missing} samples of `{}` are not numbers and left out",
                 self.name(channel)
             ));
         }
@@ -211,7 +211,7 @@ struct TimedChannel<'a> {
     channel: ChannelIndex,
     clock: Option<usize>,
     has_holes: bool,
-    /// Those of the recording where none is left out.
+    /// Those of the recording if none is left out.
     times_s: Cow<'a, [f64]>,
     values: Vec<f64>,
     step_s: f64,

@@ -32,7 +32,7 @@ impl Separator {
         }
     }
 
-    /// The cells of a row in which some may stand in quotes, without these.
+    /// The cells of a row in which some may be in quotes, without these.
     pub(super) fn quoted_cells(self, row: &[u8]) -> Vec<Vec<u8>> {
         let mut cells = Vec::new();
         let mut rest = Some(row);
@@ -109,7 +109,7 @@ impl<'a> Iterator for Cells<'a> {
 pub(super) enum CellValue {
     /// A number.
     Number(f64),
-    /// Nothing, or the word of a computer for no number.
+    /// Nothing, or a computer's word for a missing number.
     Missing,
     /// Something else.
     Other,
@@ -127,7 +127,7 @@ pub(super) enum Decimals {
     Comma,
 }
 
-/// A number of a length that is read without further memory.
+/// Maximum length of a number that is read without further memory.
 const MOST_DIGITS: usize = 64;
 
 /// Returns the value of a cell, and the decimal mark in it.
@@ -177,7 +177,7 @@ pub(super) fn starts_number(cell: &[u8]) -> bool {
     }
 }
 
-/// Words that stand for numbers, and for none.
+/// Words for numbers, and for missing ones.
 fn word(cell: &[u8]) -> CellValue {
     let is = |word: &str| cell.eq_ignore_ascii_case(word.as_bytes());
     if is("true") {
@@ -219,7 +219,7 @@ pub(super) fn switch(cell: &[u8]) -> Option<f64> {
     }
 }
 
-/// Whether a line is a row of numbers: it begins with one, and at least half of it are some.
+/// Whether a line is a row of numbers: its first cell is one, and so are at least half of its cells.
 pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
     let is_value = |cell: &[u8]| {
         let cell = cell.trim_ascii();
@@ -256,7 +256,7 @@ pub(super) fn text(cell: &[u8]) -> String {
     text.trim().to_owned()
 }
 
-/// Letters of one byte, as old systems write them: code page 1252.
+/// Decodes letters of one byte, as old systems write them: code page 1252.
 pub(super) fn of_old_systems(bytes: &[u8]) -> String {
     let (text, _) = encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes);
     text.into_owned()

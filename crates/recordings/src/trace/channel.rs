@@ -21,19 +21,19 @@ pub struct Channel {
     pub name: String,
     /// The comment or the description that the file gives.
     pub comment: String,
-    /// The symbol or path of the variable, where the file names it.
+    /// The symbol or path of the variable, if the file names it.
     pub symbol: String,
     /// The unit as the file writes it.
     pub unit: Option<String>,
     /// Recorded object of the CNC.
     pub object: Option<CncObject>,
-    /// The time between two samples that the file announces.
+    /// The time between two samples according to the file.
     pub sample_time_s: Option<f64>,
     /// Scope draws the channel with a factor or an offset.
     pub is_drawn_scaled: bool,
-    /// The factor and the offset, with what shows whether the samples contain them.
+    /// The factor and the offset, with the evidence whether the samples contain them.
     pub drawn: Option<ScopeDrawing>,
-    /// `Unit ScaleFactor` and `Unit Offset` of Scope, where they are not 1 and 0.
+    /// `Unit ScaleFactor` and `Unit Offset` of Scope, if they are not 1 and 0.
     pub unit_scale: Option<[f64; 2]>,
 }
 
@@ -47,7 +47,7 @@ pub struct ScopeDrawing {
     pub offset: f64,
     /// Whether the variable is of a type without decimals.
     pub is_whole: bool,
-    /// The least and the greatest drawn value, where the header has them.
+    /// The least and the greatest drawn value, if the header has them.
     pub range: Option<[f64; 2]>,
 }
 
@@ -63,7 +63,7 @@ pub enum Contains {
     Open,
 }
 
-/// Fewer different values show nothing.
+/// Minimum number of different values that show anything.
 const TELLING: usize = 8;
 
 #[allow(clippy::cast_possible_truncation)] // what a variable of the control holds
@@ -72,8 +72,8 @@ fn as_whole(value: f64) -> i64 {
 }
 
 impl ScopeDrawing {
-    /// Returns the contents of the samples, as far as the range in the header or the type of the
-    /// variable decides (R6.23).
+    /// Returns the contents of the samples, if the range in the header or the type of the variable
+    /// decides them (R6.23).
     pub fn contained_in(&self, samples: &[f64]) -> Contains {
         let finite = || samples.iter().copied().filter(|it| it.is_finite());
         let [least, most] = finite().fold([f64::MAX, f64::MIN], |[least, most], it| {
@@ -124,14 +124,14 @@ impl ScopeDrawing {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct CncObject {
-    /// The index group: which part of the control.
+    /// The index group: the part of the control.
     pub group: u32,
     /// The index offset, `0x<axis>nnnn`.
     pub offset: u32,
 }
 
 impl CncObject {
-    /// The number of the axis, 0 for an object of no axis.
+    /// The number of the axis, 0 for an object without an axis.
     pub fn axis(self) -> u32 {
         self.offset >> 16
     }

@@ -38,7 +38,7 @@ impl Choice {
 }
 
 impl Choice {
-    /// The same with the channel of a name, where there is one, as a switch.
+    /// Adds the channel of a name, if there is one, as a switch.
     pub fn with_switch(mut self, name: &str, channels: &[Channel]) -> (Self, Option<ChannelIndex>) {
         let found = channels.iter().position(|channel| channel.name == name);
         let found = found.map(ChannelIndex);
@@ -47,7 +47,7 @@ impl Choice {
     }
 }
 
-/// Says which of the channels are kept.
+/// Selects the channels that are kept.
 type Choose<'a> = Box<dyn FnMut(&[Channel]) -> Result<Choice, SelectError> + Send + 'a>;
 
 /// Requirements on a trace.

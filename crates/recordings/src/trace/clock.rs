@@ -12,7 +12,7 @@ pub struct Clock {
     pub last_s: f64,
     /// Places where samples are missing.
     pub gaps: u64,
-    /// The longest time without a sample, where there are gaps.
+    /// The longest time without a sample, if there are gaps.
     pub longest_gap_s: f64,
     /// Start of the longest gap.
     pub gap_at_s: f64,
@@ -20,7 +20,7 @@ pub struct Clock {
     pub backwards: u64,
 }
 
-/// A step that is so much longer than the usual one is a gap.
+/// A step longer than the usual one by this factor is a gap.
 const GAP: f64 = 1.5;
 
 impl Clock {
@@ -53,7 +53,7 @@ impl Clock {
     }
 }
 
-/// The middle one of some numbers.
+/// The median of some numbers.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     let middle = values.len() / 2;

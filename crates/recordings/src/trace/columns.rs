@@ -23,7 +23,7 @@ pub(super) enum TimeScale {
 /// Columns that share a column of times.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ColumnGroup {
-    /// The column of the times, where there is one.
+    /// The column of the times, if there is one.
     pub(super) time: Option<usize>,
     pub(super) scale: TimeScale,
 }
@@ -45,6 +45,6 @@ pub(super) struct TableColumns {
     pub(super) count: usize,
     pub(super) described: Vec<ChannelColumn>,
     pub(super) groups: Vec<ColumnGroup>,
-    /// Remark on what is assumed of them.
+    /// Remark on the assumptions about them.
     pub(super) remark: Option<&'static str>,
 }

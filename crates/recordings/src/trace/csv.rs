@@ -1,4 +1,4 @@
-//! Tables on their way in: lines of bytes, the header, then rows.
+//! Incoming tables: lines of bytes, the header, then rows.
 
 use super::choice::Demand;
 use super::columns::{FileLine, TableColumns};
@@ -7,10 +7,10 @@ use super::head::Head;
 use super::recording::TraceRecording;
 use super::table::ChannelTable;
 
-/// A line is not longer.
+/// Maximum length of a line.
 const MOST_LINE: usize = 4 << 20;
 
-/// A table of which some lines came.
+/// A table that is being read.
 #[derive(Default)]
 pub(super) struct CsvTable {
     /// The start of a line whose end is in the next piece.
@@ -68,7 +68,7 @@ impl CsvTable {
         Ok(())
     }
 
-    /// Takes the last line, and gives everything.
+    /// Takes the last line, and returns everything.
     pub(super) fn finish(
         mut self,
         demand: &mut Demand<'_>,
@@ -112,7 +112,7 @@ impl CsvTable {
         Self::begun(head, columns, demand)
     }
 
-    /// A table with the rows that came while its columns were not known.
+    /// Creates a table with the rows that came while its columns were not known.
     fn begun(
         head: Head,
         columns: TableColumns,

@@ -1,15 +1,15 @@
-//! Why a recorded trace cannot be read, or a channel not be found.
+//! Why a recorded trace cannot be read, or a channel cannot be found.
 
 use std::fmt::Write as _;
 
 use thiserror::Error;
 
-/// Why a trace cannot be read: one sentence in lower case, with its line where there is one.
+/// Why a trace cannot be read: one sentence in lower case, with its line if there is one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TraceProblem {
     /// A file of bytes, not of text.
-    #[error("it is no text, but binary")]
+    #[error("it is binary, not text")]
     Binary,
     /// A file that gzip compressed.
     #[error("it is compressed with gzip")]
@@ -81,7 +81,7 @@ pub enum TraceProblem {
         /// Limit.
         most: usize,
     },
-    /// A header that cannot be divided, because its separator stands in the names.
+    /// A header that cannot be divided, because its names contain the separator.
     #[error("the header cannot be divided: its names contain the separator")]
     Divided,
     /// `<!DOCTYPE`, by which a small text becomes a large one.
@@ -90,12 +90,12 @@ pub enum TraceProblem {
         /// The line of the file.
         line: u64,
     },
-    /// XML that is not well-formed, or no trace.
+    /// XML that is not well-formed, or is not a trace.
     #[error("line {line}: {reason}")]
     Xml {
         /// The line of the file.
         line: u64,
-        /// What is wrong, in words.
+        /// The fault, in words.
         reason: String,
     },
     /// A requested item does not exist.
@@ -104,7 +104,7 @@ pub enum TraceProblem {
 }
 
 impl TraceProblem {
-    /// The line of the file, where it is about one value.
+    /// The line of the file, if it is about one value.
     pub fn line(&self) -> Option<u64> {
         match self {
             Self::Number { line, .. } | Self::Switch { line, .. } => Some(*line),
@@ -200,7 +200,7 @@ fn listed(names: &[String]) -> String {
 }
 
 impl SelectError {
-    /// The same, with another guess where nothing is spelled like what was asked for.
+    /// Adds another guess if no name is spelled like the requested one.
     pub(super) fn or_guess(self, guess: impl FnOnce() -> Option<String>) -> Self {
         match self {
             Self::None {

@@ -10,28 +10,28 @@ use super::scope::{self, OpenRow};
 #[derive(Debug, Default)]
 pub(super) struct Head {
     above: Vec<FileLine>,
-    /// Rows of numbers below no header, from which the columns of times are found.
+    /// Rows of numbers without a header, from which the columns of times are found.
     rows: Vec<FileLine>,
     bytes: usize,
-    /// The separator, where the lines are those of Scope.
+    /// The separator, if the lines are those of Scope.
     separator: Option<Separator>,
     open: Option<OpenRow>,
 }
 
-/// A header is not longer.
+/// Maximum size of a header.
 pub(super) const MOST_HEADER: usize = 16 << 20;
 
-/// A header has no more lines.
+/// Maximum number of lines of a header.
 const MOST_LINES: usize = 4096;
 
-/// Rows that are examined where the file has no header.
+/// Number of rows that are examined if the file has no header.
 const ROWS: usize = 64;
 
-/// A table has no more columns.
+/// Maximum number of columns of a table.
 pub(super) const MOST_COLUMNS: usize = 20_000;
 
 impl Head {
-    /// Takes a line. The columns, once they are known.
+    /// Takes a line. Returns the columns, once they are known.
     pub(super) fn line(&mut self, line: FileLine) -> Result<Option<TableColumns>, TraceProblem> {
         self.bytes += line.bytes.len();
         if self.bytes > MOST_HEADER {
@@ -66,7 +66,7 @@ impl Head {
         Ok(None)
     }
 
-    /// The file is over: the columns of the rows that came.
+    /// Ends the file; returns the columns of the rows that came.
     pub(super) fn end(&self) -> Result<TableColumns, TraceProblem> {
         if self.rows.is_empty() {
             return Err(TraceProblem::NoRows);
@@ -74,7 +74,7 @@ impl Head {
         self.columns()
     }
 
-    /// The rows of numbers that came so far.
+    /// The rows of numbers that have come so far.
     pub(super) fn rows(self) -> Vec<FileLine> {
         self.rows
     }

@@ -1,7 +1,7 @@
 //! Recorded traces: the texts that Scope, the trace of a control and spreadsheets write, as channels.
 //!
 //! Nothing here opens a file: bytes go in piece by piece ([`TraceReader`]), a [`TraceRecording`] comes out.
-//! Only the channels that are asked for are kept, each with the times at which it was sampled.
+//! Only the requested channels are kept, each with the times at which it was sampled.
 
 mod align;
 mod cell;

@@ -67,7 +67,7 @@ pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColum
     Ok(named(&[last], Separator::Byte(b';')))
 }
 
-/// The columns by the last of some rows, or by the one above it where the last holds units.
+/// The columns by the last of some rows, or by the one above it if the last holds units.
 fn named(lines: &[&[u8]], separator: Separator) -> TableColumns {
     let mut rows = lines.iter().rev().map(|line| cells_of(line, separator));
     let mut names = rows.next().unwrap_or_default();
@@ -169,10 +169,10 @@ pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> Table
     columns
 }
 
-/// Whether numbers rise in equal steps from where the times begin, as times do.
+/// Whether numbers rise in equal steps from the start of the times, as times do.
 fn counts_like(numbers: &[f64], times: &[f64]) -> bool {
     const ENOUGH: usize = 8;
-    /// Ten seconds in units of 100 ns: times of two tasks begin at most so far apart.
+    /// Ten seconds in units of 100 ns: the greatest distance between the starts of the times of two tasks.
     const FILETIME_APART: f64 = 1e8;
     let (Some(&begin), Some(&time)) = (numbers.first(), times.first()) else {
         return false;
@@ -200,7 +200,7 @@ fn separator_of(row: &[u8]) -> Separator {
     found.copied().unwrap_or(Separator::Byte(b';'))
 }
 
-/// The texts of a row; an empty one at the end is no column.
+/// The texts of a row; an empty one at the end is not a column.
 fn cells_of(row: &[u8], separator: Separator) -> Vec<String> {
     let cells = separator.quoted_cells(row);
     let mut texts: Vec<String> = cells.iter().map(|cell| text(cell)).collect();
@@ -212,7 +212,7 @@ fn cells_of(row: &[u8], separator: Separator) -> Vec<String> {
 
 /// The marks of comments.
 trait Marked {
-    /// Without `#` or `%` at its start, by which some programs mark the names.
+    /// Without `#` or `%` at its start, with which some programs mark the names.
     fn trim_start_matches_marks(&self) -> &[u8];
 }
 

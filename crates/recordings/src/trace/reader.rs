@@ -36,14 +36,14 @@ enum FileForm {
     Xml(Box<Xml>),
 }
 
-/// Bytes from the start of a file by which its layout is recognised.
+/// Number of bytes from the start of a file by which its layout is recognised.
 const ENOUGH: usize = 1024;
 
 /// The first bytes of a file that gzip compressed.
 const GZIP: &[u8] = b"\x1f\x8b";
 
 impl<'a> TraceReader<'a> {
-    /// A reader that asks once which channels are kept, with a limit of rows.
+    /// Creates a reader with a limit of rows that calls `choose` once for the channels to keep.
     pub fn new(
         most_rows: usize,
         choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send + 'a,
@@ -62,7 +62,7 @@ impl<'a> TraceReader<'a> {
     /// Takes the next bytes.
     ///
     /// # Errors
-    /// They belong to no trace, or not to one with the requested channels.
+    /// They do not belong to a trace, or not to one with the requested channels.
     pub fn feed(&mut self, piece: &[u8]) -> Result<(), TraceProblem> {
         if !matches!(self.form, FileForm::Unknown) {
             return self.give(piece);
@@ -74,10 +74,10 @@ impl<'a> TraceReader<'a> {
         self.begin()
     }
 
-    /// The bytes are over: the channels with their samples.
+    /// Ends the bytes; returns the channels with their samples.
     ///
     /// # Errors
-    /// What came is no trace, or not one with the requested channels.
+    /// The bytes are not a trace, or not one with the requested channels.
     pub fn finish(mut self) -> Result<TraceRecording, TraceProblem> {
         if matches!(self.form, FileForm::Unknown) {
             self.begin()?;
@@ -89,7 +89,7 @@ impl<'a> TraceReader<'a> {
         }
     }
 
-    /// Tells by the first bytes what the file is.
+    /// Recognises the file by its first bytes.
     fn begin(&mut self) -> Result<(), TraceProblem> {
         let first = std::mem::take(&mut self.first);
         if first.starts_with(GZIP) {

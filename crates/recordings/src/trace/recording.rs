@@ -1,4 +1,4 @@
-//! A recording: channels with their samples, each on the clock on which it was sampled.
+//! A recording: channels with their samples, each on the clock with which it was sampled.
 
 use super::channel::{Channel, ChannelIndex};
 
@@ -30,7 +30,7 @@ impl Layout {
     }
 }
 
-/// Cells of a channel that hold no number.
+/// Cells of a channel that do not hold a number.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Missing {
@@ -47,7 +47,7 @@ pub struct Missing {
 pub(super) struct ChannelSamples {
     pub(super) values: Vec<f64>,
     pub(super) missing: Missing,
-    /// Index of its clock, where the file has times.
+    /// Index of its clock, if the file has times.
     pub(super) clock: Option<usize>,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct ChannelSamples {
 pub struct TraceRecording {
     pub(super) layout: Layout,
     pub(super) channels: Vec<Channel>,
-    /// In the order of the channels; none for those that were not asked for.
+    /// In the order of the channels; none for those that were not requested.
     pub(super) samples: Vec<Option<ChannelSamples>>,
     /// The times of the clocks in seconds.
     pub(super) clocks: Vec<Vec<f64>>,
@@ -69,7 +69,7 @@ impl TraceRecording {
         self.layout
     }
 
-    /// Every channel of the file, also those whose samples were not asked for.
+    /// Every channel of the file, including those whose samples were not requested.
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -79,7 +79,7 @@ impl TraceRecording {
         &self.remarks
     }
 
-    /// The channels whose samples were asked for.
+    /// The channels whose samples were requested.
     pub fn kept(&self) -> impl Iterator<Item = ChannelIndex> {
         let kept = self.samples.iter().enumerate();
         kept.filter_map(|(index, samples)| samples.is_some().then_some(ChannelIndex(index)))
@@ -96,15 +96,15 @@ impl TraceRecording {
         samples.map_or_else(Vec::new, |samples| std::mem::take(&mut samples.values))
     }
 
-    /// The times of the samples of a channel in seconds, where the file has times. There are as many
-    /// as samples.
+    /// The times of the samples of a channel in seconds, if the file has times. There are as many as
+    /// samples.
     pub fn times_s(&self, channel: ChannelIndex) -> Option<&[f64]> {
         let samples = self.of(channel)?;
         let times = self.clocks.get(samples.clock?)?;
         Some(&times[..times.len().min(samples.values.len())])
     }
 
-    /// The cells of a channel that hold no number.
+    /// The cells of a channel that do not hold a number.
     pub fn missing(&self, channel: ChannelIndex) -> Missing {
         let missing = self.of(channel).map(|samples| samples.missing.clone());
         missing.unwrap_or_default()

@@ -1,8 +1,8 @@
 //! Exports of TwinCAT Scope: rows of attributes above the numbers (R6.2).
 //!
-//! The first cell of such a row is the name of an attribute. It stands above a column of times, the
-//! cells after it belong to channels that share these times, and where the name comes again the next
-//! group begins.
+//! The first cell of such a row is the name of an attribute. It is above a column of times, the cells
+//! after it belong to channels that share these times, and where the name is repeated the next group
+//! begins.
 
 use super::cell::{Separator, is_data, text};
 use super::channel::{Channel, CncObject, ScopeDrawing, parse_address};
@@ -13,7 +13,7 @@ use super::recording::{Layout, RowForm};
 /// An export of TwinCAT Scope with rows of attributes.
 const LAYOUT: Layout = Layout::new("TwinCAT Scope CSV", RowForm::Ragged);
 
-/// The attributes of channels. What begins another one stands before it.
+/// The attributes of channels. A name that another one starts with comes after that one.
 const ATTRIBUTES: [&str; 21] = [
     "Name",
     "SymbolComment",
@@ -55,7 +55,7 @@ fn key_of(line: &[u8]) -> Option<(&'static str, Option<u8>)> {
         let after = bare.strip_prefix(key.as_bytes())?.strip_prefix(quote)?;
         match after.first() {
             None => Some((*key, None)),
-            // `Unit Offset` begins like `Unit`, but goes on with a letter.
+            // `Unit Offset` begins like `Unit`, but is followed by a letter.
             Some(b' ')
                 if after
                     .get(1)
@@ -73,7 +73,7 @@ fn is_of_file(key: &str) -> bool {
     OF_FILE.contains(&key)
 }
 
-/// The separator, where the lines are those of Scope.
+/// The separator, if the lines are those of Scope.
 pub(super) fn separator_of(above: &[FileLine]) -> Option<Separator> {
     let first = above
         .iter()
@@ -95,7 +95,7 @@ fn attributes(above: &[FileLine]) -> impl Iterator<Item = (&'static str, &FileLi
     above.iter().enumerate().filter_map(move |(at, line)| {
         let key = keyed(line)?;
         let next = above.get(at + 1).and_then(keyed);
-        // The name of the project stands right above the name of the file.
+        // The name of the project is right above the name of the file.
         let is_project = key == "Name" && next.is_some_and(is_of_file);
         (!is_of_file(key) && !is_project).then_some((key, line))
     })
@@ -106,14 +106,14 @@ pub(super) fn has_attributes(above: &[FileLine]) -> bool {
     separator_of(above).is_some() && attributes(above).next().is_some()
 }
 
-/// A row of attributes that may go on in the next line.
+/// A row of attributes that may continue on the next line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OpenRow {
     separator: u8,
     /// A cell began with a quote that is not closed.
     is_quoted: bool,
     cells: usize,
-    /// Required number of cells: a comment without quotes goes on until its row is as wide as the
+    /// Required number of cells: a comment without quotes continues until its row is as wide as the
     /// others.
     wanted: usize,
     /// Number of letters of the last cell, without the name of the attribute.
@@ -121,7 +121,7 @@ pub(super) struct OpenRow {
 }
 
 impl OpenRow {
-    /// The last of some lines, where it is a row of attributes.
+    /// The last of some lines, if it is a row of attributes.
     pub(super) fn last(above: &[FileLine]) -> Option<Self> {
         let Separator::Byte(separator) = separator_of(above)? else {
             return None;
@@ -168,7 +168,7 @@ impl OpenRow {
         self.cells < self.wanted || is_more
     }
 
-    /// Counts the cells of a line, of which the first one goes on with the last one before.
+    /// Counts the cells of a line, of which the first one continues the last one before.
     pub(super) fn take(&mut self, line: &[u8]) {
         let mut is_start = !self.is_quoted;
         let mut was_closed = false;
@@ -179,7 +179,7 @@ impl OpenRow {
                     self.is_quoted = false;
                     closes = true;
                 }
-                // Two quotes within quotes are one, and go on.
+                // Two quotes within quotes are one, and the quoted text continues.
                 b'"' if is_start || was_closed => self.is_quoted = true,
                 _ if byte == self.separator && !self.is_quoted => {
                     self.cells += 1;
@@ -204,7 +204,7 @@ pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColum
             cells: separator.quoted_cells(&line.bytes),
         })
         .collect();
-    // Between blanks, what names the channels may have too many cells, but symbols and types have not.
+    // Between blanks, rows that name channels may have too many cells, but symbols and types do not.
     let whole = rows.iter().filter(|row| width(&row.cells) == in_row);
     let lead = whole
         .filter(|_| separator == BLANK)
@@ -215,7 +215,7 @@ pub(super) fn columns(above: &[FileLine], first: &FileLine) -> Result<TableColum
     let lead = lead.or(rows.first()).ok_or(TraceProblem::NoRows)?;
     let divided = Division::of(lead, &rows, separator, in_row)?;
     let count = divided.count.max(divided.starts.len());
-    // Without time columns a row of numbers is as much shorter as there are groups.
+    // Without time columns a row of numbers is shorter by the number of groups.
     let is_timed = in_row > count - divided.starts.len() || in_row == 0;
     let mut columns = TableColumns {
         layout: LAYOUT,
@@ -327,7 +327,7 @@ struct Division {
     count: usize,
     /// Names may contain the separator: each group is one channel, whatever its cells.
     is_joined: bool,
-    /// Cells are parted by single blanks.
+    /// Single blanks separate the cells.
     is_blank: bool,
 }
 
@@ -335,7 +335,7 @@ struct Division {
 const BLANK: Separator = Separator::Byte(b' ');
 
 impl Division {
-    /// By the leading row, and by the others where they are as wide: a channel may be called `Name`.
+    /// Divides by the leading row, and by the others if they are as wide: a channel may be called `Name`.
     fn of(
         lead: &AttributeRow,
         rows: &[AttributeRow],
@@ -405,7 +405,7 @@ impl Division {
                 })
                 .collect();
         }
-        // A decimal comma between commas makes two cells of one: by the name that comes again.
+        // A decimal comma between commas splits one cell in two: the cells are divided by the repeated name.
         let key_at: Vec<usize> = (0..filled).filter(|&at| row.is_key(at)).collect();
         if key_at.len() != widths.len() {
             return Vec::new();
@@ -423,7 +423,7 @@ impl Division {
                     return vec![cells.join(between)];
                 }
                 if self.is_blank && cells.len() > width {
-                    // Nothing tells which words are one name.
+                    // Nothing shows which words are one name.
                     return Vec::new();
                 }
                 if cells.len() == 2 * width {

@@ -20,15 +20,15 @@ pub struct ChannelSelection {
     pub velocity: Option<String>,
     /// The channel of the torque or the current.
     pub torque: Option<String>,
-    /// The channel of the actual positions, beside that of the commanded ones.
+    /// The channel of the actual positions, in addition to that of the commanded ones.
     pub actual_position: Option<String>,
     /// The channel of the following error, commanded less actual position.
     pub following_error: Option<String>,
-    /// Units of channels that the file does not name, or not rightly.
+    /// Units of channels that the file does not name, or names wrongly.
     pub units: Vec<(String, Unit)>,
 }
 
-/// A channel that was found, with what makes the units of lists and traces of its samples.
+/// A channel that was found, with the conversion of its samples to the units of lists and traces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Pick {
@@ -40,7 +40,7 @@ pub struct Pick {
     pub is_unit_assumed: bool,
 }
 
-/// The names by which channels are taken without being asked for, and words that hint at them.
+/// The names by which channels are chosen without a request, and words that hint at them.
 struct ChannelNames {
     quantity: ChannelQuantity,
     taken: &'static [&'static str],
@@ -89,8 +89,8 @@ impl ChannelSelection {
         }
     }
 
-    /// The channel of a quantity: the one that the user names, else the one with its short name;
-    /// `None` where there is none of either.
+    /// The channel of a quantity: the one that the user names, otherwise the one with its short name;
+    /// `None` if there is neither.
     ///
     /// # Errors
     /// No channel fits what the user names, or several do.
@@ -101,7 +101,7 @@ impl ChannelSelection {
     ) -> Result<Option<Pick>, SelectError> {
         let found = match self.asked(quantity) {
             Some(wanted) => Some(self.named(wanted, channels).map_err(|error| {
-                // Nothing is spelled like it, but something may be meant.
+                // Nothing is spelled like it, but a similar channel may be meant.
                 error.or_guess(|| guess(quantity, channels))
             })?),
             None => Self::taken(quantity, channels),
@@ -111,7 +111,7 @@ impl ChannelSelection {
             .transpose()
     }
 
-    /// The same for a channel that must be there.
+    /// Finds a channel that must exist.
     ///
     /// # Errors
     /// There is none.
@@ -135,7 +135,7 @@ impl ChannelSelection {
         })
     }
 
-    /// A channel by what the user says about it, with the unit for a quantity.
+    /// A channel by the user's description, with the unit for a quantity.
     ///
     /// # Errors
     /// No channel fits, or several do.
@@ -148,8 +148,8 @@ impl ChannelSelection {
         self.pick(self.named(wanted, channels)?, quantity, channels)
     }
 
-    /// The channel of the positions of an axis by the name of the axis alone, with its unit where
-    /// that is one of positions.
+    /// The channel of the positions of an axis by the name of the axis alone, with its unit if that is one
+    /// of positions.
     ///
     /// # Errors
     /// Scope scales the unit.
@@ -183,7 +183,7 @@ impl ChannelSelection {
     fn named(&self, wanted: &str, channels: &[Channel]) -> Result<ChannelIndex, SelectError> {
         let wanted = wanted.trim();
         let object = parse_object(wanted);
-        // From what fits closely to what fits somehow; the first that finds any decides.
+        // From an exact fit to a loose one; the first that finds any decides.
         let fits: [&dyn Fn(&Channel) -> bool; 7] = [
             &|channel| channel.name == wanted,
             &|channel| channel.symbol == wanted,
@@ -294,7 +294,7 @@ impl ChannelSelection {
     }
 }
 
-/// The names of channels, for a list of what there is.
+/// The names of channels, for a list of the existing ones.
 fn shown(channels: &[Channel]) -> Vec<String> {
     channels
         .iter()
@@ -356,7 +356,7 @@ enum WantedObject {
     Whole(CncObject),
     /// `0x10017`, an offset with its axis.
     Offset(u32),
-    /// `0x17`, the object of whatever axis.
+    /// `0x17`, the object of any axis.
     Element(u32),
 }
 

@@ -10,18 +10,18 @@ use super::recording::TraceRecording;
 pub struct ChannelSummary<'a> {
     /// Description of the channel.
     pub channel: &'a Channel,
-    /// Number of samples, missing ones included.
+    /// Number of samples, including missing ones.
     pub samples: usize,
     /// Number of missing samples.
     pub missing: u64,
     /// The least and the greatest sample, in the unit of the file; `None` without any.
     pub range: Option<[f64; 2]>,
-    /// The times at which it was sampled, where the file has times.
+    /// The times at which it was sampled, if the file has times.
     pub clock: Option<Clock>,
 }
 
 impl TraceRecording {
-    /// The channels that were asked for, at a glance.
+    /// The requested channels, at a glance.
     pub fn summaries(&self) -> impl Iterator<Item = ChannelSummary<'_>> {
         self.kept().map(|index| self.summary(index))
     }

@@ -24,7 +24,7 @@ pub(super) struct ChannelTable {
     origin: Option<u64>,
     is_after_blank: bool,
     is_over: bool,
-    /// Remark on what is assumed of the columns.
+    /// Remark on the assumptions about the columns.
     remark: Option<&'static str>,
     remarks: Vec<String>,
 }
@@ -149,7 +149,7 @@ impl ChannelTable {
         if may_end && !is_data(row, Some(self.separator)) {
             self.is_over = true;
             self.remarks.push(format!(
-                "line {line} and those after it are not read: they are no rows of numbers"
+                "line {line} and those after it are not read: they are not rows of numbers"
             ));
             return Ok(());
         }
@@ -172,7 +172,7 @@ impl ChannelTable {
         line: u64,
         cells: impl Iterator<Item = &'a [u8]>,
     ) -> Result<(), TraceProblem> {
-        // Most tables have few columns that are read; their cells need no memory of their own.
+        // Most tables have few columns that are read; their cells need no separate memory.
         let mut small: [&[u8]; 16] = [&[]; 16];
         let mut large = Vec::new();
         let found: &mut [&[u8]] = if self.read.len() <= small.len() {
@@ -296,7 +296,7 @@ impl ChannelTable {
         let mut clocks: Vec<Vec<f64>> = self.groups.into_iter().map(|it| it.values).collect();
         for mut wanted in self.wanted {
             let found = &mut wanted.samples;
-            // A channel that is shorter than others ends; it is not without samples.
+            // A channel that is shorter than others ends; its samples are not missing.
             while found.values.last().is_some_and(|value| value.is_nan())
                 && self.layout.rows == RowForm::Ragged
             {

@@ -1,4 +1,4 @@
-//! Units of channels, and what makes the units of lists and traces of them.
+//! Units of channels, and their conversion to the units of lists and traces.
 
 frictcomp::words! {
     /// Quantity of a unit.
@@ -11,13 +11,13 @@ frictcomp::words! {
         Position = "position",
         /// In µm/s or 0.001°/s.
         Velocity = "velocity",
-        /// In drive units, or in what the drive measures.
+        /// In drive units, or in a unit that the drive measures.
         Torque = "torque",
     }
 }
 
 impl ChannelQuantity {
-    /// The unit that the CNC records it in, which is taken where a file names none.
+    /// The unit in which the CNC records it, used if a file names none.
     pub fn own_unit(self) -> &'static str {
         match self {
             Self::Time => "s",
@@ -28,7 +28,7 @@ impl ChannelQuantity {
     }
 }
 
-/// Along what an axis moves.
+/// The kind of motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum AxisMotion {
@@ -98,11 +98,11 @@ const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
     ("ncm", Torque, 1.0, None),
 ];
 
-/// Units of torque that are parts of what the drive is rated for.
+/// Units of torque that are parts of the rated value of the drive.
 const OF_THE_DRIVE: [&str; 3] = ["%", "0.1%", "\u{2030}"];
 
 impl Unit {
-    /// The units that are known, for a sentence.
+    /// The known units, for a sentence.
     pub const NAMED: &str = "s, ms, us, m, mm, um, 0.1um, nm, inch, deg, 0.0001deg, m/s, mm/s, um/s, m/min, \
                              mm/min, deg/s, 0.001deg/s, rpm, %, 0.1%, A, mA, N, kN, Nm, Ncm";
 
@@ -132,7 +132,7 @@ impl Unit {
 /// A unit in one way of writing: `mm / s`, `µm/s`, `grad/sec` and `V (Voltage)`.
 fn plain(text: &str) -> String {
     let text = text.trim();
-    // Scope adds what is measured: `mm/s (Velocity)`.
+    // Scope appends the quantity: `mm/s (Velocity)`.
     let text = text.split(" (").next().unwrap_or(text);
     if text == "Nm" || text == "N\u{b7}m" {
         return "nm.".to_owned();

@@ -1,4 +1,4 @@
-//! UTF-16 as it is read: two bytes a letter become UTF-8, piece by piece.
+//! UTF-16 while it is read: two bytes per letter become UTF-8, piece by piece.
 
 use std::borrow::Cow;
 
@@ -8,13 +8,13 @@ pub(super) enum Letters {
     /// Too few bytes to decide.
     #[default]
     Unknown,
-    /// One byte a letter or UTF-8: as it is.
+    /// One byte per letter or UTF-8: unchanged.
     Narrow,
     /// UTF-16.
     Wide(Wide),
 }
 
-/// UTF-16 with what a piece left over.
+/// UTF-16 with the rest of a piece.
 #[derive(Debug)]
 pub(super) struct Wide {
     to_u16: fn([u8; 2]) -> u16,
@@ -26,7 +26,7 @@ pub(super) struct Wide {
 const MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
 
 impl Letters {
-    /// Looks at how a file begins; gives how many bytes of it are a mark.
+    /// Examines the beginning of a file; returns the number of its bytes that are a mark.
     pub(super) fn begin(&mut self, first: &[u8]) -> usize {
         let wide = |to_u16| {
             Self::Wide(Wide {
@@ -48,7 +48,7 @@ impl Letters {
         mark
     }
 
-    /// The next piece with one byte a letter, or UTF-8.
+    /// The next piece with one byte per letter, or UTF-8.
     pub(super) fn narrow<'a>(&mut self, piece: &'a [u8]) -> Cow<'a, [u8]> {
         match self {
             Self::Wide(wide) => Cow::Owned(wide.narrow(piece)),

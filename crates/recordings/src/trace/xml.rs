@@ -2,7 +2,7 @@
 //!
 //! Signals are described by elements with a `key`, a `name` and a `description`; a `dataFrame` names
 //! the signals of its records in their order, and each `rec` has a `time` in s and the values `f1`,
-//! `f2` and so on. The bytes come piece by piece: what a piece leaves unfinished waits for the next.
+//! `f2` and so on. The bytes come piece by piece: an unfinished element waits for the next piece.
 
 use quick_xml::Reader;
 use quick_xml::escape::unescape;
@@ -17,22 +17,22 @@ use super::recording::{ChannelSamples, Layout, RowForm, TraceRecording};
 /// The XML of a SINUMERIK trace.
 const LAYOUT: Layout = Layout::new("SINUMERIK trace XML", RowForm::Whole);
 
-/// An element is not longer.
+/// Maximum size of an element.
 const MOST_ELEMENT: usize = 1 << 20;
 
-/// A trace has no more signals.
+/// Maximum number of signals of a trace.
 const MOST_SIGNALS: usize = 4096;
 
 /// Value that controls write in place of a missing number: the bits of such a number, as an
 /// integer.
 const NO_VALUE: f64 = 9.2e18;
 
-/// A trace of which some elements came.
+/// A trace that is being read.
 #[derive(Default)]
 pub(super) struct Xml {
     waiting: Vec<u8>,
     lines: u64,
-    /// Signals as they are described anywhere in the file.
+    /// Signals described anywhere in the file.
     described: Vec<Signal>,
     columns: Vec<RecordedSignal>,
     /// Index of the first column of the present frame.
@@ -51,7 +51,7 @@ struct Signal {
     unit: String,
 }
 
-/// A signal that is recorded.
+/// A recorded signal.
 #[derive(Debug, Default)]
 struct RecordedSignal {
     signal: Signal,
@@ -66,7 +66,7 @@ impl Xml {
         self.append(&mut bytes, piece);
         let text = match std::str::from_utf8(&bytes) {
             Ok(text) => text,
-            // A letter of which the rest comes with the next piece.
+            // A letter whose rest comes with the next piece.
             Err(error) => std::str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default(),
         };
         let done = self.elements(text, demand)?;
@@ -84,7 +84,7 @@ impl Xml {
         Ok(())
     }
 
-    /// Appends bytes as UTF-8. Once there are some that are none, each byte is a letter.
+    /// Appends bytes as UTF-8. Once some are not UTF-8, each byte is a letter.
     fn append(&mut self, bytes: &mut Vec<u8>, piece: &[u8]) {
         let from = bytes.len();
         bytes.extend(piece);
@@ -106,7 +106,7 @@ impl Xml {
         bytes.extend(of_old_systems(piece).as_bytes());
     }
 
-    /// Takes every whole element; gives how many bytes they are.
+    /// Takes every whole element; returns their length in bytes.
     fn elements(&mut self, text: &str, demand: &Demand<'_>) -> Result<usize, TraceProblem> {
         let mut reader = Reader::from_str(text);
         let config = reader.config_mut();
@@ -117,7 +117,7 @@ impl Xml {
             let event = reader.read_event();
             let at = usize::try_from(reader.buffer_position()).unwrap_or(text.len());
             match event {
-                // An element without its end is cut off by the end of a piece, which is no mistake.
+                // An element without its end is cut off by the end of a piece, which is not an error.
                 Ok(Event::Eof) | Err(quick_xml::Error::Syntax(_)) => return Ok(done),
                 Ok(Event::Start(element) | Event::Empty(element)) => {
                     self.element(&element, &text[..done], demand)?;
@@ -314,7 +314,7 @@ impl Xml {
         })
     }
 
-    /// A channel by what its frame says, and what is said about its key elsewhere.
+    /// A channel by its description in its frame, and by the one of its key elsewhere.
     fn channel(&self, at: usize, signal: &Signal) -> Channel {
         let same = |it: &&Signal| !it.key.is_empty() && it.key == signal.key;
         let elsewhere = self.described.iter().find(same);

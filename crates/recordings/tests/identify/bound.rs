@@ -1,15 +1,15 @@
-//! How well the offset of a recording can be known at all: the Cramér–Rao bound for what R6.10 leaves
-//! of it.
+//! The best possible accuracy of the offset of a recording: the Cramér–Rao bound for the samples that R6.10
+//! leaves.
 
 use super::plant::Bench;
 
-/// Where the 95th of a hundred errors of a normal distribution lies, in standard deviations.
+/// The 95th percentile of the errors of a normal distribution, in standard deviations.
 const OF_95_PERCENT: f64 = 1.96;
 
 /// The period of the ripple in mm.
 const PERIOD: f64 = 10.0;
 
-/// A sample as a row of the regression: the parameters that it depends on, and how.
+/// A sample as a row of the regression: the parameters that it depends on, with their weights.
 type Row = Vec<(usize, f64)>;
 
 impl Bench {
@@ -45,7 +45,7 @@ impl Bench {
                     (offset + 1, sine),
                     (offset + 2, cosine),
                 ];
-                // What a sample says beyond the one before it.
+                // What a sample adds to the one before it.
                 let fresh: Row = match &before {
                     None => row.clone(),
                     Some(before) => row

@@ -1,4 +1,4 @@
-//! Friction that is found on circles, and lists that are verified on them.
+//! Friction identified on circles, and lists verified on them.
 
 use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};
 use frictcomp::text::SourceFile;

@@ -1,8 +1,8 @@
 //! Recordings of a closed-loop feed drive, made without the crate: position loop, speed loop, current
-//! loop, mass, a bristle with Stribeck friction, weight, asymmetry, ripple along the way; then noise
-//! and the steps of the drive.
+//! loop, mass, a bristle with Stribeck friction, weight, asymmetry, ripple along the travel; then noise
+//! and the resolution of the drive.
 
-/// What is recorded.
+/// The recorded drive.
 #[derive(Debug, Clone)]
 pub(crate) struct Bench {
     pub(crate) seed: u64,
@@ -11,7 +11,7 @@ pub(crate) struct Bench {
     /// Time constant of the noise in s, 0 for white noise.
     pub(crate) colour_s: f64,
     pub(crate) ripple_n: f64,
-    /// By which part friction changes over the recording.
+    /// The part by which friction changes over the recording.
     pub(crate) drift: f64,
     /// Noise of the recorded velocity in mm/s; with any, the actual velocity is recorded.
     pub(crate) velocity_noise: Option<f64>,
@@ -31,7 +31,7 @@ pub(crate) const VS: f64 = 3.0;
 pub(crate) const FV: f64 = 4.0;
 pub(crate) const WEIGHT: f64 = 150.0;
 pub(crate) const ASYMMETRY: f64 = 25.0;
-/// N of a drive unit.
+/// N per drive unit.
 pub(crate) const UNIT: f64 = 5.0;
 
 impl Default for Bench {
@@ -99,7 +99,7 @@ impl Bench {
         }
     }
 
-    /// The commanded velocities in mm/s, one a millisecond.
+    /// The commanded velocities in mm/s, one per millisecond.
     pub(crate) fn commanded(&self) -> Vec<f64> {
         const ACCELERATION: f64 = 1000.0;
         const PAUSE: usize = 100;
@@ -139,7 +139,7 @@ impl Bench {
         self.record_with(commanded, &[])
     }
 
-    /// The same with a current in drive units that the control adds at each velocity.
+    /// A recording with a current in drive units that the control adds at each velocity.
     pub(crate) fn record_with(&self, commanded: &[f64], added: &[f64]) -> Recorded {
         const STEP: f64 = 62.5e-6;
         const MASS: f64 = 1300.0;

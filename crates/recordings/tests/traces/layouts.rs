@@ -19,7 +19,7 @@ pub(crate) struct Task {
     pub(crate) signals: Vec<Signal>,
 }
 
-/// How much stands above the numbers.
+/// The lines above the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Header {
     Full,
@@ -33,7 +33,7 @@ pub(crate) enum Header {
     None,
 }
 
-/// How times are written.
+/// The form of the times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Times {
     Milliseconds,
@@ -42,27 +42,27 @@ pub(crate) enum Times {
     None,
 }
 
-/// What fills the rows of a channel that is sampled less often.
+/// The contents of the rows of a channel that is sampled less often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Filled {
-    /// Its samples stand at the top, the rows below are blank.
+    /// Its samples are at the top, the rows below are blank.
     Blank,
-    /// Its samples stand at the top, the rows below are short.
+    /// Its samples are at the top, the rows below are short.
     Short,
     /// Each sample is repeated until the next one.
     Repeated,
-    /// Each sample stands at its time, with blanks in between.
+    /// Each sample is at its time, with blanks in between.
     Shifted,
 }
 
-/// How comments of several lines are written.
+/// The form of comments of several lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Comments {
     Quoted,
     Bare,
 }
 
-/// How bytes are written.
+/// The encoding of the bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Letters {
     Utf8,
@@ -72,7 +72,7 @@ pub(crate) enum Letters {
     Big,
 }
 
-/// What stands in a row of attributes for a channel.
+/// The cell of a channel in a row of attributes.
 type Cell<'a> = &'a dyn Fn(&Task, &Signal) -> String;
 
 /// An export of Scope.

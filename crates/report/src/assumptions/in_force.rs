@@ -2,7 +2,7 @@
 
 use frictcomp::timeline::{ReadingInForce, ReadingsInForce};
 
-/// Returns the remark; `None` where nothing rests on a reading.
+/// Returns the remark; `None` if nothing rests on a reading.
 pub fn rests_on_text(readings: &ReadingsInForce) -> Option<String> {
     let named: Vec<String> = readings.iter().map(named).collect();
     if named.is_empty() {

@@ -5,7 +5,7 @@ use frictcomp_physics::simulation::DriveParameters;
 use super::table::differences;
 
 /// Returns what the simulation of these drives leaves out, the rows `simulation` of the table of differences.
-/// Backlash is among it where no drive has any.
+/// This includes backlash if no drive has any.
 pub fn not_modelled<'a>(
     drives: impl IntoIterator<Item = &'a DriveParameters>,
 ) -> Vec<&'static str> {
@@ -16,7 +16,7 @@ pub fn not_modelled<'a>(
         .collect()
 }
 
-/// The line that names it.
+/// Returns the line that names it.
 pub(crate) fn not_modelled_line(what: &[&str]) -> String {
     format!("not modelled: {}", what.join(", "))
 }

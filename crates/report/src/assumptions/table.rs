@@ -56,8 +56,8 @@ pub enum When {
     Reported(Code),
 }
 
-/// A difference between frictcomp and the control that is known and no assumption. The texts name
-/// codes and words of programs in backquotes.
+/// A known difference between frictcomp and the control that is not an assumption. The texts name codes
+/// and words of programs in backquotes.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -66,7 +66,7 @@ pub struct Difference {
     pub kind: String,
     /// Subject.
     pub what: String,
-    /// Behaviour of the control, as far as it is known; of the machine in a row `simulation`.
+    /// Known behaviour of the control; of the machine in a row `simulation`.
     pub control: String,
     /// Behaviour of frictcomp.
     pub frictcomp: String,
@@ -100,7 +100,7 @@ pub fn chapters() -> &'static [Chapter] {
     &READ
 }
 
-/// Returns every difference that is known and no assumption.
+/// Returns every known difference that is not an assumption.
 pub fn differences() -> &'static [Difference] {
     #[derive(Deserialize)]
     struct File {
@@ -113,7 +113,7 @@ pub fn differences() -> &'static [Difference] {
     &READ
 }
 
-/// Reason why a table can be read.
+/// Reason why reading a table cannot fail.
 const TESTED: &str = "the tables are part of the program, and the tests read them";
 
 impl TryFrom<String> for When {

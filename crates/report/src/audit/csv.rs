@@ -1,4 +1,4 @@
-//! An audit as a table: one row a program, axis and kind.
+//! An audit as a table: one row per program, axis and kind.
 
 use super::subject::AuditReport;
 use crate::csv::field;
@@ -6,7 +6,7 @@ use frictcomp::audit::Site;
 
 const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion,inherits_if\n";
 
-/// One row a program, axis and kind, quoted as RFC 4180 says.
+/// One row per program, axis and kind, quoted according to RFC 4180.
 pub fn render_csv(report: &AuditReport) -> String {
     let mut out = HEADER.as_bytes().to_vec();
     for machine in &report.machines {

@@ -10,7 +10,7 @@ use crate::visible::visible_line;
 use frictcomp::audit::{Step, StepAxis};
 use frictcomp::timeline::SCHEMA;
 
-/// The programs of the order, a line each, and the readings on which their states rest.
+/// The programs of the order, one line each, and the readings on which their states rest.
 pub fn sequence_text(steps: &[Step]) -> String {
     let lines = steps.iter().map(step_line);
     let rests_on = steps.last().and_then(|last| rests_on_text(&last.rests_on));
@@ -84,7 +84,7 @@ fn place(step: &Step, file: &str, line: u32) -> String {
     }
 }
 
-/// The steps as records; `schema` stands in the first.
+/// The steps as records; the first one has `schema`.
 pub fn sequence_records(steps: &[Step]) -> Vec<Value> {
     let records = steps.iter().enumerate().map(|(at, step)| {
         let mut record = json!(step);

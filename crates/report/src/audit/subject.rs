@@ -16,7 +16,7 @@ pub struct AuditReport {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct MachineAudit {
-    /// The configuration or start-up list of the machine, where there is one.
+    /// The configuration or start-up list of the machine, if there is one.
     pub origin: Option<String>,
     /// The programs.
     pub archive: Archive,
@@ -64,17 +64,17 @@ impl AuditReport {
         hazards.fold(0, u64::saturating_add)
     }
 
-    /// Whether it is not known of some program what it does to some axis.
+    /// Whether the effect of some program on some axis is not known.
     pub(crate) fn has_unknown(&self) -> bool {
         self.findings().any(|finding| !finding.unknown.is_empty())
     }
 
-    /// Whether something needs mending, or is not known.
+    /// Whether something has to be corrected, or is not known.
     pub fn has_warnings(&self) -> bool {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }
 
-    /// The axes and kinds of which it is not known what a program makes of them, or on some ways only.
+    /// The axes and kinds for which the effect of a program is not known, or only on some ways.
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let programs = self.machines.iter().flat_map(|it| it.archive.programs());
         let axes = programs.flat_map(|program| &program.axes);
@@ -89,7 +89,7 @@ impl AuditReport {
         programs.sum()
     }
 
-    /// The machine's name where there are several.
+    /// The machine's name if there are several machines.
     pub(super) fn origin_among_several<'a>(&self, machine: &'a MachineAudit) -> Option<&'a str> {
         let several = self.machines.len() > 1;
         several.then(|| machine.origin.as_deref().unwrap_or("no configuration"))
@@ -121,7 +121,7 @@ frictcomp::words! {
 }
 
 impl Word {
-    /// The word for what a program does to an axis.
+    /// Returns the word for the effect of a program on an axis.
     pub fn of(axis: &AxisAudit) -> Self {
         match axis.effect {
             _ if axis.leaves_away() && axis.is_inheritor() => Self::Both,
@@ -158,7 +158,7 @@ impl Word {
     }
 }
 
-/// An axis, and its kind where that is another than friction compensation.
+/// An axis, with its kind if that is not friction compensation.
 pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
     if kind == Kind::Frict {
         axis.to_owned()
@@ -167,7 +167,7 @@ pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
     }
 }
 
-/// Whether a column of a table says anything: a kind that no program switches is left out.
+/// Whether a column of a table has any content: a kind that no program switches is left out.
 pub(crate) fn is_shown(machine: &MachineAudit, finding: &AxisFinding) -> bool {
     let programs = machine.archive.programs();
     finding.kind == Kind::Frict

@@ -1,4 +1,4 @@
-//! An audit for people: a table of programs and axes, what was found of each axis, the cure.
+//! An audit for people: a table of programs and axes, the findings of each axis, the cure.
 
 use std::fmt::Write as _;
 
@@ -61,7 +61,7 @@ fn total(report: &AuditReport) -> String {
     let what = match hazards {
         0 if report.possible_hazards() > 0 => {
             let pairs = counted(report.possible_hazards(), "possible hazard");
-            format!("no certain hazard, but {pairs}: a program that leaves an axis away from its start-up state, and one that may move it so")
+            format!("no certain hazard, but {pairs}: a program that leaves an axis away from its start-up state, and one that may move it in that state")
         }
         0 if report.has_unknown() => {
             "no certain hazard, but programs of which it is not known what they leave or inherit".to_owned()
@@ -82,7 +82,7 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// A count that follows another one, where it is not zero.
+/// A count that follows another one, if it is not zero.
 fn more(count: u64, noun: &str) -> String {
     match count {
         0 => String::new(),

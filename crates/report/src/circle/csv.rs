@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::subject::{CircleReport, round};
 use frictcomp_physics::circle::UM_PER_M;
 
-/// Rows of the CSV a turn: one every 0.1°.
+/// Rows of the CSV per turn: one every 0.1°.
 const ROWS: usize = 3600;
 
 /// The radial deviations: a row every 0.1° for each path.

@@ -1,4 +1,4 @@
-//! The circular test for machines.
+//! The circular test as JSON.
 
 use serde::Serialize;
 
@@ -130,7 +130,7 @@ struct AxisRecord {
     is_settled: bool,
 }
 
-/// The amplitude of what is left without steps and peaks.
+/// The amplitude of the residual without steps and peaks.
 #[derive(Serialize)]
 struct Ellipse {
     along_axes: f64,
@@ -218,7 +218,7 @@ fn stiction(test: &CircularTest) -> ByAxis<Option<StictionParameters>> {
     ByAxis { x: of(x), y: of(y) }
 }
 
-/// The report for machines, all lengths in µm unless the key says otherwise.
+/// The report as JSON, all lengths in µm unless the key says otherwise.
 pub fn render_json(report: &CircleReport) -> String {
     let side = |name: &str| {
         let side = report.sides.iter().find(|side| side.name == name);

@@ -8,7 +8,7 @@ use frictcomp_physics::circle::{
 };
 use frictcomp_physics::current::Switched;
 
-/// Treatment of the radial deviations, shown beside the figures (R5.21).
+/// Treatment of the radial deviations, shown with the figures (R5.21).
 pub(super) const TREATMENT: &str = "every point of the path for G, F and the glitch; H at 36000 fixed angles, \
                          linear between points; no filter, no mean";
 
@@ -41,7 +41,7 @@ impl ListOrigin {
 pub struct CircleReport {
     /// Driven circle.
     pub subject: Subject,
-    /// The paths without and with compensation, or what was recorded.
+    /// The paths without and with compensation, or the recorded ones.
     pub sides: Vec<NamedSide>,
 }
 
@@ -62,7 +62,7 @@ pub enum Subject {
     Recorded(Box<Recording>),
 }
 
-/// Paths under a name, with what they suggest.
+/// Paths under a name, with the causes that they suggest.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct NamedSide {
@@ -108,7 +108,7 @@ impl CircleReport {
 }
 
 impl CircleReport {
-    /// The radius in mm, and the feed in mm/min where it is known.
+    /// The radius in mm, and the feed in mm/min if it is known.
     pub(super) fn driven(&self) -> (f64, Option<f64>) {
         match &self.subject {
             Subject::Simulated { test, .. } => {
@@ -127,8 +127,8 @@ impl CircleReport {
         }
     }
 
-    /// Returns the change that would give figures at the crossings, where the circle is too fast
-    /// for them (R5.22).
+    /// Returns the change that would give figures at the crossings, if the circle is too fast for them
+    /// (R5.22).
     pub(super) fn too_fast(&self) -> Option<TooFast> {
         let mut paths = self.sides.iter().flat_map(|side| {
             let figures = &side.side.figures;
@@ -156,7 +156,7 @@ pub(super) struct TooFast {
     pub(super) radius_mm: Option<f64>,
 }
 
-/// A number of µm as it is written for machines.
+/// Rounds a number of µm for JSON and CSV.
 pub(super) fn round(value: f64) -> f64 {
     // No negative zero.
     (value * 1e6).round() / 1e6 + 0.0

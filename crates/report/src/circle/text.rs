@@ -59,7 +59,7 @@ pub(crate) struct FigureTable {
 /// One figure of all paths.
 pub(crate) struct FigureRow {
     pub(crate) name: String,
-    /// One a path; a figure of both directions stands in the first column of its side.
+    /// One per path; a figure of both directions is in the first column of its side.
     pub(crate) values: Vec<Option<f64>>,
 }
 
@@ -103,7 +103,7 @@ fn columns(report: &CircleReport) -> Vec<PathColumn<'_>> {
     found.collect()
 }
 
-/// The conditions of the test, a line each (R5.21).
+/// The conditions of the test, one line each (R5.21).
 pub(crate) fn conditions(report: &CircleReport) -> Vec<String> {
     let mut lines = match &report.subject {
         Subject::Simulated {
@@ -118,7 +118,7 @@ pub(crate) fn conditions(report: &CircleReport) -> Vec<String> {
     lines
 }
 
-/// About which centre both paths are compared (R5.21).
+/// The centre about which both paths are compared (R5.21).
 fn bidirectional_condition(report: &CircleReport) -> Option<String> {
     let figures = report.sides.iter().map(|side| &side.side.figures);
     let distances: Vec<String> = figures
@@ -157,7 +157,7 @@ fn window_condition(report: &CircleReport) -> Option<String> {
     ))
 }
 
-/// Why there are no glitches, and what would give some (R5.22).
+/// Why the report has no glitches, and what would give some (R5.22).
 pub(crate) fn no_glitches(report: &CircleReport) -> Option<String> {
     let limit = report.too_fast()?;
     let radius = limit.radius_mm.map_or(String::new(), |radius| {
@@ -207,7 +207,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
     lines
 }
 
-/// The value lists, which differ between the axes or do not.
+/// The value lists, which may differ between the axes.
 fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
     let lists = test.compensation.each_ref();
     let [Some(x), Some(y)] = lists.map(|it| it.as_ref().and_then(Method::list)) else {
@@ -232,7 +232,7 @@ fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
     lines
 }
 
-/// Stiction compensation of the axes, where it does not act, and which guidelines it does not keep
+/// Stiction compensation of the axes: where it does not act, and which guidelines it does not keep
 /// (R8.2, R8.3).
 fn stiction_conditions(test: &CircularTest) -> Vec<String> {
     let mut lines = vec!["stiction compensation, as the plant file says".to_owned()];
@@ -491,7 +491,7 @@ fn grounds(grounds: &DiagnosisGrounds) -> String {
     format!(" ({})", said.join(", "))
 }
 
-/// The same where the compensation is that of stiction.
+/// Returns the meaning of a finding if the compensation is that of stiction.
 fn words_of_stiction(finding: Finding) -> &'static str {
     match finding {
         Finding::TooWeak => "a peak outwards remains: raise MP1511, or MP1512 where it limits",

@@ -1,4 +1,4 @@
-//! Commissioning: the measuring programs and what an operator has to know about them.
+//! Commissioning: the measuring programs and the instructions for the operator.
 
 mod plants;
 mod program;

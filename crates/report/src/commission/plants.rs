@@ -17,7 +17,7 @@ use crate::visible::visible_line;
 pub struct Plants {
     /// A plant for each round whose circles are recorded.
     pub verdicts: Vec<PlantVerdict>,
-    /// Reasons for which none is fitted to all that is recorded.
+    /// Reasons why none is fitted to all recordings.
     pub lacking: Vec<String>,
 }
 
@@ -28,7 +28,7 @@ pub struct PlantVerdict {
     /// The plant.
     #[serde(flatten)]
     pub found: PlantFound,
-    /// Recorded glitches beside what was predicted for them.
+    /// Recorded glitches with their predictions.
     pub compared: Vec<ComparedGlitch>,
     /// Recorded glitches that it misses: it is rejected.
     pub rejected: Vec<String>,
@@ -40,14 +40,14 @@ pub struct PlantVerdict {
 pub(crate) struct FittedParameter {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
-    /// The value; "at least" where only its lower end is known.
+    /// The value; "at least" if only its lower end is known.
     pub(crate) value: String,
     /// The 95 % range.
     pub(crate) range: String,
 }
 
 impl Plants {
-    /// No plant was asked for.
+    /// Creates the result if no plant was requested.
     pub fn not_wanted() -> Self {
         let reason = "`--plant` does not say what is known of the machine";
         Self {
@@ -116,7 +116,7 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 5] {
         scaled("contact stiffness", "N/µm", axis.contact, 1.0 / UM_PER_M, 0),
         scaled("Kp", "kN·s/m", axis.speed_gain, 1.0 / MS_PER_S, 1),
         scaled("Fc", "N", axis.coulomb, 1.0, 0),
-        // The delay is a range, however well it is known.
+        // The delay is a range, however precisely it is known.
         FittedParameter {
             value: delay.range.clone(),
             ..delay
@@ -197,13 +197,13 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
     push_glitches(out, found);
 }
 
-/// What was off, or the beginning of the SHA-256 of the list that was on, as the names of files have it.
+/// What was off, or the beginning of the SHA-256 of the list that was on, as in the file names.
 pub(crate) fn list_on(compared: &ComparedGlitch) -> &str {
     let list = compared.recorded.list.as_deref();
     list.map_or("off", |sum| sum.get(..8).unwrap_or(sum))
 }
 
-/// The recorded glitches beside the predicted ones.
+/// Appends the recorded glitches with their predictions.
 fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
     if compared.is_empty() {
         return;
@@ -221,11 +221,11 @@ fn push_compared(out: &mut String, compared: &[ComparedGlitch]) {
     }
     let _ = write!(
         out,
-        "recorded beside predicted glitch in µm, each a mean over 8 ms\n{table}"
+        "recorded and predicted glitch in µm, each a mean over 8 ms\n{table}"
     );
 }
 
-/// The predicted glitch of each axis at each feed, off and with the tuned lists.
+/// Appends the predicted glitch of each axis at each feed, off and with the tuned lists.
 fn push_glitches(out: &mut String, found: &PlantFound) {
     for axis in &found.axes {
         let name = &axis.axis;

@@ -74,7 +74,7 @@ fn plane_of(axes: &[MeasuredAxis]) -> u8 {
     }
 }
 
-/// Numbered blocks, one a line.
+/// Numbered blocks, one per line.
 #[derive(Default)]
 struct NumberedBlocks {
     text: String,

@@ -7,7 +7,7 @@ use super::words::told;
 use frictcomp::machine::AxisType;
 use frictcomp_recordings::commission::{Installed, Stage};
 
-/// One page in ASCII letters, at most 78 columns wide, with the programs and how they are run and recorded.
+/// One page in ASCII letters, at most 78 columns wide: the programs, and how to run and record them.
 pub fn render_readme(report: &PlanReport) -> String {
     let plan = &report.plan;
     let mut out = String::new();
@@ -107,8 +107,8 @@ RECORD, for each axis that moves, one sample every ms (the CNC cycle)
   Start the recording before the program, stop it after M30.
   TwinCAT Scope: export CSV, header as full as possible, timelines for each
   sample time, no scaling of values.
-  Note beside it: actual position of the MOTOR or of the LOAD (linear scale)?
+  Note as well: actual position of the MOTOR or of the LOAD (linear scale)?
   Backlash and the contact of the slide show at the load only.
 
-THEN put the exported files into the folder `recordings` beside this page.
+THEN put the exported files into the folder `recordings` next to this page.
 ";

@@ -18,7 +18,7 @@ use frictcomp_recordings::commission::{
 /// The content of `results.json`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Results {
-    /// The form of this file.
+    /// The version of the format of this file.
     pub schema: u32,
     /// A result for each recording.
     pub recordings: Vec<RecordingResult>,
@@ -27,11 +27,11 @@ pub struct Results {
 }
 
 impl Results {
-    /// The form that is written.
+    /// The version that is written.
     pub const SCHEMA: u32 = 2;
 }
 
-/// The list of an axis, or the reasons for which there is none.
+/// The list of an axis, or the reasons why it has none.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AxisVerdict {
@@ -41,11 +41,11 @@ pub struct AxisVerdict {
     pub list: Option<String>,
     /// The recording that it rests on.
     pub from: Option<String>,
-    /// Reasons against a list, and what there is to say about it.
+    /// Reasons against a list, and remarks on it.
     pub notes: Vec<String>,
 }
 
-/// A file besides the recordings that the results rest on.
+/// A file on which the results rest, other than a recording.
 #[derive(Debug, Clone, Serialize)]
 pub struct InputFile {
     /// Its role: a plan, a plant, the list of an axis.
@@ -59,13 +59,13 @@ pub struct InputFile {
 /// All that is known of a commissioning.
 #[derive(Debug, Clone)]
 pub struct ResultsReport {
-    /// The plans of both stages, as far as they are there.
+    /// The plans of both stages, if they exist.
     pub plans: Vec<PlanFile>,
     /// A result for each recording.
     pub results: Vec<RecordingResult>,
     /// The number of results that were kept from an earlier run.
     pub kept: usize,
-    /// The files that were read besides the recordings.
+    /// The files that were read in addition to the recordings.
     pub inputs: Vec<InputFile>,
     /// Statements of the user on which the results rest.
     pub said: Vec<String>,
@@ -90,7 +90,7 @@ pub struct Round {
     pub unit: &'static str,
     /// The feeds with compensation off and with these lists on.
     pub recorded: Vec<BeforeAfter>,
-    /// Reasons for which the lists are not accepted; `None` before a feed is recorded off and on.
+    /// Reasons why the lists are not accepted; `None` before a feed is recorded off and on.
     pub against: Option<Vec<String>>,
 }
 
@@ -106,7 +106,7 @@ pub enum Shows {
 }
 
 impl Shows {
-    /// What the programs of a plan show.
+    /// Returns what the programs of a plan show.
     pub fn of(plan: &Plan) -> Self {
         match plan.axes.len() {
             1 => Self::FollowingError,
@@ -114,7 +114,7 @@ impl Shows {
         }
     }
 
-    /// What an acceptance does not say.
+    /// Returns what an acceptance does not cover.
     pub(crate) fn limit(self) -> &'static str {
         match self {
             Self::Contour => "",
@@ -122,7 +122,7 @@ impl Shows {
         }
     }
 
-    /// The figure that is compared.
+    /// Returns the figure that is compared.
     pub(crate) fn figure(self) -> &'static str {
         match self {
             Self::Contour => "glitch, the largest of both directions",
@@ -140,14 +140,14 @@ pub fn glitch_unit(plan: &Plan) -> &'static str {
 }
 
 impl Round {
-    /// Whether there is no reason against the lists.
+    /// Whether there are no reasons against the lists.
     pub fn is_accepted(&self) -> bool {
         self.against.as_ref().is_some_and(Vec::is_empty)
     }
 }
 
 impl ResultsReport {
-    /// The programs of stage 1 and of the last round without a recording that is used.
+    /// The programs of stage 1 and of the last round that have no usable recording.
     pub fn missing(&self) -> Vec<String> {
         let last = self.plans.len().saturating_sub(1);
         let plans = self.plans.iter().enumerate();
@@ -163,7 +163,7 @@ impl ResultsReport {
         missing.map(|it| it.file.clone()).collect()
     }
 
-    /// What the program with a number has on: nothing, or the lists of a round.
+    /// Returns what is on in the program with a number: nothing, or the lists of a round.
     pub fn compensation_of(&self, number: u16) -> String {
         let has = |plan: &&PlanFile| plan.plan.programs.iter().any(|it| it.number == number);
         let rounds = self.plans.iter().filter(|it| it.plan.stage == Stage::On);
@@ -180,7 +180,7 @@ impl ResultsReport {
             && self.rounds.last().is_some_and(Round::is_accepted)
     }
 
-    /// The friction that the list of an axis is made of.
+    /// The friction from which the list of an axis is made.
     pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
         let from = axis.from.as_ref()?;
         self.results.iter().find_map(|it| match &it.found {
@@ -340,7 +340,7 @@ struct ResultsDocument<'a> {
     rounds: &'a [Round],
 }
 
-/// The same for machines.
+/// The results as JSON.
 pub fn render_results_json(report: &ResultsReport) -> String {
     to_pretty(&ResultsDocument {
         schema: Results::SCHEMA,

@@ -10,7 +10,7 @@ use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp_recordings::commission::{MeasuringProgram, Plan, Stage};
 
-/// A plan with what it rests on.
+/// A plan with its basis.
 #[derive(Debug, Clone)]
 pub struct PlanReport {
     /// The programs.
@@ -38,7 +38,7 @@ pub struct ValueListUsed {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct PlanFile {
-    /// The form of this file.
+    /// The version of the format of this file.
     pub schema: u32,
     /// The programs without their motions.
     pub plan: Plan,
@@ -47,7 +47,7 @@ pub struct PlanFile {
 }
 
 impl PlanFile {
-    /// The form that is written.
+    /// The version that is written.
     pub const SCHEMA: u32 = 1;
 }
 
@@ -60,7 +60,7 @@ pub fn render_json(report: &PlanReport) -> String {
     })
 }
 
-/// The programs with their times, and what they rest on.
+/// The programs with their times, and their basis.
 pub fn render_text(report: &PlanReport) -> String {
     let plan = &report.plan;
     let mut out = String::new();
@@ -131,7 +131,7 @@ pub fn render_text(report: &PlanReport) -> String {
     out
 }
 
-/// A time as an operator reads it.
+/// A time in a form for the operator.
 pub(super) fn minutes(seconds: f64) -> String {
     let whole = (seconds / 60.0).floor();
     format!("{whole:.0}:{:02.0} min", (seconds - whole * 60.0).floor())

@@ -30,7 +30,7 @@ pub(super) fn told(program: &MeasuringProgram, axes: &[MeasuredAxis]) -> String 
     }
 }
 
-/// A number of a program, to a tenth of a µm.
+/// A number in a program, to a tenth of a µm.
 pub(super) fn number(value: f64) -> String {
     let text = Rounded(value, 4).to_string();
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -13,7 +13,7 @@ use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourCompariso
 /// Blocks that the text lists.
 const LISTED: usize = 25;
 
-/// A comparison of contours, and how the path was driven.
+/// A comparison of contours, and the conditions of the motion.
 #[derive(Debug)]
 pub struct ContoursReport {
     /// The axes of the plane.

@@ -10,7 +10,7 @@ use crate::strings::to_pretty;
 use crate::visible::visible_line;
 use frictcomp_physics::compare::{Agreement, Obstacle, Reason, Switch, VersionComparison, Which};
 
-/// A comparison, and of what.
+/// A comparison, and its subjects.
 #[derive(Debug)]
 pub struct VersionsReport {
     /// The old version, as the user named it.
@@ -21,7 +21,7 @@ pub struct VersionsReport {
     pub remark: Option<String>,
     /// The result.
     pub comparison: VersionComparison,
-    /// The contours, where they are compared.
+    /// The contours, if they are compared.
     pub contours: Option<ContoursReport>,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn sign(which: Which) -> char {
 /// Columns of a line number.
 const LINE: usize = 6;
 
-/// The blocks that switch in one version only, with what keeps the versions from being compared.
+/// The blocks that switch in one version only, with the reasons why the versions cannot be compared.
 pub fn render_text(report: &VersionsReport) -> String {
     let mut out = String::new();
     if let Some(remark) = &report.remark {
@@ -159,7 +159,7 @@ impl<'a> Hindrance<'a> {
     }
 }
 
-/// The same as a JSON document.
+/// The comparison as a JSON document.
 pub fn render_json(report: &VersionsReport) -> String {
     let comparison = &report.comparison;
     let document = ComparisonDocument {

@@ -1,4 +1,4 @@
-//! The lines of a contour that is agreed on: words, and figures in µm between them.
+//! The lines of an agreed contour: words, and figures in µm between them.
 
 use std::fmt::{self, Write as _};
 use std::ops::Range;
@@ -8,7 +8,7 @@ use similar::{Algorithm, DiffOp, capture_diff_slices};
 /// Text after a figure.
 const UNIT: &str = " µm";
 
-/// A contour as it is agreed on. Its [`Display`](fmt::Display) is the text of the file (R9.84).
+/// An agreed contour. Its [`Display`](fmt::Display) is the text of the file (R9.84).
 #[derive(Debug, Clone, Default)]
 pub struct AgreedContour(Vec<AgreedLine>);
 
@@ -31,13 +31,13 @@ impl AgreedContour {
         self.0.push(line);
     }
 
-    /// Appends a line of words, whose figures are those that stand in the words.
+    /// Appends a line of words, with the figures that the words contain.
     pub(super) fn say(&mut self, words: &str) {
         self.push(AgreedLine::read(words));
     }
 
-    /// The text of today where the text `before` was agreed on: a line with the same words, none of
-    /// whose figures changed by more than the tolerance, stays as it was agreed on.
+    /// Returns the current text if the text `before` was agreed on: a line with the same words, none of
+    /// whose figures changed by more than the tolerance, stays as agreed.
     pub fn keeping(&self, before: &str, tolerance_um: f64) -> String {
         let now = self.to_string();
         if tolerance_um <= 0.0 || before == now {
@@ -81,14 +81,13 @@ impl AgreedLine {
         let start = self.text.rfind(' ').map_or(0, |blank| blank + 1);
         self.figures.push(Figure {
             place: start..self.text.len(),
-            // What is compared is what a file can say.
+            // What is compared is what a file can hold.
             um: (um * 10.0).round_ties_even() / 10.0,
         });
         self.and(UNIT)
     }
 
-    /// A line that was written before. What follows the figure of a block is the text of the block,
-    /// and has no figures.
+    /// Reads a line that was written before. The text of a block follows its figure and has no figures.
     fn read(text: &str) -> Self {
         let ends = text.match_indices(UNIT).map(|(end, _)| end);
         let figures = ends.filter_map(|end| {
@@ -111,7 +110,7 @@ impl AgreedLine {
         }
     }
 
-    /// The line without its figures, and without the blanks that line them up.
+    /// The line without its figures, and without the blanks that align them.
     fn words(&self) -> String {
         let mut words = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -124,7 +123,7 @@ impl AgreedLine {
         words.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether no figure differs by more than the tolerance, in tenths as they are written.
+    /// Whether no figure differs by more than the tolerance, in tenths as written.
     fn is_near(&self, other: &Self, tolerance_um: f64) -> bool {
         let mut pairs = self.figures.iter().zip(&other.figures);
         pairs.all(|(one, other)| (one.um - other.um).abs() <= tolerance_um + 1e-9)
@@ -156,7 +155,7 @@ mod tests {
         let now = |largest, blocks: &[_]| contour(largest, blocks).keeping(&agreed, 0.5);
         let near = [(1.4, blocks[0].1), blocks[1]];
         assert_eq!(now(10.2, &near), agreed);
-        // What a block says is no figure; the other lines stay as they were agreed on.
+        // The text of a block is not a figure; the other lines stay as they were agreed on.
         for text in ["N10 X10.7 (gap 2.0 µm)", "N10 X10.5 (gap 2.2 µm)"] {
             assert_eq!(
                 now(10.2, &[(1.4, text), (2.5, "N20 X1")]),

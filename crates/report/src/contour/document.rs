@@ -24,7 +24,7 @@ fn figures(deviations: &Deviations) -> Value {
     })
 }
 
-/// The counts of an axis, what drives it, and what its list is to that.
+/// The counts of an axis, its drive, and the relation of its list to that.
 fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
     let glitch = |of: fn(&ContourReversal) -> f64| {
         let dearest = counted.dearest.as_ref();
@@ -96,7 +96,7 @@ fn limits_record(axis: &AssumedLimits) -> Value {
     })
 }
 
-/// The figures of the three runs, the counts of each axis, and what they add up to.
+/// The figures of the three runs, the counts of each axis, and their totals.
 pub fn summary_record(
     contour: &ProgramContour<ContourRecorder<'_>>,
     limits: &ContourLimits,

@@ -1,5 +1,5 @@
-//! A contour as it is agreed on: figures with one decimal, and no line numbers, so that a change
-//! shows where it is and nowhere else.
+//! A contour to agree on: figures with one decimal, and no line numbers, so that a change shows only
+//! where it is.
 
 use super::agreed::{AgreedContour, AgreedLine};
 use crate::visible::visible_line;

@@ -27,7 +27,7 @@ enum ReversalSink<'a> {
     Csv(&'a mut (dyn Write + Send)),
 }
 
-/// Takes a contour and keeps or writes what is asked for.
+/// Takes a contour and keeps or writes the requested parts.
 pub struct ContourRecorder<'a> {
     names: Vec<String>,
     reversals: ReversalSink<'a>,
@@ -56,7 +56,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// The same, which keeps all reversals, and the largest deviation of each block.
+    /// Keeps all reversals, and the largest deviation of each block.
     pub fn keeping_all(self) -> Self {
         Self {
             reversals: ReversalSink::Kept,
@@ -64,7 +64,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// The same, which writes each reversal as a line of JSON.
+    /// Writes each reversal as a line of JSON.
     pub fn writing_ndjson(self, writer: &'a mut (dyn Write + Send)) -> Self {
         Self {
             reversals: ReversalSink::Ndjson(writer),
@@ -72,7 +72,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// The same, which writes each reversal as a row, below a header.
+    /// Writes each reversal as a row, below a header.
     pub fn writing_csv(mut self, writer: &'a mut (dyn Write + Send)) -> Self {
         self.error = writer.write_all(CSV_HEADER.as_bytes()).err();
         Self {
@@ -81,7 +81,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// The same, which draws.
+    /// Draws the contour.
     pub fn drawing(self, picture: ContourPicture) -> Self {
         Self {
             picture: Some(picture),
@@ -89,7 +89,7 @@ impl<'a> ContourRecorder<'a> {
         }
     }
 
-    /// All reversals, where they are kept.
+    /// All reversals, if they are kept.
     pub fn reversals(&self) -> &[ContourReversal] {
         &self.all
     }
@@ -99,13 +99,13 @@ impl<'a> ContourRecorder<'a> {
         &self.worst
     }
 
-    /// Returns the first switches of compensation while the axis moves on, and the number of
+    /// Returns the first switches of compensation during a motion of the axis, and the number of
     /// further ones.
     pub fn switches(&self) -> (&[ContourReversal], u64) {
         (&self.switches, self.more_switches)
     }
 
-    /// The largest deviation of each block in µm, by file and line, where all is kept.
+    /// The largest deviation of each block in µm, by file and line, if everything is kept.
     pub fn blocks(&self) -> &BTreeMap<(Arc<str>, u32), f64> {
         &self.blocks
     }
@@ -115,7 +115,7 @@ impl<'a> ContourRecorder<'a> {
         self.picture.take()
     }
 
-    /// Why nothing more could be written.
+    /// Returns the error that ended the writing.
     pub fn take_error(&mut self) -> Option<io::Error> {
         self.error.take()
     }

@@ -10,8 +10,8 @@ use frictcomp_physics::contour::{
 };
 use frictcomp_physics::motion::{Departure, Transitions};
 
-/// The programmed feed and the reached one, the limits that are assumed, and lists that do not belong
-/// to the plant: a line each (R11.23, R11.25).
+/// The programmed feed and the reached one, the assumed limits, and lists that do not belong to the
+/// plant: one line each (R11.23, R11.25).
 pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
     let mut lines: Vec<String> = feed(contour).into_iter().collect();
     lines.extend(transitions(&contour.transitions()));
@@ -113,13 +113,13 @@ fn rounded(newtons: f64) -> f64 {
     (newtons * 1000.0).round() / 1000.0
 }
 
-/// Why a contour is not judged: a line each.
+/// Why a contour is not judged: one line each.
 pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = String> {
     let lines = obstacles.iter();
     lines.map(|obstacle| format!("not judged: {obstacle}"))
 }
 
-/// Returns the exceeded limits of a contour, a line each.
+/// Returns the exceeded limits of a contour, one line each.
 pub fn exceeded<S: ContourSink>(
     contour: &ProgramContour<S>,
     limits: &ContourLimits,

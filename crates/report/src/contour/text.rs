@@ -63,7 +63,7 @@ pub fn render_text(
         push_figures(&mut out, contour);
         push_due(&mut out, contour);
     } else {
-        out.push_str("no path was driven while cutting: there are no deviations to tell\n");
+        out.push_str("no path was driven while cutting: there are no deviations to report\n");
     }
     for line in contour_remarks(contour) {
         let _ = writeln!(out, "{line}");
@@ -102,7 +102,7 @@ pub fn render_text(
     out
 }
 
-/// The figures of the three runs, and where the extreme ones are.
+/// The figures of the three runs, and the places of the extreme ones.
 fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     let runs = contour.deviations();
     let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
@@ -163,7 +163,7 @@ fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     };
 }
 
-/// Writes the switches of compensation while the axis moves on (R1.57).
+/// Writes the switches of compensation during a motion of the axis (R1.57).
 fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) {
     for switch in switches {
         let way = if switch.state == State::Active {
@@ -196,7 +196,7 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
 /// A glitch in µm that a deviation in its plane would show.
 const NOTICEABLE_UM: f64 = 1.0;
 
-/// Says that an axis beside the plane deviates, too: in the plane that is not seen.
+/// Reports that an axis outside the plane deviates as well, in a plane that is not shown.
 fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
     let [first, second, further @ ..] = axes else {
         return;

@@ -1,4 +1,4 @@
-//! The report of an audit: findings, the matrix of programs and axes, and the lines that matter.
+//! The report of an audit: findings, the matrix of programs and axes, and the relevant lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -16,13 +16,13 @@ const FINDINGS: PagePart = PagePart::new("findings", "Findings");
 const MATRIX: PagePart = PagePart::new("programs", "Programs and axes");
 const LINES: PagePart = PagePart::new("lines", "Lines");
 
-/// Programs with a row of their own, the most dangerous ones first.
+/// Programs with a separate row, the most dangerous ones first.
 const ROWS: usize = 2000;
 
 /// Lines that are shown with their surroundings.
 const MARKS: usize = 4000;
 
-/// Lines around one that matters.
+/// Lines around a relevant one.
 const AROUND: u32 = 2;
 
 /// Writes the report of an audit as one page. The programs are read once more, line by line.
@@ -80,7 +80,7 @@ fn lead(report: &AuditReport) -> String {
     }
 }
 
-/// The lines that matter, by file.
+/// The relevant lines, by file.
 struct Marks {
     files: BTreeMap<String, (usize, BTreeSet<u32>)>,
     left_out: usize,
@@ -112,7 +112,7 @@ impl Marks {
         marks
     }
 
-    /// The identifier of a line, where it is shown.
+    /// The identifier of a line, if it is shown.
     fn id(&self, site: &Site) -> Option<String> {
         let (number, lines) = self.files.get(&*site.file)?;
         let is_shown = lines.contains(&site.line);
@@ -307,7 +307,7 @@ fn cell(file: &str, axis: &AxisAudit, marks: &Marks) -> Markup {
     cell_word(word, &content)
 }
 
-/// A word, told apart by more than colour.
+/// A word, distinguished by more than colour.
 fn cell_word(word: Word, content: &Markup) -> Markup {
     let class = match word {
         Word::Both | Word::Leaves | Word::Depends => "state away",
@@ -319,7 +319,7 @@ fn cell_word(word: Word, content: &Markup) -> Markup {
     html! { span class=(class) { (content) } }
 }
 
-/// The lines that matter, with what stands around them.
+/// The relevant lines, with their surroundings.
 fn lines(page: &mut Page<'_>, marks: &Marks, sources: &mut dyn Sources) -> io::Result<()> {
     for (file, (number, lines)) in &marks.files {
         page.push(&html! { h3 { (file) } "\n" })?;

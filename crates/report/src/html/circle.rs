@@ -84,7 +84,7 @@ fn curves(lists: &[AcceptedList]) -> Markup {
     }
 }
 
-/// The value lists of the axes, one where both have the same.
+/// The value lists of the axes, one if both have the same.
 fn lists(report: &CircleReport) -> Vec<AcceptedList> {
     let Subject::Simulated { test, .. } = &report.subject else {
         return Vec::new();

@@ -26,15 +26,15 @@ const AXES: [PagePart; 2] = [
 /// Contents of the report beyond the results.
 #[derive(Debug, Clone, Default)]
 pub struct Acceptance {
-    /// The machine, as it is called; `None` where it was not said.
+    /// The name of the machine; `None` if it was not stated.
     pub machine: Option<String>,
-    /// The date of the recordings; `None` where it was not said.
+    /// The date of the recordings; `None` if it was not stated.
     pub date: Option<String>,
     /// The axes with the changes from their earlier list to that of stage 2, in the form of a patch.
     pub changes: Vec<(String, String)>,
 }
 
-/// Writes the acceptance report as one page of a browser, on paper with each axis on a page of its own.
+/// Writes the acceptance report as one page of a browser; on paper each axis has a separate page.
 ///
 /// # Errors
 /// Those of `out`.
@@ -116,7 +116,7 @@ fn circles(report: &ResultsReport) -> Markup {
     }
 }
 
-/// The figures of ISO 230-4 of each circle that is used, in the order of the programs.
+/// The figures of ISO 230-4 of each used circle, in the order of the programs.
 fn iso_figures(report: &ResultsReport) -> Markup {
     let used = report.results.iter().filter(|it| it.found.is_used());
     let circles = used.filter_map(|it| match &it.found {
@@ -241,7 +241,7 @@ fn friction_part(verdict: &AxisVerdict, friction: &FrictionFound) -> Markup {
     html! {
         (figure(friction_of_axis(friction).render(Frame::Inside(&id))))
         (table.render(rows))
-        p { "Offset, the same in both directions: " (Rounded(friction.offset, 2).to_string()) " drive units, no part of the list." }
+        p { "Offset, the same in both directions: " (Rounded(friction.offset, 2).to_string()) " drive units, not part of the list." }
         @if !friction.notes.is_empty() {
             ul { @for note in &friction.notes { li { (note) } } }
         }
@@ -303,11 +303,11 @@ fn plant_part(plant: &PlantVerdict, name: &str) -> Markup {
     }
 }
 
-/// The recorded glitches of an axis beside what was predicted for them.
+/// The recorded glitches of an axis with their predictions.
 fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
     let table = HtmlTable {
         caption: Caption::Shown(
-            "Glitches that the plant was not fitted to, recorded beside predicted; each a mean over 8 ms",
+            "Glitches that the plant was not fitted to, recorded and predicted; each a mean over 8 ms",
         ),
         columns: &[
             ColumnHeading::Text("feed in mm/min"),
@@ -328,11 +328,11 @@ fn compared_part(plant: &PlantVerdict, name: &str) -> Markup {
     html! { @if !plant.compared.is_empty() { (table.render(rows)) } }
 }
 
-/// Renders the assumptions, and what was stated.
+/// Renders the assumptions, and the statements of the user.
 fn grounds(report: &ResultsReport) -> Markup {
     html! {
         ul {
-            li { "The programs switch compensation themselves; a recording of its state was compared where there is one, and is named beside the recording." }
+            li { "The programs switch compensation themselves; a recording of its state was compared where there is one, and is named with the recording." }
             li { "That the lists of stage 2 were loaded is what the operator confirmed; no recording shows it." }
             li { "The positions of the circles are those of the recorded channels: motor or load, as the operator noted." }
             @for reason in &report.fitted.lacking { li { "No plant was fitted: " (reason) "." } }

@@ -131,7 +131,7 @@ fn result(report: &VersionsReport) -> Markup {
     }
 }
 
-/// A table of all changes, those of one version marked by their sign.
+/// A table of all changes; a sign marks those of one version.
 fn changes(report: &VersionsReport) -> Markup {
     let table = HtmlTable {
         caption: Caption::Heard("Changes of state"),

@@ -20,7 +20,7 @@ const FIGURES: PagePart = PagePart::new("figures", "Figures");
 const REVERSALS: PagePart = PagePart::new("reversals", "Reversals by line");
 const SOURCE: PagePart = PagePart::new("source", "Source with its reversals");
 
-/// Lines with a row of their own, those with the worst reversals first.
+/// Lines with a separate row, those with the worst reversals first.
 const LINES: usize = 500;
 
 /// Writes the report of a contour as one page: each mark of the picture leads to its line, and each

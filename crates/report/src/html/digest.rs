@@ -1,4 +1,4 @@
-//! The digest of a session that is kept while it runs, for the report after it.
+//! The digest of a session, kept during the run for the report after it.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
@@ -24,13 +24,13 @@ const MAX_COUNTED_LINES: usize = 1_000_000;
 /// Lines that are shown with their changes, in all files together.
 const MAX_EVENT_LINES: usize = 4000;
 
-/// Messages that are kept, each once a place.
+/// Messages that are kept, each once per place.
 const MAX_MESSAGES: usize = 2000;
 
 /// Different changes that are kept of a line.
 const MAX_CHANGES: usize = 24;
 
-/// Programs that have a chart of their own.
+/// Programs that have a separate chart.
 const MAX_PROGRAMS: usize = 200;
 
 /// Course of a session in bounded memory: a [`Sink`] for its records.
@@ -51,7 +51,7 @@ pub struct RunDigest {
     pub(super) messages: Vec<Message>,
     /// Messages beyond [`MAX_MESSAGES`].
     pub(super) more_messages: u64,
-    /// Lines with something to say beyond [`MAX_EVENT_LINES`].
+    /// Lines with an event beyond [`MAX_EVENT_LINES`].
     pub(super) more_events: u64,
     pub(super) summary: Option<SummaryDigest>,
     pub(super) ways: Ways,
@@ -106,7 +106,7 @@ pub(super) struct FileDigest {
 }
 
 impl FileDigest {
-    /// Returns the number of executions of a line, as far as it was counted.
+    /// Returns the number of counted executions of a line.
     pub(super) fn runs_of(&self, line: u32) -> u32 {
         let row = usize::try_from(line)
             .unwrap_or(usize::MAX)
@@ -115,7 +115,7 @@ impl FileDigest {
     }
 }
 
-/// A line with something to say.
+/// A line with an event.
 #[derive(Debug, Default)]
 pub(super) struct LineDigest {
     /// The block as it was executed.
@@ -137,7 +137,7 @@ pub(super) struct JoinedStates {
     pub(super) ways: WaysIndex,
 }
 
-/// A diagnostic and how often it was reported.
+/// A diagnostic and the number of its reports.
 #[derive(Debug)]
 pub(super) struct Message {
     pub(super) diagnostic: Diagnostic,
@@ -169,7 +169,7 @@ pub(super) struct SummaryDigest {
     pub(super) opaque: BTreeMap<String, u64>,
     pub(super) axes: Vec<AxisSummary>,
     pub(super) assumed: BTreeSet<Code>,
-    /// Possible states at the end where FRICT of an axis is unknown.
+    /// Possible states at the end if FRICT of an axis is unknown.
     pub(super) ways: Vec<(AxisIndex, WaysIndex)>,
 }
 
@@ -306,7 +306,7 @@ impl RunDigest {
         }
     }
 
-    /// Keeps what becomes possible where ways meet, for the line of the block that comes next.
+    /// Keeps the states that become possible where ways meet, for the line of the next block.
     fn join(&mut self, join: &Join<'_>) {
         self.show_met("");
         let file = self.file(join.file);
@@ -330,7 +330,7 @@ impl RunDigest {
         }
     }
 
-    /// Keeps what waits since ways met with the line of a text.
+    /// Keeps the states from the last meeting of ways with the line of a text.
     #[inline]
     fn show_met(&mut self, text: &str) {
         if let Some((place, met)) = self.met.take() {
@@ -395,7 +395,7 @@ impl RunDigest {
         }
     }
 
-    /// Keeps a diagnostic; one about a block stands at that block if it points into another file.
+    /// Keeps a diagnostic; one about a block is shown at that block if it points into another file.
     fn message(&mut self, diagnostic: &Diagnostic, block: Option<(usize, u32, &str)>) {
         let place = &diagnostic.place;
         let key = (
@@ -435,7 +435,7 @@ impl RunDigest {
         self.messages.push(message);
     }
 
-    /// The main program that runs, by its number in the session and its file, where a place is not in
+    /// The main program that runs, by its number in the session and its file, if a place is not in
     /// that file.
     fn program_of(&self, place: &Place) -> Option<(u32, Arc<str>)> {
         let program = self.programs.last()?;

@@ -1,4 +1,4 @@
-//! The inputs of a report besides the records.
+//! The inputs of a report other than the records.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use frictcomp::lists::Parameter;
 use frictcomp::machine::{AxisReport, Setting};
 use frictcomp::text::shown_path;
 
-/// Inputs of the report besides the records.
+/// Inputs of the report other than the records.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RunInputs<'a> {
     /// Options given by the user for the run.

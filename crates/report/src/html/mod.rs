@@ -1,10 +1,9 @@
-//! Reports as one HTML file that needs nothing else: no network, no script, no second file.
+//! Reports as one self-contained HTML file: no network, no script, no second file.
 //!
-//! A [`RunDigest`] takes the records of a session and keeps what a reader asks for afterwards, in
-//! memory that does not grow with the length of a run; [`render_run`] writes it with the sources.
-//! Long stretches of source without a change are folded into elements that a browser opens by
-//! itself. The page forbids everything but its own style, so nothing in a program can become
-//! active.
+//! A [`RunDigest`] takes the records of a session and keeps what a report needs, in memory that does
+//! not grow with the length of a run; [`render_run`] writes it with the sources. Long stretches of
+//! source without a change are folded into elements that a browser opens by itself. The page forbids
+//! everything except its own style, so nothing in a program can become active.
 
 mod assumptions;
 mod audit;

@@ -1,4 +1,4 @@
-//! The frame of a page: head, style, navigation; markup goes out as it is made.
+//! The frame of a page: head, style, navigation; markup is written as it is made.
 
 use std::io::{self, Write};
 
@@ -82,7 +82,7 @@ impl<'a> Page<'a> {
         Ok(page)
     }
 
-    /// Appends markup, and writes what was gathered once it is enough.
+    /// Appends markup, and writes what was gathered once it fills a chunk.
     pub(super) fn push(&mut self, markup: &Markup) -> io::Result<()> {
         self.buffer.push_str(&markup.0);
         if self.buffer.len() >= CHUNK {
@@ -131,7 +131,7 @@ impl<'a> Page<'a> {
         self.out.flush()
     }
 
-    /// Everything goes out here: whatever a program holds, nothing invisible leaves (R9.76).
+    /// Writes all gathered markup: whatever a program contains, nothing invisible leaves here (R9.76).
     fn write(&mut self) -> io::Result<()> {
         self.out.write_all(visible(&self.buffer).as_bytes())?;
         self.buffer.clear();

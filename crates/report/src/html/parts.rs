@@ -9,7 +9,7 @@ use frictcomp::comp::State;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HtmlTable<'a> {
     pub(super) caption: Caption<'a>,
-    /// The columns, of which the first is that of the headings.
+    /// The columns; the first is that of the headings.
     pub(super) columns: &'a [ColumnHeading<'a>],
 }
 
@@ -18,7 +18,7 @@ pub(super) struct HtmlTable<'a> {
 pub(super) enum Caption<'a> {
     /// Above the table.
     Shown(&'a str),
-    /// Only for screen readers: the heading above the table says it already.
+    /// Only for screen readers: the heading above the table has the same text.
     Heard(&'a str),
 }
 
@@ -55,7 +55,7 @@ impl HtmlRow {
         }
     }
 
-    /// A row whose heading leads somewhere.
+    /// A row with a linked heading.
     pub(super) fn leading(heading: &str, href: &str, cells: impl Into<Vec<Markup>>) -> Self {
         Self {
             heading: html! { a href=(href) { (heading) } },
@@ -107,7 +107,7 @@ pub(super) fn figure(svg: String) -> Markup {
     html! { figure.picture { (PreEscaped(svg)) } "\n" }
 }
 
-/// A state, told apart by more than colour, above all where it is away from its start-up state.
+/// A state, distinguished by more than colour, especially if it is away from its start-up state.
 pub(super) fn state_word(state: State, standing: StartUpRelation) -> Markup {
     let word = state.as_str();
     html! { span.state.(word).away[standing == StartUpRelation::Away] { (word) } }

@@ -1,4 +1,4 @@
-//! The report of what a machine did, beside the dry run (R15.21).
+//! The report that compares a recording of a machine with the dry run (R15.21).
 
 use std::io::{self, Write};
 
@@ -14,7 +14,7 @@ const VERDICT: PagePart = PagePart::new("verdict", "Verdict");
 const STATES: PagePart = PagePart::new("states", "Recorded states");
 const CHANGES: PagePart = PagePart::new("changes", "Changes");
 
-/// A recording of states beside the dry run.
+/// A recording of states compared with the dry run.
 #[derive(Debug, Clone, Default)]
 pub struct ReplayReport {
     /// Name of the recording.
@@ -32,7 +32,7 @@ pub struct ReplayReportAxis {
     pub name: String,
     /// The verdict in a sentence.
     pub verdict: String,
-    /// The times in s from which on friction compensation is active, or not; the first sample first.
+    /// The times in s from which friction compensation is active or not; the first sample first.
     pub recorded: Vec<(f64, bool)>,
     /// The time of the last sample in s.
     pub end_s: f64,
@@ -47,7 +47,7 @@ pub struct ReplayReportAxis {
 /// # Errors
 /// Those of `out`.
 pub fn render_replay(report: &ReplayReport, out: &mut dyn Write) -> io::Result<()> {
-    let title = format!("{} beside the dry run", report.recording);
+    let title = format!("{} compared with the dry run", report.recording);
     let lead = "Friction compensation as the machine recorded it, compared with the dry run of the programs.";
     let mut page = Page::open(out, &title, lead, &[VERDICT, STATES, CHANGES])?;
     page.part(VERDICT, &verdict(report))?;

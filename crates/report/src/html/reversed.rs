@@ -1,4 +1,4 @@
-//! The source of a contour with the reversals of each line; lines without are folded.
+//! The source of a contour with the reversals of each line; lines without reversals are folded.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -24,14 +24,14 @@ struct OfAxis {
     rapid: u64,
     cutting: u64,
     uncompensated: u64,
-    /// The largest glitches in µm: as programmed, all on, all off; `None` where none is measured.
+    /// The largest glitches in µm: as programmed, all on, all off; `None` if none is measured.
     glitch_um: Option<[f64; 3]>,
 }
 
 /// The reversals of each line of a file, by axis.
 type LineReversals<'a> = BTreeMap<u32, BTreeMap<&'a str, OfAxis>>;
 
-/// The files with reversals, in the order in which they come.
+/// The files with reversals, in the order of their first reversals.
 #[derive(Debug, Default)]
 pub(super) struct ReversedFiles<'a>(Vec<(&'a str, LineReversals<'a>)>);
 
@@ -100,7 +100,7 @@ fn render_file(
         }
         fold(page, &mut quiet)?;
     }
-    // A source that cannot be read again, or that became shorter since it ran.
+    // A source that cannot be read again, or that has become shorter since the run.
     for (line, axes) in rest {
         page.push(&reversed(file, (*line, ""), axes))?;
     }
@@ -110,7 +110,7 @@ fn render_file(
     Ok(())
 }
 
-/// Writes the lines without a reversal that wait.
+/// Writes the waiting lines without a reversal.
 fn fold(page: &mut Page<'_>, quiet: &mut Vec<(u32, String)>) -> io::Result<()> {
     let (Some((first, _)), Some((last, _))) = (quiet.first(), quiet.last()) else {
         return Ok(());

@@ -68,7 +68,7 @@ fn met(digest: &RunDigest) -> SessionFacts {
     }
 }
 
-/// More programs are counted, not named.
+/// Number of programs that are named; further ones are counted.
 const NAMED: usize = 3;
 
 fn title(digest: &RunDigest) -> String {
@@ -86,7 +86,7 @@ fn title(digest: &RunDigest) -> String {
     title
 }
 
-/// Renders the text under the title, first of all that no machine is described (R1.37).
+/// Renders the text under the title, starting with the remark that no machine is described (R1.37).
 fn lead(digest: &RunDigest) -> String {
     match &digest.remark {
         Some(remark) => format!("{remark}. {}", counts(digest)),

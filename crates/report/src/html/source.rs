@@ -1,4 +1,4 @@
-//! The source with its changes and messages at their lines; long stretches without are folded.
+//! The source with its changes and messages at their lines; long stretches without any are folded.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -14,16 +14,16 @@ use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, Kind, State};
 use frictcomp::text::LineSource;
 
-/// Gives the lines of a program once more, after it has run.
+/// Gives the lines of a program once more, after its run.
 pub trait Sources {
-    /// The lines of the file that the records name so; `None` when it cannot be read again.
+    /// The lines of the file with this name in the records; `None` if it cannot be read again.
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>>;
 }
 
-/// Lines without anything to say that are shown, in all files together.
+/// Lines without an event that are shown, in all files together.
 const MAX_LINES: usize = 300_000;
 
-/// Lines around one with something to say that are never folded.
+/// Lines around one with an event that are never folded.
 const CONTEXT: usize = 3;
 
 /// A fold of fewer lines is not worth the click.
@@ -32,7 +32,7 @@ const MIN_FOLD: usize = 6;
 /// Lines of one fold.
 const FOLD: usize = 1000;
 
-/// Further right nothing is marked.
+/// Bytes of a line after which nothing is marked.
 const MARKED_BYTES: usize = 400;
 
 /// Lines on their way to the page.
@@ -40,28 +40,28 @@ struct SourceLines<'a, 'p> {
     page: &'a mut Page<'p>,
     digest: &'a RunDigest,
     file: usize,
-    /// Lines without anything to say that wait for what follows.
+    /// Lines without an event that wait for the next line.
     quiet: Vec<QuietLine>,
-    /// Whether a line with something to say stands above the waiting ones.
+    /// Whether a line with an event is above the waiting ones.
     below_event: bool,
     /// Number of further quiet lines that may be written.
     room: &'a mut usize,
     left_out: u64,
 }
 
-/// A line without anything to say.
+/// A line without an event.
 struct QuietLine {
     number: u32,
     runs: u32,
     text: String,
 }
 
-/// Line below those that wait.
+/// Line below the waiting ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum LineBelow {
-    /// A line with something to say.
+    /// A line with an event.
     Event,
-    /// Nothing any more.
+    /// The end of the file.
     End,
 }
 
@@ -165,14 +165,14 @@ impl SourceLines<'_, '_> {
             }
             self.release(LineBelow::End)?;
         }
-        // A source that cannot be read again, or that became shorter since it ran.
+        // A source that cannot be read again, or that has become shorter since the run.
         for (&line, event) in events {
             self.event(line, &event.text, event)?;
         }
         Ok(())
     }
 
-    /// Writes the lines that wait.
+    /// Writes the waiting lines.
     fn release(&mut self, below: LineBelow) -> io::Result<()> {
         let keep = match below {
             LineBelow::Event => CONTEXT,
@@ -183,7 +183,7 @@ impl SourceLines<'_, '_> {
         self.open_lines(self.quiet.len())
     }
 
-    /// Folds the first of the lines that wait.
+    /// Folds the first of the waiting lines.
     fn release_some(&mut self, count: usize) -> io::Result<()> {
         let context = if self.below_event { CONTEXT } else { 0 };
         if count < context + MIN_FOLD {
@@ -274,7 +274,7 @@ impl SourceLines<'_, '_> {
         }
     }
 
-    /// The line with what its messages mean underlined.
+    /// The line with the spans of its messages underlined.
     fn marked(&self, line: u32, text: &str, event: &LineDigest) -> Markup {
         let spans = self.spans(line, text, event);
         let begins = iter::once(0).chain(spans.iter().map(|span| span.end));
@@ -332,7 +332,7 @@ impl Render for QuietLine {
     }
 }
 
-/// The number of a line and how often it was executed, empty for never.
+/// The number of a line and its number of executions, empty for none.
 struct Gutter {
     line: u32,
     runs: u32,
@@ -348,7 +348,7 @@ impl Render for Gutter {
     }
 }
 
-/// A source line, cut where it is unreasonably long.
+/// A source line, cut if it is unreasonably long.
 pub(super) struct SourceText<'a>(pub(super) &'a str);
 
 impl Render for SourceText<'_> {

@@ -55,7 +55,7 @@ fn chart(digest: &RunDigest, program: &ProgramDigest) -> BandChart {
     let rows: Vec<BandRow> = shown.map(|track| row(digest, program, track)).collect();
     let told: Vec<String> = rows.iter().map(describe).collect();
     BandChart {
-        // The heading above it says what it is.
+        // The heading above it names it.
         title: String::new(),
         description: if told.is_empty() {
             "No axis occurred.".to_owned()
@@ -88,7 +88,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &StateTrack) -> BandR
         Kind::Frict => axis.to_owned(),
         kind => format!("{axis} {}", kind.as_str()),
     };
-    // Block n has the room about n, the start that about 0.
+    // Block n has the room around n, the start the room around 0.
     let ends = track.stretches.iter().skip(1).map(|next| next.from);
     let ends = ends.chain([program.blocks + 1]);
     let bands = (track.stretches.iter().zip(ends))
@@ -104,7 +104,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &StateTrack) -> BandR
     BandRow { label, bands }
 }
 
-/// A bar in words.
+/// Describes a bar in words.
 fn told(digest: &RunDigest, label: &str, stretch: &StateSpan) -> String {
     let word = stretch.state.as_str();
     let ways = stretch
@@ -124,7 +124,7 @@ fn told(digest: &RunDigest, label: &str, stretch: &StateSpan) -> String {
     }
 }
 
-/// The line that made it so, if the source shows it by itself, or else its file.
+/// The line that caused it if the source shows it separately, otherwise its file.
 fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &StateSpan) -> String {
     match stretch.spot {
         Some(spot) if digest.files[spot.file].events.contains_key(&spot.line) => {
@@ -135,7 +135,7 @@ fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &StateSpan) -> S
     }
 }
 
-/// A block as a place on the axis of a chart; beyond 2^52 neighbours fall together.
+/// A block as a place on the axis of a chart; beyond 2^52, neighbours coincide.
 fn block(number: u64) -> f64 {
     let high = u32::try_from(number >> 32).unwrap_or(u32::MAX);
     let low = u32::try_from(number & 0xffff_ffff).unwrap_or(u32::MAX);

@@ -22,9 +22,9 @@ pub(super) struct StateSpan {
     pub(super) from: u64,
     /// The state that the band shows.
     pub(super) state: BandState,
-    /// Possible states where ways differ.
+    /// Possible states if ways differ.
     pub(super) ways: Option<WaysIndex>,
-    /// The block that made it so; `None` at program start.
+    /// The block that caused it; `None` at program start.
     pub(super) spot: Option<SpanStart>,
 }
 
@@ -36,13 +36,13 @@ pub(super) struct StateTrack {
     /// The state after a start of the control.
     pub(super) start_up: State,
     pub(super) stretches: Vec<StateSpan>,
-    /// The state of the moment.
+    /// The current state.
     pub(super) now: StateOnWays,
-    /// Shorter stretches have been joined.
+    /// Length below which stretches have been joined.
     grain: u64,
 }
 
-/// More stretches are not kept apart.
+/// Number of stretches that are kept apart.
 const MAX_STRETCHES: usize = 2048;
 
 impl StateTrack {
@@ -83,7 +83,7 @@ impl StateTrack {
         }
     }
 
-    /// Whether it says something other than that the kind does not exist here.
+    /// Whether it has a state other than that the kind does not exist here.
     pub(super) fn is_configured(&self) -> bool {
         let absent = BandState::One(State::Unconfigured);
         self.stretches.iter().any(|stretch| stretch.state != absent)
@@ -97,7 +97,7 @@ impl StateTrack {
         }
     }
 
-    /// Joins neighbours that are shorter than the grain to one stretch of changes.
+    /// Joins neighbours that are shorter than the grain into one stretch of changes.
     fn coarsen(&mut self, now: u64) {
         let all = std::mem::take(&mut self.stretches);
         let ends = all.iter().skip(1).map(|next| next.from).chain([now]);

@@ -1,4 +1,4 @@
-//! The words for states that are unknown because ways differ (R14.2), each kept once.
+//! The texts for states that are unknown because ways differ (R14.2), each kept once.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ const MAX_TEXTS: usize = 4000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct WaysIndex(usize);
 
-/// A state, and when it is which where ways differ.
+/// A state, and the possible states if ways differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct StateOnWays {
     /// The state.

@@ -1,4 +1,4 @@
-//! One line a diagnostic: `file:line:column: severity[CODE] message`.
+//! One line per diagnostic: `file:line:column: severity[CODE] message`.
 
 use frictcomp::diagnostic::Diagnostic;
 

@@ -1,4 +1,4 @@
-//! The formats of messages: a file and a row of the table each.
+//! The formats of messages: each is a file and a row of the table.
 
 use crate::diagnostics::Look;
 

@@ -1,4 +1,4 @@
-//! Workflow commands that GitHub shows beside the changed lines of a pull request.
+//! Workflow commands that GitHub shows next to the changed lines of a pull request.
 
 use frictcomp::diagnostic::{Diagnostic, Severity};
 
@@ -30,7 +30,7 @@ fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     escape(out, &diagnostic.place.file.replace('\\', "/"), b"%\r\n:,");
     out.extend_from_slice(b",line=");
     integer(out, start.line);
-    // GitHub takes columns only of annotations within one line.
+    // GitHub accepts columns only for annotations within one line.
     if start.line == end.line {
         out.extend_from_slice(b",col=");
         integer(out, start.column);
@@ -55,8 +55,8 @@ fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.push(b'\n');
 }
 
-/// Appends a text with the special bytes as `%` and two digits, and pictures for what cannot be
-/// seen.
+/// Appends a text with the special bytes as `%` and two digits, and pictures for characters that cannot
+/// be seen.
 fn escape(out: &mut Vec<u8>, text: &str, special: &[u8]) {
     for byte in visible(&text.replace('\r', "\n")).bytes() {
         if special.contains(&byte) {

@@ -1,4 +1,4 @@
-//! Code Quality reports of GitLab, which shows them beside the changed lines of a merge request.
+//! Code Quality reports of GitLab, which shows them next to the changed lines of a merge request.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -71,9 +71,9 @@ impl MessageFormat for GitLab {
 }
 
 impl GitLab {
-    /// By this GitLab knows which messages are new. It does not change when lines above do, nor when
-    /// another program reaches the place (R17.1), so it is made of the words, and counted where they
-    /// are the same.
+    /// Returns the fingerprint by which GitLab recognises new messages. It does not change when lines above
+    /// do, nor when another program reaches the place (R17.1), so it is made of the words, and of a count if
+    /// these are the same.
     fn fingerprint(&mut self, path: &str, diagnostic: &Diagnostic) -> String {
         let mut hasher = FnvHasher::default();
         for part in [path, diagnostic.code.as_str(), diagnostic.uncounted()] {

@@ -12,7 +12,7 @@ use super::format::ListingFormat;
 use super::message_format::MessageFormat;
 use super::tally::Tally;
 
-/// Writes diagnostics one after another, then what they add up to.
+/// Writes diagnostics one after another, then their totals.
 #[derive(Debug)]
 pub struct Listing<W> {
     output: Output<W>,
@@ -33,7 +33,7 @@ impl<W: Write> Listing<W> {
         }
     }
 
-    /// Counts a file that was looked at.
+    /// Counts an examined file.
     pub fn file(&mut self) {
         self.tally.files += 1;
     }
@@ -70,7 +70,7 @@ impl<W: Write> Listing<W> {
     /// Writes the end of the list.
     ///
     /// # Errors
-    /// The first error of the writer; a closed pipe is none.
+    /// The first error of the writer, except a closed pipe.
     pub fn finish(&mut self) -> io::Result<()> {
         self.format.close(&mut self.output.bytes, &self.tally);
         self.output.finish()

@@ -10,7 +10,7 @@ use super::tally::Tally;
 
 /// Writer of messages: a beginning, a part for each message, an end.
 pub(super) trait MessageFormat: fmt::Debug {
-    /// Appends what stands before the first message.
+    /// Appends the text before the first message.
     fn open(&mut self, _out: &mut Vec<u8>) {}
 
     /// Appends a message.
@@ -19,6 +19,6 @@ pub(super) trait MessageFormat: fmt::Debug {
     /// Appends a record of another kind, if the format has records.
     fn record(&mut self, _out: &mut Vec<u8>, _record: &Value) {}
 
-    /// Appends what stands after the last message.
+    /// Appends the text after the last message.
     fn close(&mut self, _out: &mut Vec<u8>, _tally: &Tally) {}
 }

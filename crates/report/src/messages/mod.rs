@@ -1,4 +1,4 @@
-//! Messages without a timeline, one file a format.
+//! Messages without a timeline, one file per format.
 
 mod carets;
 mod concise;

@@ -11,7 +11,7 @@ use crate::strings::append_json;
 use super::message_format::MessageFormat;
 use super::tally::Tally;
 
-/// Objects between what begins, separates and ends them.
+/// Objects with the text that begins, separates and ends them.
 #[derive(Debug)]
 pub(super) struct Objects {
     opening: &'static [u8],
@@ -34,7 +34,7 @@ impl Objects {
         }
     }
 
-    /// An object a line.
+    /// One object per line.
     pub(super) fn lines() -> Self {
         Self {
             opening: b"",

@@ -13,8 +13,8 @@ use crate::strings::to_pretty;
 use super::message_format::MessageFormat;
 use super::tally::Tally;
 
-/// Text before the results. The keys of SARIF may come in any order, so the results go out one by
-/// one, and their summary comes after them.
+/// Text before the results. The keys of SARIF may come in any order, so the results are written one by
+/// one, followed by their summary.
 const BEFORE: &str = r#"{
   "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
   "runs": [
@@ -28,7 +28,7 @@ const RESULT: usize = 8;
 /// Columns of the keys of a run.
 const RUN: usize = 6;
 
-/// The rules that the results of one run name so far.
+/// The rules that the results of a run have named so far.
 #[derive(Debug, Default)]
 pub(super) struct Sarif {
     used: BTreeSet<Code>,
@@ -47,7 +47,7 @@ impl MessageFormat for Sarif {
         indented(out, &result(diagnostic), RESULT);
     }
 
-    /// The rules that were named come after the results.
+    /// Appends the named rules after the results.
     fn close(&mut self, out: &mut Vec<u8>, tally: &Tally) {
         let rules: Vec<Value> = Code::ALL
             .iter()
@@ -75,13 +75,13 @@ impl MessageFormat for Sarif {
         out.extend_from_slice(b"],\n      \"tool\": ");
         let from = out.len();
         indented(out, &tool, RUN);
-        // The first line stands after its key.
+        // The first line follows its key.
         out.drain(from..from + RUN);
         out.extend_from_slice(b"\n    }\n  ],\n  \"version\": \"2.1.0\"\n}\n");
     }
 }
 
-/// Appends a value as it is printed at some column.
+/// Appends a value as printed at some column.
 fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
     let text = to_pretty(value);
     for (at, line) in text.lines().enumerate() {

@@ -9,7 +9,7 @@ use frictcomp::timeline::ReadingsInForce;
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct Tally {
-    /// Files that were looked at.
+    /// Examined files.
     pub files: u64,
     /// Diagnostics by severity.
     pub counts: BTreeMap<Severity, u64>,

@@ -12,19 +12,19 @@ use frictcomp::interpreter::PositionFrame;
 use frictcomp_physics::contour::{ContourPoint, ContourReversal};
 use frictcomp_physics::motion::Movement;
 
-/// More points of the path are joined by two.
+/// Number of points of the path before they are joined in pairs.
 const MOST_POINTS: usize = 12_000;
 
-/// More reversals are not marked, but for worse ones.
+/// Number of marked reversals, unless further ones are worse.
 const MOST_MARKS: usize = 20_000;
 
-/// More states over time are not kept apart.
+/// Number of states over time that are kept apart.
 const MOST_BANDS: usize = 5000;
 
 /// Number of the worst reversals with a label.
 const NAMED: usize = 6;
 
-/// Number of the worst reversals beside a contour that is followed.
+/// Number of the worst reversals listed with a contour that is followed.
 const LISTED: usize = 10;
 
 /// The block of a reversal, of the largest deviation, or of a stretch of the path.
@@ -34,7 +34,7 @@ struct MarkedSpot {
     line: u32,
 }
 
-/// A contour on which a block is found, and a block on which its place is.
+/// A contour on which the block of a place and the place of a block can be found.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FollowedContour {
@@ -42,11 +42,11 @@ pub struct FollowedContour {
     pub chart: PlaneChart,
     /// The path block by block, in the order of driving.
     pub stretches: Vec<BlockStretch>,
-    /// The worst reversals with their words, the worst first.
+    /// The worst reversals with their descriptions, the worst first.
     pub worst: Vec<WorstReversal>,
 }
 
-/// What a block drives of the path.
+/// The part of the path that a block drives.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BlockStretch {
@@ -58,7 +58,7 @@ pub struct BlockStretch {
     pub points: Vec<[f64; 2]>,
 }
 
-/// A reversal with its words.
+/// A reversal with its description.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WorstReversal {
@@ -70,7 +70,7 @@ pub struct WorstReversal {
     pub words: String,
 }
 
-/// A contour while it comes in, in memory that does not grow with the length of the program.
+/// A contour in the making, in memory that does not grow with the length of the program.
 #[derive(Debug, Clone)]
 pub struct ContourPicture {
     axes: [String; 2],
@@ -142,7 +142,7 @@ impl ContourPicture {
         }
     }
 
-    /// Of the cycles that make a point the one with the largest deviation is kept.
+    /// Of the cycles that make a point, keeps the one with the largest deviation.
     fn keep(&mut self, point: PlanePoint, spot: MarkedSpot) {
         let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
         let is_full = self.filled >= self.every;
@@ -212,7 +212,7 @@ impl ContourPicture {
         }
     }
 
-    /// The path alone, on which an editor finds the block of a place and the place of a block.
+    /// The path alone, in which an editor finds the block of a place and the place of a block.
     pub fn followed(mut self, program: &str) -> FollowedContour {
         let spots: Vec<MarkedSpot> = self.points.iter().map(|(_, spot)| spot.clone()).collect();
         self.rank();
@@ -256,7 +256,7 @@ impl ContourPicture {
         self.linked_chart(program, |_, _| None)
     }
 
-    /// The same in a page: each mark leads where `link` says for its file and line.
+    /// The picture in a page: each mark links to what `link` gives for its file and line.
     pub fn linked_chart(
         mut self,
         program: &str,
@@ -291,7 +291,7 @@ impl ContourPicture {
 
     fn strip(&self) -> LineChart {
         let names = ["as programmed", "all on", "all off"];
-        // One scale, so that heights can be compared from panel to panel.
+        // One scale, so that heights can be compared between panels.
         let curves = [0, 1, 2].map(|at: usize| self.curves[at].points());
         let largest = curves
             .iter()

@@ -10,13 +10,13 @@ use frictcomp_physics::current::Added;
 
 use super::units::velocity_unit;
 
-/// More states over time are not kept apart.
+/// Number of states over time that are kept apart.
 const MAX_BANDS: usize = 20_000;
 
-/// More blocks are not named: there is no room for them.
+/// Number of named blocks: there is no room for more.
 const MAX_BLOCKS: usize = 2000;
 
-/// The traces of several axes while they come in, in memory that does not grow with their length.
+/// The traces of several axes in the making, in memory that does not grow with their length.
 #[derive(Debug, Default)]
 pub struct CurrentPlot {
     axes: Vec<AxisPlot>,
@@ -24,7 +24,7 @@ pub struct CurrentPlot {
     length: f64,
     /// Beginnings of blocks.
     blocks: Vec<XMark>,
-    /// Blocks of which one is kept.
+    /// Number of blocks of which one is kept.
     every: u64,
     /// Number of blocks begun.
     begun: u64,
@@ -69,8 +69,8 @@ impl AxisPlot {
         }
     }
 
-    /// Takes a CNC cycle at a time in s. In the state `unknown` the current is not known, and it is
-    /// not drawn.
+    /// Takes a CNC cycle at a time in s. In the state `unknown` the current is not known and is not
+    /// drawn.
     fn push(&mut self, time: f64, sample: &AxisSample<'_>) {
         let AxisSample {
             velocity,
@@ -171,7 +171,7 @@ impl CurrentPlot {
         }
     }
 
-    /// A block begins at a time: its number, or the line without one.
+    /// Marks the beginning of a block at a time: its number, or the line without one.
     pub fn block(&mut self, time: f64, number: Option<i64>, line: u32) {
         if self.begun.is_multiple_of(self.every) {
             let name = match number {
@@ -191,8 +191,8 @@ impl CurrentPlot {
         }
     }
 
-    /// Takes a CNC cycle: its time in s, and for each axis the commanded velocity in µm/s or
-    /// 0.001°/s, the state of friction compensation and what is added.
+    /// Takes a CNC cycle: its time in s, and for each axis the commanded velocity in µm/s or 0.001°/s,
+    /// the state of friction compensation and the additive current.
     pub fn push<'a>(&mut self, time: f64, samples: impl IntoIterator<Item = AxisSample<'a>>) {
         self.cycles += 1;
         self.length = time;
@@ -201,7 +201,7 @@ impl CurrentPlot {
         }
     }
 
-    /// Interrupts the curves where the trace begins again.
+    /// Interrupts the curves where the trace restarts.
     pub fn interrupt(&mut self) {
         for axis in &mut self.axes {
             for curve in [

@@ -1,10 +1,10 @@
-//! An identified friction curve: speeds with their errors, the curve, and what is left over.
+//! An identified friction curve: speeds with their errors, the curve, and the residuals.
 
 use crate::identify::IdentifyReport;
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 
-/// Friction over speed: the pairs with their errors, the curve, the points of the list; below it what
-/// the pairs differ from the curve.
+/// Friction over speed: the pairs with their errors, the curve, the points of the list; below it the
+/// differences of the pairs from the curve.
 pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     let found = &report.identified;
     let unit = report.unit();
@@ -85,8 +85,8 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// How far the torque is from the mean of its segment, over the position: its mean in pieces of the
-/// way, and between what values nine tenths of the samples are. All of them would be a block of colour.
+/// The distance of the torque from the mean of its segment, over the position: its mean in pieces of the
+/// travel, and the range of nine tenths of the samples. All of them would be a block of colour.
 pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     let unit = report.unit();
     let pieces = Piece::of_way(&report.identified.residuals);
@@ -111,7 +111,7 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// The residuals in a piece of the way.
+/// The residuals in a piece of the travel.
 struct Piece {
     /// Its middle.
     place: f64,
@@ -120,7 +120,7 @@ struct Piece {
     high: f64,
 }
 
-/// Pieces of the way.
+/// Pieces of the travel.
 const PIECES: u32 = 100;
 
 impl Piece {
@@ -163,7 +163,7 @@ impl Piece {
     }
 }
 
-/// Velocity and torque over time, the samples that are used drawn over all others.
+/// Velocity and torque over time, the used samples drawn over all others.
 pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
     let track = &report.recording.track;
     let over_time = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {

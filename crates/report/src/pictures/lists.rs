@@ -6,7 +6,7 @@ use frictcomp::machine::AcceptedList;
 use super::units::{minute_unit, velocity_unit};
 
 /// The curve of a value list with its points and the ends at which its value is held (R4.7), and
-/// the scaled curve where P-COMP-00045 is not 100 %.
+/// the scaled curve if P-COMP-00045 is not 100 %.
 ///
 /// Velocities are in µm/s or 0.001°/s, outputs in drive units.
 pub fn value_curve(accepted: &AcceptedList) -> LineChart {
@@ -66,7 +66,7 @@ pub fn value_curves(accepted: &[&AcceptedList]) -> LineChart {
     }
 }
 
-/// mm/min in a µm/s, and °/min in 0.001°/s.
+/// mm/min per µm/s, and °/min per 0.001°/s.
 const PER_MINUTE: f64 = 0.06;
 
 fn describe_list(accepted: &AcceptedList) -> String {
@@ -123,7 +123,7 @@ fn held_notes(table: &[[f64; 2]], end: f64) -> Vec<CurveNote> {
     notes
 }
 
-/// A table as a curve: lines, which are straight in velocities and not in their logarithms, its
+/// A table as a curve: lines, which are straight in velocities but not in their logarithms, its
 /// points, and the ends at which its value is held.
 fn curve(name: &str, table: &[[f64; 2]], end: f64) -> [Series; 3] {
     let series = |name: &str, points, drawn| Series {
@@ -151,7 +151,7 @@ fn curve(name: &str, table: &[[f64; 2]], end: f64) -> [Series; 3] {
     ]
 }
 
-/// Into how many pieces a line between two points is cut.
+/// Number of pieces into which a line between two points is cut.
 const PIECES: u32 = 16;
 
 /// Length of the last value drawn beyond the last point of all.

@@ -3,10 +3,10 @@
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::trace::TraceReport;
 
-/// The most channels that are drawn.
+/// Maximum number of drawn channels.
 const MOST: usize = 12;
 
-/// Every channel in a panel of its own, over its own times; over the row where the file has none.
+/// Every channel in a separate panel, over its own times; over the row if the file has none.
 pub fn channels(report: &TraceReport<'_>) -> LineChart {
     let recording = report.recording;
     let panels: Vec<Panel> = recording

@@ -1,12 +1,12 @@
-//! The gain by tuning, over the acceleration at a reversal.
+//! The gain from tuning, over the acceleration at a reversal.
 
 use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::tune::TuneReport;
 use crate::visible::last_part;
 use frictcomp_physics::circle::FeedResult;
 
-/// The glitch before and after tuning over v²/R, on which it depends, and what less and more friction
-/// make of it (R5.25); two panels a plant, since what is left is small against what was there.
+/// The glitch before and after tuning over v²/R, on which it depends, and its change with less and more
+/// friction (R5.25); two panels per plant, since the rest is small compared with the original glitch.
 pub fn tuning(reports: &[TuneReport]) -> LineChart {
     let told: Vec<String> = reports.iter().map(describe).collect();
     LineChart {
@@ -71,7 +71,7 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
         series,
         ..Panel::default()
     };
-    // Without points, so that the others look as they do above.
+    // Without points, so that the others look as above.
     let unseen = Series {
         points: Vec::new(),
         ..off.clone()

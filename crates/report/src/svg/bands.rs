@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::scale::{ChartAxis, Ends, Scale, Spacing};
 use frictcomp::comp::State;
 
-/// What a bar says.
+/// The content of a bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BandState {
@@ -35,7 +35,7 @@ impl BandState {
     }
 }
 
-/// How a state stands to the one after a start of the control.
+/// Relation of a state to the start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum StartUpRelation {
@@ -47,7 +47,7 @@ pub enum StartUpRelation {
 }
 
 impl StartUpRelation {
-    /// The standing of a state. Only what a command switches can be away from its start-up state.
+    /// Returns the relation. Only a state that a command switches can be away from its start-up state.
     pub fn of(state: State, start_up: State) -> Self {
         let switched = matches!(state, State::Active | State::Inactive);
         if switched && state != start_up {
@@ -65,13 +65,13 @@ pub struct Band {
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// What it says.
+    /// Its content.
     pub state: BandState,
-    /// How the state stands to that after a start of the control.
+    /// Relation of the state to the start-up state.
     pub standing: StartUpRelation,
-    /// What a pointer and a screen reader say.
+    /// Text for a pointer and a screen reader.
     pub title: String,
-    /// Where it leads, `#id` of the page.
+    /// Target of its link, `#id` of the page.
     pub href: Option<String>,
 }
 
@@ -87,13 +87,13 @@ pub struct BandRow {
 /// Rows of bars over one axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BandChart {
-    /// The heading; empty where the page around it has one.
+    /// The heading; empty if the page around it has one.
     pub title: String,
     /// The picture in a sentence or two.
     pub description: String,
-    /// What the bars are drawn over.
+    /// The axis that the bars are drawn over.
     pub x: ChartAxis,
-    /// The first and the last step where each bar stands for whole steps: the start and the last
+    /// The first and the last step if each bar represents whole steps: the start and the last
     /// block.
     pub steps: Option<(f64, f64)>,
     /// The rows from top to bottom.
@@ -151,7 +151,7 @@ impl BandChart {
         )
     }
 
-    /// Where the bars stand for whole steps, only those have ticks, the first and the last always.
+    /// If the bars represent whole steps, only those have ticks, the first and the last always.
     fn name_ticks(&self, scale: &mut Scale) {
         let Some((first, last)) = self.steps else {
             return;
@@ -193,8 +193,8 @@ pub(super) struct BandRows<'a> {
 }
 
 impl BandRows<'_> {
-    /// Draws the rows one below the other, their labels left of the area; gives the states that
-    /// are to be seen.
+    /// Draws the rows one below the other, their labels left of the area; returns the visible
+    /// states.
     pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<(BandState, StartUpRelation)> {
         let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
@@ -252,8 +252,8 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     canvas.close_link(href);
 }
 
-/// The shape of a state: full, hollow, half full, a line, dashed; striped where it is not the
-/// start-up state.
+/// The shape of a state: full, hollow, half full, a line, dashed; striped if it is not the start-up
+/// state.
 fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, StartUpRelation), area: Area) {
     if standing == StartUpRelation::Away {
         canvas.rect("fc-away", area);
@@ -289,7 +289,7 @@ fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, StartUpRelatio
     }
 }
 
-/// Draws each of the states with its word; gives the height that this takes.
+/// Draws each of the states with its word; returns the height of the legend.
 pub(super) fn draw_legend(
     canvas: &mut Canvas,
     drawn: &[(BandState, StartUpRelation)],
@@ -325,7 +325,7 @@ pub(super) fn draw_legend(
 /// The room between the values at the ticks of an axis.
 pub(super) const TICK_ROOM: f64 = 10.0;
 
-/// Draws an axis with its ticks and its label below an area; gives where the room below it begins.
+/// Draws an axis with its ticks and its label below an area; returns where the room below it begins.
 pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: &str) -> f64 {
     canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));
     let mut free = f64::NEG_INFINITY;
@@ -333,7 +333,7 @@ pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: 
         let x = area.x + scale.share(*value) * area.width;
         canvas.line("fc-axis", (x, area.y), (x, area.y + 5.0));
         let half = text_width(text) / 2.0;
-        // The last label would be cut at the edge.
+        // The last label would be cut off at the edge.
         let middle = x.min(WIDTH - half - 4.0);
         if middle - half > free {
             canvas.text("fc-quiet", (middle, area.y + 18.0), Anchor::Middle, text);

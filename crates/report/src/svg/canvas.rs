@@ -10,7 +10,7 @@ use super::frame::{Frame, STYLE};
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;
 
-/// Where a text stands relative to its place.
+/// Alignment of a text relative to its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -124,7 +124,7 @@ impl Canvas {
         }
     }
 
-    /// Opens a link, or a group where there is none, with what a pointer and a screen reader say.
+    /// Opens a link, or a group if there is none, with the text for a pointer and a screen reader.
     pub(super) fn open_link(&mut self, href: Option<&str>, title: &str) {
         match href {
             Some(href) => {
@@ -185,7 +185,7 @@ impl Canvas {
         push_escaped(&mut out, head.description);
         out.push_str("</desc>\n");
         if alone {
-            // Nothing in it ends the element: it is a constant of ours.
+            // Nothing in it ends the element: it is a constant of this crate.
             let _ = writeln!(out, "<style>\n{STYLE}</style>");
         }
         let _ = writeln!(
@@ -202,7 +202,7 @@ impl Canvas {
     }
 }
 
-/// What stands at the head of a picture.
+/// The head of a picture.
 pub(super) struct Head<'a> {
     pub(super) title: &'a str,
     pub(super) description: &'a str,
@@ -210,24 +210,24 @@ pub(super) struct Head<'a> {
     pub(super) role: PictureRole,
 }
 
-/// What a picture is for a screen reader.
+/// The role of a picture for a screen reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PictureRole {
-    /// One image, told by title and description.
+    /// One image, described by title and description.
     Image,
     /// Parts that can be reached one by one.
     Group,
 }
 
-/// How many series look different.
+/// Number of series that look different.
 pub(super) const SERIES: usize = 4;
 
-/// The width of a text, about.
+/// The approximate width of a text.
 pub(super) fn text_width(text: &str) -> f64 {
     f64::from(u32::try_from(text.width()).unwrap_or(u32::MAX)) * 6.5
 }
 
-/// The same with the larger letters of narrow screens, in a wide font.
+/// The approximate width of a text in the larger letters of narrow screens, in a wide font.
 pub(super) fn widest_text(text: &str) -> f64 {
     text_width(text) * 1.45
 }
@@ -258,7 +258,7 @@ pub(super) struct LegendItem<'a> {
     pub(super) drawn: LegendLook,
 }
 
-/// What a series looks like in the legend.
+/// The look of a series in the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LegendLook {
     Line,
@@ -269,7 +269,7 @@ pub(super) enum LegendLook {
 const LEGEND_ROW: f64 = 20.0;
 
 impl Legend<'_> {
-    /// Draws it from a place on and gives the height that it takes.
+    /// Draws it from a place on and returns its height.
     pub(super) fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64)) -> f64 {
         let (mut x, mut y) = (left, top);
         for &LegendItem { look, name, drawn } in &self.items {

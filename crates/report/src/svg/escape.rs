@@ -3,7 +3,7 @@
 use crate::visible::push_picture;
 use frictcomp::text::is_hidden;
 
-/// Appends a text with the characters of markup escaped and what cannot be seen made visible.
+/// Appends a text with the characters of markup escaped and invisible characters made visible.
 ///
 /// Control characters become their pictures (`␀`); characters that turn the direction of writing
 /// or take no room become `⟨U+202E⟩`, so that the text that is shown is the one that the control reads.

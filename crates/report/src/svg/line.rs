@@ -18,19 +18,19 @@ pub enum Drawn {
     Line,
     /// A line with a marker at each point.
     Marked,
-    /// A line without a colour of its own: colours are those of states elsewhere in the picture.
+    /// A line without its own colour: colours are those of states elsewhere in the picture.
     Plain,
     /// A marker at each point and no line.
     Scattered,
-    /// A marker at each point and no line. It has no row in the legend of its own and the colour of
-    /// the series before it.
+    /// A marker at each point and no line. It has no separate row in the legend and the colour of the
+    /// series before it.
     Points,
     /// A value that holds until the next one.
     Steps,
-    /// The same, with the ground above it filled: short notches are seen on long curves.
+    /// Steps with the ground above them filled: short notches are seen on long curves.
     Notches,
-    /// A thin broken line, for what is assumed to go on. It has no row in the legend of its own
-    /// and the colour of the series before it.
+    /// A thin broken line, for what is assumed to continue. It has no separate row in the legend and
+    /// the colour of the series before it.
     Held,
 }
 
@@ -45,23 +45,23 @@ pub struct Series {
     pub drawn: Drawn,
 }
 
-/// How high a panel is.
+/// The height of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PanelHeight {
-    /// As high as there is room.
+    /// As high as the room allows.
     #[default]
     Full,
-    /// As high as a curve needs that only goes up and down.
+    /// As high as is enough for a curve that only goes up and down.
     Low,
 }
 
-/// Words beside a place of a curve.
+/// Words next to a place of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveNote {
     /// The place.
     pub at: [f64; 2],
-    /// The words, which stand above it, or below where there is no room.
+    /// The words, above the place, or below it if there is no room.
     pub text: String,
 }
 
@@ -74,7 +74,7 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Words in the panel.
     pub notes: Vec<CurveNote>,
-    /// How high it is.
+    /// Its height.
     pub height: PanelHeight,
 }
 
@@ -113,11 +113,11 @@ const SECOND_ROOM: f64 = 34.0;
 /// The room between the names along the x axis.
 const MARK_ROOM: f64 = 14.0;
 
-/// From so many names along the x axis on, only those that are written have a tick.
+/// Number of names along the x axis from which only the written ones have a tick.
 const CROWDED: usize = 120;
 
 impl LineChart {
-    /// The picture, 860 units wide. More points than can be seen are reduced to the least and the
+    /// The picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
     /// greatest of each column.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
@@ -200,8 +200,8 @@ impl LineChart {
         )
     }
 
-    /// The x axis with names below its values. Names without room are left out; their ticks only
-    /// where all of them would be a solid bar.
+    /// The x axis with names below its values. Names without room are left out; their ticks only if all
+    /// of them would be a solid bar.
     fn draw_marks(&self, canvas: &mut Canvas, x: &Scale, area: Area) -> f64 {
         draw_ticks(canvas, x, area, "");
         let (above, row) = (area.y + 24.0, area.y + 40.0);
@@ -335,7 +335,7 @@ impl Panel {
             // It stays inside the panel.
             let inside = (axes.area.x + half + 6.0).min(axes.area.right());
             let middle = x.clamp(inside, (axes.area.right() - half - 4.0).max(inside));
-            // Where there is no room above the curve, below it.
+            // Below the curve if there is no room above it.
             let fits = y - 20.0 > axes.area.y;
             let y = if fits { y - 8.0 } else { y + 17.0 };
             canvas.text("fc-quiet", (middle, y), Anchor::Middle, &note.text);

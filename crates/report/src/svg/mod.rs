@@ -1,13 +1,13 @@
 //! Pictures as SVG, for a browser, a document or the HTML report.
 //!
-//! A module of our own and not a plotting crate: what is drawn here are lines, points, bands and
-//! one magnified circle, some six hundred lines. The kept crates (`plotters`, `poloto`) know
-//! neither dark backgrounds, nor titles for screen readers, nor bands with links, nor a magnified
-//! polar deviation, so each of these would have been written on top of them.
+//! The module does not use a plotting crate: it draws lines, points, bands and one magnified circle, in
+//! some six hundred lines. The maintained crates (`plotters`, `poloto`) support neither dark backgrounds,
+//! nor titles for screen readers, nor bands with links, nor a magnified polar deviation, so each of these
+//! would have to be written on top of them.
 //!
-//! A chart is plain data and is asked to [`render`](LineChart::render) itself. Every picture has a
-//! `<title>` and a `<desc>`, follows a dark background, tells series apart by dash and marker as
-//! well as by colours that colour-blind people distinguish, and has a bounded size, however many
+//! A chart is plain data with a method to [`render`](LineChart::render) it. Every picture has a
+//! `<title>` and a `<desc>`, follows a dark background, distinguishes series by dash and marker as
+//! well as by colours that colour-blind people can tell apart, and has a bounded size, however many
 //! points it is given.
 
 mod bands;

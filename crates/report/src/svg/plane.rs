@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::line::LineChart;
 use super::scale::{label, round_step};
 
-/// Where the drawing stands.
+/// The place of the drawing.
 const LEFT: f64 = 60.0;
 const TOP: f64 = 64.0;
 const ROOM: Area = Area {
@@ -15,19 +15,19 @@ const ROOM: Area = Area {
     height: 470.0,
 };
 
-/// The largest deviation is drawn so long.
+/// The drawn length of the largest deviation.
 const LARGEST: f64 = 34.0;
 
 /// Points that are closer together in the picture are drawn as one.
 const SEEN: f64 = 0.7;
 
-/// A straight line between two points is no longer.
+/// The maximum length of a straight line between two points.
 const STRAIGHT: f64 = 7.0;
 
 /// Marks in a square of this size are drawn as one.
 const CELL: f64 = 13.0;
 
-/// About how long the scale of the path is.
+/// The approximate length of the scale of the path.
 const PATH_BAR: f64 = 70.0;
 
 /// The class of a stretch that is left out.
@@ -44,16 +44,16 @@ pub enum Stroke {
     Uncompensated,
     /// Not judged: a rapid motion.
     Unjudged,
-    /// Left out: where it leads on the machine is not known.
+    /// Left out: its course on the machine is not known.
     LeftOut,
 }
 
 /// A point of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlanePoint {
-    /// Where it is commanded, in mm.
+    /// The commanded place, in mm.
     pub place: [f64; 2],
-    /// Where it is, from there, in mm.
+    /// The actual place relative to it, in mm.
     pub error: [f64; 2],
     /// How the stretch that ends here is drawn.
     pub stroke: Stroke,
@@ -66,13 +66,13 @@ pub struct PlaneMark {
     pub place: [f64; 2],
     /// Whether it has a ring.
     pub ringed: bool,
-    /// How much it matters; of several in one place the greatest counts.
+    /// Its importance; of several in one place the greatest counts.
     pub weight: f64,
-    /// Words beside it, for the worst ones.
+    /// Words next to it, for the worst ones.
     pub label: Option<String>,
-    /// What a pointer and a screen reader say.
+    /// Text for a pointer and a screen reader.
     pub title: String,
-    /// Where it leads, `#id` of the page.
+    /// Target of its link, `#id` of the page.
     pub href: Option<String>,
 }
 
@@ -153,8 +153,8 @@ impl PlaneFit {
 }
 
 impl PlaneChart {
-    /// Where the path is drawn: a line through points of the picture for each stretch of the points, in
-    /// its units. A stretch begins where the one before it ends.
+    /// The drawn path: a line through points of the picture for each stretch of the points, in its
+    /// units. A stretch begins where the one before it ends.
     pub fn drawn(&self, ends: &[usize]) -> Vec<Vec<[f64; 2]>> {
         let fit = PlaneFit::of(&self.points);
         let begins = std::iter::once(0).chain(ends.iter().map(|end| end.saturating_sub(1)));
@@ -166,7 +166,7 @@ impl PlaneChart {
         stretches.collect()
     }
 
-    /// The picture, with a bar that says how far the deviation is magnified.
+    /// The picture, with a bar that shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
         canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
@@ -268,8 +268,8 @@ impl PlaneChart {
         }
     }
 
-    /// The words beside the worst marks, where neither the path nor another mark is in their way (R11.5); a
-    /// thin line leads to a mark that is farther off. Where there is no room, the mark keeps its title.
+    /// The words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
+    /// thin line leads to a mark that is farther off. A mark without room for words keeps its title.
     fn draw_labels(&self, canvas: &mut Canvas, fit: &PlaneFit) {
         const LINE: f64 = 16.0;
         let mut ground = Ground::default();
@@ -377,8 +377,8 @@ impl PlaneChart {
     }
 }
 
-/// The points that are seen: not those next to the one before, nor those on a short straight line
-/// between their neighbours. The last one stays.
+/// The visible points: not those next to the one before, nor those on a short straight line between
+/// their neighbours. The last one stays.
 fn thinned(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     let mut last = None;
@@ -404,13 +404,13 @@ fn length(one: (f64, f64), other: (f64, f64)) -> f64 {
     (other.0 - one.0).hypot(other.1 - one.1)
 }
 
-/// How far a point is from the line through two others.
+/// The distance of a point from the line through two others.
 fn off_line(point: (f64, f64), (from, to): ((f64, f64), (f64, f64))) -> f64 {
     let cross = (to.0 - from.0) * (point.1 - from.1) - (to.1 - from.1) * (point.0 - from.0);
     cross.abs() / length(from, to)
 }
 
-/// Squares of the picture on which something is drawn.
+/// Squares of the picture that are occupied.
 #[derive(Debug, Default)]
 struct Ground {
     taken: std::collections::BTreeSet<(i64, i64)>,

@@ -14,7 +14,7 @@ use super::scale::{label, round_step};
 pub struct PolarSeries {
     /// Its name in the legend; series of one name have one row.
     pub name: String,
-    /// Its colour: 0 where compensation is on, 1 where it is off.
+    /// Its colour: 0 with compensation, 1 without.
     pub look: usize,
     /// Whether it is drawn finer, as the other way round the circle.
     pub stroke: PolarStroke,
@@ -23,7 +23,7 @@ pub struct PolarSeries {
     pub points: Vec<[f64; 2]>,
 }
 
-/// How the two ways round the circle are told apart.
+/// The line style of a way round the circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum PolarStroke {
@@ -37,13 +37,13 @@ pub enum PolarStroke {
 /// A circle with its own magnification.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarPanel {
-    /// What it shows, above it.
+    /// The heading above it.
     pub label: String,
     /// The curves.
     pub series: Vec<PolarSeries>,
 }
 
-/// Radial deviations from a commanded circle; beside it an inset with a magnification of its own (R5.30).
+/// Radial deviations from a commanded circle, with an inset at a separate magnification next to it (R5.30).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarChart {
     /// The heading.
@@ -58,7 +58,7 @@ pub struct PolarChart {
     pub panels: Vec<PolarPanel>,
 }
 
-/// Where a panel is, and how large.
+/// The place and size of a panel.
 #[derive(Debug, Clone, Copy)]
 struct PanelLayout {
     centre: (f64, f64),
@@ -68,17 +68,17 @@ struct PanelLayout {
     reach: f64,
 }
 
-/// The heading and what stands above the circle.
+/// The heading and the text above the circle.
 const TOP: f64 = 112.0;
 
-/// On a smaller circle there is no room for the names of all rings.
+/// A smaller circle has no room for the names of all rings.
 const SMALL: f64 = 100.0;
 
 /// The names of the quadrants around the rings.
 const NAMES: f64 = 34.0;
 
 impl PanelLayout {
-    /// The panel with a number, of a number of panels.
+    /// Returns the panel with a number, of a number of panels.
     fn of(number: usize, count: usize) -> Self {
         let (circle, reach) = match (number, count) {
             (_, 0 | 1) => (190.0, 110.0),
@@ -108,7 +108,7 @@ impl PanelLayout {
 }
 
 impl PolarChart {
-    /// The picture; in each panel a scale bar says how far the deviation is magnified.
+    /// The picture; in each panel a scale bar shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
         canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
@@ -176,7 +176,7 @@ impl PolarChart {
     }
 }
 
-/// How deviations become lengths.
+/// The conversion of deviations to lengths.
 struct Magnified {
     layout: PanelLayout,
     /// Units of the picture for a µm.
@@ -221,7 +221,7 @@ impl Magnified {
             let class = if ring == 0.0 { "fc-axis" } else { "fc-grid" };
             let radius = circle + ring * self.step * self.factor;
             canvas.circle(class, centre, radius);
-            // Among small rings the outermost ones and the circle have their names.
+            // Among small rings only the outermost ones and the circle have names.
             let is_named = ring == 0.0 || ring.abs() > self.rings - 0.5;
             if !is_named && self.layout.circle < SMALL {
                 continue;

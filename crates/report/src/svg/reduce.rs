@@ -1,17 +1,17 @@
 //! A million points on eight hundred columns: what cannot be told apart is not drawn.
 
-/// A curve while its points come in, one after another in the direction of x: many neighbours are
-/// kept as the first, the least, the greatest and the last of them, in bounded memory.
+/// A curve in the making, whose points come in the direction of x: many neighbours are kept as the
+/// first, the least, the greatest and the last of them, in bounded memory.
 #[derive(Debug, Clone, Default)]
 pub struct Curve {
     groups: Vec<Neighbours>,
-    /// How many times groups have been joined by two: each holds 2 to that power of points.
+    /// How often groups have been joined in pairs: each holds 2 to that power of points.
     joined: u32,
-    /// How many points the last group holds.
+    /// Number of points in the last group.
     filled: u64,
 }
 
-/// More groups are joined by two.
+/// Number of groups before they are joined in pairs.
 const MAX_GROUPS: usize = 8192;
 
 /// Neighbours of a curve.
@@ -110,13 +110,13 @@ impl Curve {
     }
 }
 
-/// A line of more points is thinned out however its points lie.
+/// Number of points above which a line is thinned out however its points lie.
 const MAX_POINTS: usize = 20_000;
 
 /// Points of which neighbours in one column become at most four: the first, the least, the
 /// greatest and the last, in their order. Nothing that can be seen is lost.
 ///
-/// `column` gives the column of the picture in which a point falls.
+/// `column` returns the column of the picture for a point.
 pub(super) fn reduce(points: &[[f64; 2]], column: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();
     let same = |one, other| {
@@ -188,7 +188,7 @@ mod tests {
         assert!(points.contains(&[123_457.0, 9.0]));
         assert_eq!(points.last(), Some(&[999_999.0, 0.0]));
         assert!(points.is_sorted_by(|one, other| one[0] <= other[0]));
-        // Evenly all along.
+        // Evenly along the whole curve.
         let early = points.iter().filter(|point| point[0] < 500_000.0).count();
         assert!((early * 2).abs_diff(points.len()) < points.len() / 10);
     }

@@ -1,6 +1,6 @@
-//! From values to places in the picture, and round numbers along the way.
+//! From values to places in the picture, and round numbers in between.
 
-/// How an axis is divided.
+/// The division of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Spacing {
@@ -9,22 +9,22 @@ pub enum Spacing {
     Linear,
     /// Equal factors are equally long; values that are not above 0 make it linear.
     Logarithmic,
-    /// From 0 to the least value above it linear, from there on logarithmic.
+    /// Linear from 0 to the least value above it, logarithmic from there.
     LogarithmicFromZero,
 }
 
-/// What an axis of a chart shows.
+/// The properties of an axis of a chart.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ChartAxis {
     /// The quantity with its unit, `velocity in mm/min`.
     pub label: String,
-    /// How it is divided.
+    /// Its division.
     pub spacing: Spacing,
     /// Whether 0 is on it, whatever the values are.
     pub from_zero: bool,
-    /// How far it reaches in both directions, whatever the values are.
+    /// The range in both directions, whatever the values are.
     pub reach: Option<f64>,
-    /// The same values in another unit, at the other side.
+    /// The same values in another unit, on the other side.
     pub second: Option<SecondUnit>,
 }
 
@@ -33,7 +33,7 @@ pub struct ChartAxis {
 pub struct SecondUnit {
     /// The quantity with its unit, `velocity in mm/min`.
     pub label: String,
-    /// How many of it one of the first unit is.
+    /// The number of these units in one of the first unit.
     pub factor: f64,
 }
 
@@ -64,19 +64,19 @@ impl ChartAxis {
         }
     }
 
-    /// The same with 0 on it.
+    /// Includes 0 on the axis.
     pub fn from_zero(mut self) -> Self {
         self.from_zero = true;
         self
     }
 
-    /// The same, reaching so far in both directions.
+    /// Extends the axis this far in both directions.
     pub fn reaching(mut self, reach: f64) -> Self {
         self.reach = Some(reach);
         self
     }
 
-    /// The same with another unit at the other side.
+    /// Adds another unit on the other side.
     pub fn with_second(mut self, label: impl Into<String>, factor: f64) -> Self {
         let label = label.into();
         self.second = Some(SecondUnit { label, factor });
@@ -87,7 +87,7 @@ impl ChartAxis {
 /// Whether the ends of a scale are round numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// They are, so that the first and the last tick stand at the ends.
+    /// They are, so that the first and the last tick are at the ends.
     Round,
     /// They are the least and the greatest value.
     Exact,
@@ -105,7 +105,7 @@ pub(super) struct Scale {
     pub(super) ticks: Vec<(f64, String)>,
 }
 
-/// More ticks are never made.
+/// Maximum number of ticks.
 const MAX_TICKS: u32 = 60;
 
 impl Scale {
@@ -135,7 +135,7 @@ impl Scale {
             return Self::logarithmic_from_zero(bend, high);
         }
         if high - low <= (low.abs().max(high.abs()) * 1e-9).max(1e-300) {
-            // Beside the least numbers there is nothing to be told apart.
+            // Next to the smallest numbers nothing can be distinguished.
             let is_zero = low.abs() < 1e-290;
             let room = if is_zero { 1.0 } else { low.abs() * 0.1 };
             (low, high) = (low - room, high + room);
@@ -180,7 +180,7 @@ impl Scale {
         }
     }
 
-    /// The same scale in another unit, with ticks of its own.
+    /// Returns the same scale in another unit, with its own ticks.
     pub(super) fn in_unit(&self, factor: f64) -> Self {
         let values = [self.low, self.bend, self.high].map(|value| value * factor);
         let inner = values
@@ -206,7 +206,7 @@ impl Scale {
         }
     }
 
-    /// Where a value stands, 0 at the low end and 1 at the high end.
+    /// The place of a value, 0 at the low end and 1 at the high end.
     pub(super) fn share(&self, value: f64) -> f64 {
         match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
@@ -225,7 +225,7 @@ impl Scale {
     }
 }
 
-/// How much of a scale from 0 is linear.
+/// The linear part of a scale from 0.
 const LINEAR_PART: f64 = 0.14;
 
 /// Round values from `low` to `high` on a logarithmic scale.
@@ -260,7 +260,7 @@ pub(super) fn round_step(least: f64) -> f64 {
     round * power
 }
 
-/// A number by itself, with all the decimals that it has, six at most.
+/// A number alone, with all its decimals, six at most.
 pub(crate) fn number(value: f64) -> String {
     label(value, value)
 }

@@ -1,4 +1,4 @@
-//! Every format over one session made by hand.
+//! Every format over one handmade session.
 
 mod player;
 
@@ -311,7 +311,7 @@ fn colours_do_not_move_the_columns() {
     assert_eq!(anstream::adapter::strip_str(&styled).to_string(), plain);
 }
 
-/// A reader that went away.
+/// A reader that has closed the pipe.
 struct Closed;
 
 impl Write for Closed {

@@ -1,4 +1,4 @@
-//! A session made by hand, as an interpreter would play it.
+//! A handmade session, played as an interpreter would.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

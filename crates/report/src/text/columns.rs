@@ -1,4 +1,4 @@
-//! Where the columns of the axes stand, and what stands in them.
+//! The columns of the axes: their positions and contents.
 
 use unicode_width::UnicodeWidthStr;
 
@@ -10,16 +10,16 @@ use super::line::{BOLD, GUTTER, MARK, TextLine, style};
 /// The column after the line number.
 const LINE_END: usize = 6;
 
-/// Columns that the block text must keep, or states become symbols.
+/// Minimum width of the block text before states become symbols.
 const MIN_TEXT: usize = 24;
 
-/// Columns that it keeps beside symbols, or the states stand below their block.
+/// Minimum width of the block text next to symbols before the states move below their block.
 const LEAST_TEXT: usize = 16;
 
-/// Columns that the block text takes at most, so that few axes do not stand far away from it.
+/// Maximum width of the block text, so that a few axes are not far away from it.
 const MAX_TEXT: usize = 72;
 
-/// The most of a width that the block text takes, six tenths where that is less.
+/// The maximum width of the block text: six tenths of the width if that is less than [`MAX_TEXT`].
 fn most_text(width: usize) -> usize {
     MAX_TEXT.min(width * 6 / 10)
 }
@@ -27,7 +27,7 @@ fn most_text(width: usize) -> usize {
 /// Columns of the widest symbol with its mark.
 const SYMBOL: usize = 4;
 
-/// How a state is written.
+/// The form of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Words {
     /// `active`, `inactive`, …
@@ -35,7 +35,7 @@ enum Words {
     Full,
     /// `on`, `off`, …
     Short,
-    /// The same below the block, each with the name of its axis.
+    /// `on`, `off`, … below the block, each with the name of its axis.
     Below,
 }
 
@@ -57,7 +57,7 @@ pub(super) struct AxisColumns {
 }
 
 impl AxisColumns {
-    /// Columns for the axes that are listed now, within a width.
+    /// Columns for the currently listed axes, within a width.
     pub(super) fn new(state: StateView<'_>, width: usize) -> Self {
         let room = width.saturating_sub(GUTTER);
         let widths: Vec<usize> = state
@@ -106,12 +106,12 @@ impl AxisColumns {
         }
     }
 
-    /// How many axes there are.
+    /// The number of axes.
     pub(super) fn len(&self) -> usize {
         self.axes.len()
     }
 
-    /// What the symbols mean, when there are symbols.
+    /// The meaning of the symbols, if there are any.
     pub(super) fn legend(&self) -> Option<&'static str> {
         (self.words != Words::Full).then_some(
             "on active, off inactive, on! ineffective, - unconfigured, ? unknown, ◄ changed",
@@ -157,7 +157,7 @@ impl AxisColumns {
         }
     }
 
-    /// Goes to the place of a state; one below its block is led by its axis.
+    /// Moves to the place of a state; one below its block is preceded by its axis.
     fn go_to(&self, column: &AxisColumn, line: &mut TextLine<'_>) {
         if self.words != Words::Below {
             line.go_to(column.start);
@@ -186,7 +186,7 @@ impl AxisColumns {
         let indent = depth.saturating_mul(2).min(self.text / 2);
         line.go_to(GUTTER + indent);
         line.source(row.text, self.text - indent);
-        // Below a block that changes nothing the states of the one before hold.
+        // Below a block that changes nothing the states of the one before apply.
         if self.words != Words::Below || !row.changes.is_empty() {
             self.states(&mut line, row.state, row.changes);
         }

@@ -12,7 +12,7 @@ use frictcomp::comp::State;
 /// Columns of the line number with the gap after it.
 pub(super) const GUTTER: usize = 8;
 
-/// Stands after a state that the block changed.
+/// The mark after a state that the block changed.
 pub(super) const MARK: char = '◄';
 
 pub(super) const BOLD: Style = Style::new().bold();
@@ -34,19 +34,19 @@ impl<'a> TextLine<'a> {
         }
     }
 
-    /// Fills with blanks up to a column; at least one when text has passed it.
+    /// Fills with blanks up to a column; with at least one if the text has passed it.
     pub(super) fn go_to(&mut self, column: usize) {
         let blanks = column.checked_sub(self.column).unwrap_or(1);
         self.out.resize(self.out.len() + blanks, b' ');
         self.column += blanks;
     }
 
-    /// Where the next text begins.
+    /// The column of the next text.
     pub(super) fn column(&self) -> usize {
         self.column
     }
 
-    /// Goes on in a line of its own, after an indent.
+    /// Continues on a new line, after an indent.
     pub(super) fn next(&mut self, indent: usize) {
         self.trim();
         self.out.push(b'\n');
@@ -124,13 +124,13 @@ impl<'a> TextLine<'a> {
     }
 }
 
-/// The last place of a line after which `…` has room.
+/// The last place of a line that leaves room for `…`.
 struct Cut {
     length: usize,
     column: usize,
 }
 
-/// A text that takes as many lines as its words need within a width, all after an indent.
+/// A text that takes as many lines as it needs within a width, all after an indent.
 pub(super) struct Paragraph<'a> {
     indent: usize,
     style: Style,
@@ -147,7 +147,7 @@ impl<'a> Paragraph<'a> {
         }
     }
 
-    /// The same after an indent.
+    /// Sets an indent.
     pub(super) fn indented(self, indent: usize) -> Self {
         Self { indent, ..self }
     }

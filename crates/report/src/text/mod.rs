@@ -1,4 +1,4 @@
-//! The timeline for people: a column per axis, changes that are seen at a glance, diagnostics
+//! The timeline for people: a column per axis, changes that are visible at a glance, diagnostics
 //! under their block, and what is left to do after program end.
 
 mod columns;
@@ -20,46 +20,46 @@ use super::visible::leading;
 use columns::AxisColumns;
 use line::{BOLD, DIM, GUTTER, MARK, Paragraph, TextLine};
 
-/// Columns below which diagnostics stand further left.
+/// Width below which diagnostics are indented less.
 const NARROW: usize = 60;
 
-/// What happens to blocks that change nothing and about which there is nothing to say.
+/// The treatment of blocks that change nothing and have no message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Runs {
     /// Several of them in a row become one line with their count.
     #[default]
     Folded,
-    /// Each has its line.
+    /// Each has a line.
     Full,
 }
 
-/// How the timeline looks.
+/// The appearance of the timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TextOptions {
-    /// What is shown.
+    /// The shown blocks and kinds.
     pub view: View,
-    /// What happens to blocks without a change.
+    /// The treatment of blocks without a change.
     pub runs: Runs,
     /// Colours and width.
     pub look: Look,
 }
 
 impl TextOptions {
-    /// The same with another value of [`view`](Self::view).
+    /// Sets [`view`](Self::view).
     pub fn with_view(mut self, view: View) -> Self {
         self.view = view;
         self
     }
 
-    /// The same with another value of [`runs`](Self::runs).
+    /// Sets [`runs`](Self::runs).
     pub fn with_runs(mut self, runs: Runs) -> Self {
         self.runs = runs;
         self
     }
 
-    /// The same with another value of [`look`](Self::look).
+    /// Sets [`look`](Self::look).
     pub fn with_look(mut self, look: Look) -> Self {
         self.look = look;
         self
@@ -84,18 +84,18 @@ pub struct Text<W> {
     columns: AxisColumns,
     version: Option<u64>,
     quiet: Quiet,
-    /// The file of the block that was printed last.
+    /// The file of the last printed block.
     file: String,
-    /// How the last program ended.
+    /// The end of the last program.
     ended: Option<EndedBy>,
-    /// The states that are possible, as they were said last.
+    /// The possible states as last printed.
     possible: Vec<String>,
 }
 
-/// Which of the possible states are shown.
+/// The possible states that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Saying {
-    /// Those that were not said before.
+    /// Those that were not printed before.
     New,
     All,
 }
@@ -137,7 +137,7 @@ impl<W: Write> Text<W> {
         file.clone_into(&mut self.file);
     }
 
-    /// What stands above everything else.
+    /// Writes the text above everything else.
     fn remark(&mut self, remark: &str) {
         for part in wrap(remark, self.options.look.width, 0).lines() {
             let mut line = self.line();
@@ -161,7 +161,7 @@ impl<W: Write> Text<W> {
         }
     }
 
-    /// A line that is no block, with the states.
+    /// Writes a line that is not a block, with the states.
     fn state_line(&mut self, label: &str, state: StateView<'_>) {
         let mut line = TextLine::new(&mut self.output.bytes, self.options.look.paint);
         line.go_to(GUTTER);
@@ -200,7 +200,7 @@ impl<W: Write> Text<W> {
         }
     }
 
-    /// Takes over the version of the state; says whether there are more axes than before.
+    /// Takes over the version of the state; returns whether there are more axes than before.
     fn take_version(&mut self, state: StateView<'_>) -> bool {
         if self.version == Some(state.version) {
             return false;
@@ -243,7 +243,7 @@ impl<W: Write> Text<W> {
         }
     }
 
-    /// Says that the blocks that follow are in another file.
+    /// Announces that the next blocks are in another file.
     fn announce(&mut self, file: &str) {
         file.clone_into(&mut self.file);
         let mut line = self.line();
@@ -273,7 +273,7 @@ impl<W: Write> Text<W> {
         }
     }
 
-    /// Says which states are possible where ways differ (R14.2).
+    /// Prints the states that are possible because ways differ (R14.2).
     fn possible(&mut self, state: StateView<'_>, saying: Saying) {
         if state.possible.is_empty() {
             return self.possible.clear();

@@ -1,4 +1,4 @@
-//! The end of the timeline: what happened to each axis and what is left to do.
+//! The end of the timeline: the changes of each axis and what is left to do.
 
 use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
@@ -15,7 +15,7 @@ use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summ
 
 use super::line::{BOLD, DIM, Paragraph, TextLine, style};
 
-/// Columns that what changed an axis must have beside its states, or it stands below them.
+/// Minimum width of the blocks that changed an axis next to its states; otherwise they go below them.
 const CHANGED_BY: usize = 24;
 
 /// Columns of `changed by `.
@@ -24,7 +24,7 @@ const CHANGED: usize = 11;
 /// Columns of a state in the summary.
 const STATE: usize = 14;
 
-/// Appends the summary of a session whose last program ended so.
+/// Appends the summary of a session, with the end of its last program.
 pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
     let counts = format!(
         "Summary  {}, {}, {}, {}",
@@ -84,7 +84,7 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     }
 }
 
-/// How a file is named.
+/// The form of a file name.
 #[derive(Clone, Copy)]
 enum Files {
     /// As the user named it.
@@ -93,8 +93,8 @@ enum Files {
     Name,
 }
 
-/// The blocks that changed an axis, as many as have room; without the folders of their files if
-/// that needs too much.
+/// The blocks that changed an axis, as many as fit; without the folders of their files if that takes
+/// too much room.
 fn changed_by(axis: &AxisSummary, room: usize) -> String {
     let whole = named_blocks(axis, room, Files::Path);
     if whole.width() <= room {

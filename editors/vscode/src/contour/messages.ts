@@ -1,4 +1,4 @@
-/** What the extension and the page of the contour tell each other. */
+/** The messages between the extension and the page of the contour. */
 import type { Contour } from "../protocol";
 
 export type ToPage =

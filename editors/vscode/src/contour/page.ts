@@ -1,4 +1,4 @@
-/** The page of the contour: the picture, the block of the cursor on it, and what was measured. */
+/** The page of the contour: the picture, the block of the cursor on it, and the figures. */
 import type { Contour, Stretch } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
 import { find, nearest, type Place } from "./places";
@@ -38,7 +38,7 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
   }
 });
 
-/** What is shown belongs to an older text until the new contour is there. */
+/** The view belongs to an older text until the new contour arrives. */
 function drive(name: string): void {
   const text = `The path of ${name} is driven…`;
   const state = document.getElementById("here");
@@ -127,7 +127,7 @@ function worst(shown: Contour): HTMLElement {
   return list;
 }
 
-/** Marks what the line of the cursor drives. */
+/** Marks what the cursor line drives. */
 function follow(file: number, at: number): void {
   const here = document.getElementById("here");
   if (contour === undefined || here === null) {
@@ -142,7 +142,7 @@ function follow(file: number, at: number): void {
     here.textContent = `Line ${number} drives what is marked${times}.`;
   } else if (above) {
     const where = (above.line + 1).toString();
-    here.textContent = `Line ${number} has no stretch of its own here; the ring is where that of line ${where} ends.`;
+    here.textContent = `Line ${number} has no stretch here; the ring marks the end of line ${where}.`;
   } else {
     here.textContent = `Nothing up to line ${number} has a stretch here.`;
   }

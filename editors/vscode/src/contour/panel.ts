@@ -1,4 +1,4 @@
-/** The contour of the program in the editor, beside it: it follows the cursor, and leads to blocks. */
+/** The contour of the program, next to the editor: it follows the cursor, and leads to blocks. */
 import * as path from "node:path";
 import * as vscode from "vscode";
 import { pageShell } from "../pageShell";
@@ -9,7 +9,7 @@ import type { FromPage, ToPage } from "./messages";
 /** How long the panel waits after the last change before it asks again, in ms. */
 const SETTLE = 400;
 
-/** A contour, or why there is none; nothing where nobody waits for it any more. */
+/** A contour, or why there is none; nothing if it is no longer wanted. */
 export type ContourAnswer = { contour: Contour } | { reason: string } | undefined;
 export type AskContour = (uri: vscode.Uri, stop: vscode.CancellationToken) => Promise<ContourAnswer>;
 
@@ -49,7 +49,7 @@ export class ContourPanel implements vscode.Disposable {
     ];
   }
 
-  /** Shows the contour of a program beside its text. */
+  /** Shows the contour of a program next to its text. */
   open(program: vscode.Uri): void {
     this.program = program;
     if (this.panel) {
@@ -100,7 +100,7 @@ export class ContourPanel implements vscode.Disposable {
     return panel;
   }
 
-  /** Another program is looked at: where the picture has it, its cursor is followed. */
+  /** Another program became active: if the picture contains it, its cursor is followed. */
   private meet(editor: vscode.TextEditor): void {
     if (this.shows(editor.document.uri)) {
       this.sendCursor(editor);

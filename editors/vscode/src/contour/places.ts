@@ -3,11 +3,11 @@ import type { Stretch } from "../protocol";
 
 export type Place = readonly [number, number];
 
-/** Where a line of a file is in the picture. */
+/** The place of a line of a file in the picture. */
 export interface Found {
-  /** What the line drives; none where it has no stretch of its own. */
+  /** The stretches that the line drives; none if it has no stretch. */
   own: Stretch[];
-  /** The line above it that the picture has, where it has no stretch of its own. */
+  /** The nearest line above it in the picture, if it has no stretch. */
   above: Stretch | undefined;
 }
 
@@ -23,7 +23,7 @@ export function find(stretches: readonly Stretch[], file: number, line: number):
   return { own, above };
 }
 
-/** The stretch that is nearest to a place, where it is not farther than `reach`. */
+/** The stretch nearest to a place, if it is not farther than `reach`. */
 export function nearest(stretches: readonly Stretch[], place: Place, reach: number): Stretch | undefined {
   let best: Stretch | undefined;
   let least = reach;
@@ -39,7 +39,7 @@ export function nearest(stretches: readonly Stretch[], place: Place, reach: numb
   return best;
 }
 
-/** How far a place is from a straight line between two points. */
+/** The distance of a place from a straight line between two points. */
 function distance([x, y]: Place, [fromX, fromY]: Place, [toX, toY]: Place): number {
   const along: Place = [toX - fromX, toY - fromY];
   const length = along[0] ** 2 + along[1] ** 2;

@@ -1,4 +1,4 @@
-/** What drives a contour: for the language server, and for the command line. */
+/** The settings that drive a contour: for the language server, and for the command line. */
 import * as vscode from "vscode";
 
 export interface ContourSettings {

@@ -2,7 +2,7 @@
 import type { State, Timeline } from "../protocol";
 import { inWords } from "../statusText";
 
-/** What a bar is drawn as. */
+/** The data that a bar is drawn from. */
 export type Look = State | "several";
 
 export interface Bar {
@@ -12,7 +12,7 @@ export interface Bar {
   /** First and last line of the bar, as the editor numbers them. */
   first: number;
   last: number;
-  /** Where it stands, in parts of the height. */
+  /** Its place, as fractions of the height. */
   top: number;
   height: number;
 }

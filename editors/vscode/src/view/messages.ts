@@ -1,4 +1,4 @@
-/** What the extension and the page of the timeline view tell each other. */
+/** The messages between the extension and the page of the timeline view. */
 import type { Timeline } from "../protocol";
 
 export type ToPage =

@@ -1,4 +1,4 @@
-/** The page of the timeline view: one column of bars an axis, and a marker at the line of the cursor. */
+/** The page of the timeline view: one column of bars for each axis, and a marker at the line of the cursor. */
 import { columns, lineAt, type Column } from "./bars";
 import type { Timeline } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
@@ -45,7 +45,7 @@ function draw(name: string, timeline: Timeline): void {
       part.title = `${axis} ${bar.words}, ${where}`;
       part.setAttribute("aria-label", part.title);
       part.addEventListener("click", (event) => {
-        // The keyboard has no place within the bar: it leads to its first line.
+        // The keyboard has no position within the bar: it leads to its first line.
         const line = event.detail === 0 ? bar.first - 1 : lineBelow(event, track);
         host.postMessage({ kind: "goto", line });
       });

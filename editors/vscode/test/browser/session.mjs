@@ -1,5 +1,5 @@
 // One session with the extension in VS Code, in a browser, as a user would have it: the demo program,
-// its problems, a hover, a quick fix, the compensation view, a report, the contour. Once alone, and once beside an
+// its problems, a hover, a quick fix, the compensation view, a report, the contour. Once alone, and once with an
 // extension that declares the languages that ISG's extension declares, or ISG's own, whose built folder
 // ISG_EXTENSION names.
 import assert from "node:assert/strict";
@@ -58,7 +58,7 @@ function prepare() {
   theme(THEMES[0]);
 }
 
-/** ISG's extension, or one that declares what ISG's does, and nothing else. */
+/** ISG's extension, or one that only declares what ISG's does. */
 function standIn() {
   const folder = path.join(extensions, "isg-cnc.vscode-isg-cnc-1.3.0");
   if (ISG_EXTENSION) {
@@ -182,7 +182,7 @@ async function session(page) {
   await type(page);
 }
 
-/** The question comes late on a busy machine, and is always asked: it is no setting of a workspace. */
+/** The question comes late on a busy machine, and is always asked, since it is not a workspace setting. */
 async function trust(page) {
   await page.getByRole("button", { name: /Yes, I trust/ }).click();
 }
@@ -213,11 +213,11 @@ async function fix(page) {
   await page.keyboard.press("End");
   await page.keyboard.press("Home");
   await page.keyboard.press("Control+ArrowRight");
-  // Into the range of the message: beside it the answer depends on how soon markers are there.
+  // Into the range of the message: outside it, the answer depends on how soon markers are there.
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("Control+Period");
-  // The first action is chosen already.
+  // The first action is already selected.
   await page.locator(".action-widget .monaco-list-row.focused").filter({ hasText: "COMP ON FRICT" }).waitFor();
   await page.keyboard.press("Enter");
 }
@@ -249,7 +249,7 @@ async function contour(page) {
   const here = shown.locator("#here");
   await shown.locator("svg.fc-picture").waitFor();
   await shown.getByText("the preset `stiff`").waitFor();
-  const leftOut = shown.getByText("where X, Y, Z stand at the start is not known");
+  const leftOut = shown.getByText("unknown start positions of X, Y, Z");
   await leftOut.waitFor();
 
   settings({ "frictcomp.contour.start": { X: 0, Y: 0, Z: 10 } });
@@ -291,14 +291,14 @@ async function contour(page) {
   await shot(page, "contour-refused");
 }
 
-/** Enter after a word that begins as another one of the text is a line break (R12.11). */
+/** Enter after a word that begins like another one in the text is a line break (R12.11). */
 async function type(page) {
   await open(page, "typed.nc");
   await page.locator(".editor-instance .monaco-editor.focused").waitFor();
   const lines = ["N10 G01 X10 Y20 F1000 M30", "N20 X1", "N30 F100", "N40 M3", "X", "N50 M4", ""];
   for (const line of lines.slice(0, -1)) {
     await page.keyboard.type(line);
-    // What an editor offers comes some time after the word.
+    // The suggestions of an editor appear some time after the word.
     await page.waitForTimeout(1000);
     await page.keyboard.press("Enter");
   }

@@ -55,7 +55,7 @@ test("what is offered is not taken for Enter", () => {
     expect(defaults[language]["editor.suggest.selectionMode"]).toBe("never");
     expect(defaults[language]["editor.wordBasedSuggestions"]).toBe("off");
   }
-  // What ISG's extension offers is chosen as it was, but not after a blank of ours.
+  // Suggestions of ISG's extension are selected as before, but not after a blank of ours.
   expect(defaults["[isg-cnc]"]["editor.suggest.selectionMode"]).toBe("whenQuickSuggestion");
   expect(defaults["[isg-cnc]"]["editor.wordBasedSuggestions"]).toBe("off");
 });

@@ -1,4 +1,4 @@
-//! The recorded circles of a plan that can be used.
+//! The usable recorded circles of a plan.
 
 use frictcomp_recordings::commission::{
     CirclesFound, Measurement, Plan, RecordingOutcome, RecordingResult,
@@ -25,7 +25,7 @@ pub(super) struct RoundCircles<'a> {
 }
 
 impl<'a> RoundCircles<'a> {
-    /// The list of each axis, in the order of the plan.
+    /// Returns the list of each axis, in the order of the plan.
     pub(super) fn lists(&self) -> [Option<&'a ValueListUsed>; 2] {
         [0, 1].map(|at| {
             let name = &self.plan.plan.axes.get(at)?.name;
@@ -33,13 +33,13 @@ impl<'a> RoundCircles<'a> {
         })
     }
 
-    /// The SHA-256 of the list of each axis.
+    /// Returns the SHA-256 of the list of each axis.
     pub(super) fn shas(&self) -> [Option<&'a str>; 2] {
         self.lists().map(|it| it.map(|it| it.sha256.as_str()))
     }
 }
 
-/// The circles of a plan that can be used; of several recordings of a program the one next to its feed counts, of
+/// Returns the usable circles of a plan; of several recordings of a program the one closest to its feed counts, of
 /// those within 2 % the last one.
 pub(super) fn driven_in<'a>(plan: &'a PlanFile, results: &'a [RecordingResult]) -> Vec<Driven<'a>> {
     let programs = plan.plan.programs.iter();
@@ -67,12 +67,12 @@ pub(super) fn driven_in<'a>(plan: &'a PlanFile, results: &'a [RecordingResult]) 
     each.collect()
 }
 
-/// Whether a feed is one of others.
+/// Whether a feed equals one of others.
 pub(super) fn has(feeds: &[f64], feed: f64) -> bool {
     feeds.iter().any(|it| it.total_cmp(&feed).is_eq())
 }
 
-/// The feeds that were driven alike off and in a round, slowest first.
+/// Returns the feeds that were driven alike off and in a round, slowest first.
 pub(super) fn common_feeds(off: &[Driven<'_>], round: &RoundCircles<'_>) -> Vec<f64> {
     let is_on = |off: &CirclesFound| {
         let mut on = round.circles.iter();

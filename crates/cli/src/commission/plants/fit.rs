@@ -14,7 +14,7 @@ use frictcomp_physics::simulation::Plant;
 use frictcomp_recordings::commission::{PlantAxis, PlantFound, held_out};
 
 impl Fitting<'_> {
-    /// The plant of rounds: as an earlier run found it, or fitted now.
+    /// Returns the plant of rounds: as found by an earlier run, or fitted now.
     pub(super) fn fitted(
         &self,
         (axes, feeds): (&[FittedAxis<'_>], &[f64]),
@@ -61,7 +61,7 @@ impl Fitting<'_> {
         Ok(found)
     }
 
-    /// The SHA-256 of all that a plant is fitted to.
+    /// Returns the SHA-256 of everything to which a plant is fitted.
     fn key(
         &self,
         axes: &[FittedAxis<'_>],
@@ -79,7 +79,7 @@ impl Fitting<'_> {
         sha256_of_text(&format!("{reading} {frictions:?} {off:?} {on:?}"))
     }
 
-    /// The recorded reversals of each axis at the feeds of the fit.
+    /// Returns the recorded reversals of each axis at the feeds of the fit.
     fn observed(
         &self,
         feeds: &[f64],
@@ -117,7 +117,7 @@ impl Fitting<'_> {
         Ok(observed)
     }
 
-    /// The text of the plant file.
+    /// Returns the text of the plant file.
     fn text(&self, fitted: &[FittedDrive], (round, key): (usize, &str)) -> Result<String, Failure> {
         let [x, y] = fitted else {
             return Err(Failure::new("a plant has two axes"));
@@ -133,7 +133,7 @@ impl Fitting<'_> {
         ]))
     }
 
-    /// Writes the plant file, under a name that its content decides.
+    /// Writes the plant file, under a name derived from its content.
     fn write_plant(&self, found: &PlantFound, outputs: &mut Outputs) -> Result<(), Failure> {
         let folder = self.args.folder.join("plants");
         let sum = found.key.get(..8).unwrap_or(&found.key);
@@ -148,7 +148,7 @@ impl Fitting<'_> {
     }
 }
 
-/// The fitted plant.
+/// Returns the fitted plant.
 pub(super) fn plant_of(found: &PlantFound) -> Result<Plant, Failure> {
     let source = SourceFile::new("fitted".to_owned(), found.toml.clone());
     Plant::from_toml(source).map_err(|error| {

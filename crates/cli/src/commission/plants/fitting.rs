@@ -1,4 +1,4 @@
-//! All from which plants are fitted.
+//! The inputs for fitting plants.
 
 use std::path::PathBuf;
 
@@ -16,10 +16,10 @@ use frictcomp_recordings::commission::{
 };
 use frictcomp_report::commission::{PlanFile, ValueListUsed};
 
-/// All from which plants are fitted.
+/// The inputs for fitting plants.
 pub(in crate::commission) struct Fitting<'a> {
     pub(in crate::commission) args: &'a CommissionRunArgs,
-    /// The plant as it is known before.
+    /// The previously known plant.
     pub(in crate::commission) base: &'a Plant,
     pub(in crate::commission) plans: &'a [PlanFile],
     pub(in crate::commission) results: &'a [RecordingResult],
@@ -28,11 +28,11 @@ pub(in crate::commission) struct Fitting<'a> {
     pub(in crate::commission) registry: &'a FileRegistry,
 }
 
-/// Why there is no plant.
+/// Why no plant was found.
 pub(super) enum NoPlant {
-    /// The recordings or the lists make none; all else goes on.
+    /// The recordings or the lists do not yield one; everything else continues.
     Lacking(String),
-    /// The command cannot go on.
+    /// The command cannot continue.
     Failed(Failure),
 }
 
@@ -58,7 +58,7 @@ pub(super) struct FittedAxis<'a> {
 }
 
 impl Fitting<'_> {
-    /// Both axes of the circles with their measured friction, or the reason against a plant.
+    /// Returns both axes of the circles with their measured friction, or the reason against a plant.
     pub(super) fn axes(&self) -> Result<Vec<FittedAxis<'_>>, String> {
         let first = self.plans.iter().find(|it| it.plan.stage == Stage::Off);
         let Some([x, y]) = first.map(|it| &it.plan.axes[..]) else {
@@ -77,7 +77,7 @@ impl Fitting<'_> {
                 source.ok_or_else(|| format!("the friction of {} is not known", axis.name))?;
             let fit = friction.fit.as_ref().ok_or_else(|| {
                 format!(
-                    "the friction of {} is no curve of Coulomb, Stribeck and viscous friction",
+                    "the friction of {} is not a curve of Coulomb, Stribeck and viscous friction",
                     axis.name
                 )
             })?;
@@ -95,7 +95,7 @@ impl Fitting<'_> {
         .collect()
     }
 
-    /// A circle as it was driven.
+    /// Returns a circle as it was driven.
     pub(super) fn circle(&self, driven: &Driven<'_>) -> Result<Circle, Failure> {
         Ok(Circle {
             radius_mm: driven.radius,
@@ -104,13 +104,13 @@ impl Fitting<'_> {
         })
     }
 
-    /// A list as it was recorded.
+    /// Returns a list as it was recorded.
     pub(super) fn list(&self, used: &ValueListUsed) -> Result<FrictionList, NoPlant> {
         Ok(value_list(&recorded_list(used)?, self.registry)?)
     }
 }
 
-/// The file of a list, if it is still the one that was recorded.
+/// Returns the file of a list, if it is still the recorded one.
 pub(super) fn recorded_list(used: &ValueListUsed) -> Result<PathBuf, NoPlant> {
     let path = PathBuf::from(&used.file);
     if path.exists() && sha256_of(&path).map_err(Failure::from)? == used.sha256 {

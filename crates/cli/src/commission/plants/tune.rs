@@ -1,4 +1,4 @@
-//! What fitted plants predict, and the lists that are tuned on them.
+//! The predictions of fitted plants, and the lists that are tuned on them.
 
 use std::path::PathBuf;
 
@@ -18,11 +18,11 @@ use frictcomp_recordings::commission::{MOST_CURRENT, PlantFound, PredictedGlitch
 use frictcomp_report::commission::ValueListUsed;
 use frictcomp_report::value_lists::{TunedFrom, render_tuned_on_plant};
 
-/// The circles that were recorded off, and the feeds that were recorded off and on.
+/// The circles recorded off, and the feeds recorded both off and on.
 pub(super) type RecordedFeeds<'a> = (&'a [Driven<'a>], &'a [f64]);
 
 impl Fitting<'_> {
-    /// Adds the glitches that are predicted at recorded feeds with the lists of both axes, or without.
+    /// Adds the predicted glitches at recorded feeds with the lists of both axes, or without.
     pub(super) fn predict(
         &self,
         found: &mut PlantFound,
@@ -42,7 +42,7 @@ impl Fitting<'_> {
         Ok(())
     }
 
-    /// Adds the glitches that are predicted for an axis, and returns the largest one in µm.
+    /// Adds the predicted glitches of an axis, and returns the largest one in µm.
     fn predict_axis(
         &self,
         found: &mut PlantFound,
@@ -108,7 +108,7 @@ impl Fitting<'_> {
             let strongest = axis.friction.strongest(&list);
             if let Some((speed, part)) = strongest.filter(|it| it.1 > MOST_CURRENT) {
                 against.push(format!(
-                    "at {speed:.3} mm/s it adds {part:.2} times the measured friction; {MOST_CURRENT} are the most"
+                    "at {speed:.3} mm/s it adds {part:.2} times the measured friction; the limit is {MOST_CURRENT}"
                 ));
             }
             found.lists.push(TunedList {
@@ -123,7 +123,7 @@ impl Fitting<'_> {
         Ok(())
     }
 
-    /// Whether the lists of a plant are there, tuned with the same options.
+    /// Whether the lists of a plant exist, tuned with the same options.
     fn has_lists(&self, found: &PlantFound) -> bool {
         let is_there = |it: &TunedList| {
             let text = read_text(&PathBuf::from(&it.file));
@@ -133,7 +133,7 @@ impl Fitting<'_> {
         !found.lists.is_empty() && found.lists.iter().all(is_there)
     }
 
-    /// The options that decide how lists are tuned.
+    /// Returns the options that affect how lists are tuned.
     fn tuned_with(&self) -> String {
         format!("{:?} {:?}", self.shaping(), self.args.cnc_build)
     }
@@ -146,7 +146,7 @@ impl Fitting<'_> {
         }
     }
 
-    /// The circles of the fit on the fitted plant.
+    /// Returns the tuning task for the circles of the fit on the fitted plant.
     fn task(&self, found: &PlantFound, off: &[Driven<'_>]) -> Result<Task, Failure> {
         let fitted = |it: &&Driven<'_>| has(&found.fitted_feeds, it.circles.feed);
         let circles = off.iter().filter(fitted).map(|it| self.circle(it));

@@ -1,4 +1,4 @@
-//! The plant of each round, and what the recordings say about it.
+//! The plant of each round, and what the recordings show about it.
 
 use super::circles::{Driven, RoundCircles, common_feeds, driven_in, has};
 use super::fitting::{FittedAxis, Fitting, NoPlant, recorded_list};
@@ -13,8 +13,8 @@ use frictcomp_report::commission::{PlantVerdict, Plants};
 use frictcomp_report::value_lists::tuned_on;
 
 impl Fitting<'_> {
-    /// A plant for each round whose circles are recorded, from those of all rounds up to it, and lists that are
-    /// tuned on the last one.
+    /// Returns a plant for each round whose circles are recorded, fitted to those of all rounds up to it, and lists
+    /// that are tuned on the last one.
     pub(in crate::commission) fn plants(&self, outputs: &mut Outputs) -> Result<Plants, Failure> {
         let [off, on] = [Stage::Off, Stage::On].map(|stage| self.driven(stage));
         let mut plants = Plants::default();
@@ -43,7 +43,7 @@ impl Fitting<'_> {
         Ok(plants)
     }
 
-    /// The plant of the last one of some rounds, judged by them and by later ones whose lists were tuned on it.
+    /// Returns the plant of the last one of some rounds, judged by them and by later ones whose lists were tuned on it.
     fn plant_of_round(
         &self,
         axes: &[FittedAxis<'_>],
@@ -92,7 +92,7 @@ impl Fitting<'_> {
         })
     }
 
-    /// The usable circles of each plan of a stage.
+    /// Returns the usable circles of each plan of a stage.
     fn driven(&self, stage: Stage) -> Vec<RoundCircles<'_>> {
         let plans = self.plans.iter().enumerate();
         let of_stage = plans.filter(|(_, it)| it.plan.stage == stage);
@@ -121,7 +121,7 @@ fn is_tuned_on(round: &RoundCircles<'_>, found: &PlantFound) -> Result<bool, NoP
     Ok(false)
 }
 
-/// The recorded glitches of each axis at feeds.
+/// Returns the recorded glitches of each axis at feeds.
 fn glitches(
     axes: &[FittedAxis<'_>],
     circles: &[Driven<'_>],

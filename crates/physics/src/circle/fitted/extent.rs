@@ -1,4 +1,4 @@
-//! A value with the range in which it lies.
+//! A value with its range.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,15 +12,15 @@ pub struct Extent {
     pub low: f64,
     /// The upper end.
     pub high: f64,
-    /// Whether the value is where its search ends, so that it is no value of the machine.
+    /// Whether the value is at the end of its search range, so that it is not a value of the machine.
     pub at_bound: bool,
 }
 
-/// The ends of a range are within this factor where a value is determined.
+/// The ends of a range are within this factor if a value is determined.
 const DETERMINED: f64 = 1.4;
 
 impl Extent {
-    /// The range of a value and of others that are as good.
+    /// The range of a value and of others that fit as well.
     pub(super) fn over(value: f64, others: impl IntoIterator<Item = f64>) -> Self {
         let mut extent = Self {
             value,
@@ -35,7 +35,7 @@ impl Extent {
         extent
     }
 
-    /// The same, at least so wide to both sides.
+    /// Returns the range extended to at least this distance on both sides.
     pub(super) fn widened(self, least: f64) -> Self {
         Self {
             low: self.low.min(self.value - least),
@@ -44,7 +44,7 @@ impl Extent {
         }
     }
 
-    /// Whether the range is within a factor of 1.4; else only its lower end is known.
+    /// Whether the range is within a factor of 1.4; otherwise only its lower end is known.
     pub fn is_determined(&self) -> bool {
         self.high <= DETERMINED * self.low
     }

@@ -17,13 +17,13 @@ const SELECTIONS: usize = 400;
 /// The part of them beyond each end of a 95 % range.
 const BEYOND: usize = SELECTIONS / 40;
 
-/// The delay is never better known, in s (R16.3).
+/// The best accuracy of the delay, in s (R16.3).
 const DELAY_S: f64 = 0.5e-3;
 
-/// The friction is known no better than the shape of the measured curve, as a part.
+/// The best accuracy of the friction, as a part: that of the shape of the measured curve.
 const SHAPE: f64 = 0.02;
 
-/// The drive that fits the reversals, and how well its parameters are known.
+/// The drive that fits the reversals, with the accuracy of its parameters.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FittedDrive {
@@ -37,9 +37,9 @@ pub struct FittedDrive {
     pub coulomb: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
-    /// Time constant of the current loop, in which delays of the loop are, in s.
+    /// Time constant of the current loop, which includes delays of the loop, in s.
     pub delay_s: Extent,
-    /// The root mean square in µm that is left of the recorded deviations.
+    /// The root mean square of the recorded deviations that is left, in µm.
     pub left_um: f64,
     /// Number of reversals.
     pub reversals: usize,
@@ -106,7 +106,7 @@ impl DriveFit {
         })
     }
 
-    /// The contact from which the search begins, and the number of simulations that it took.
+    /// The contact from which the search starts, and the number of simulations needed.
     fn first(&self, model: FrictionModel) -> Result<(Unknowns, usize), CircleError> {
         let mut best = (f64::INFINITY, Unknowns::none());
         let mut simulations = 0;

@@ -1,4 +1,4 @@
-//! The glitch of an axis on a circle, as it is compared with a prediction.
+//! The glitch of an axis on a circle, for comparison with a prediction.
 
 use crate::circle::crossing::PlaneAxis;
 use crate::circle::recorded::RecordedCircle;
@@ -9,7 +9,7 @@ use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;
 
-/// The recorded glitch of an axis in µm: that of the mean of its reversals, each a mean over 8 ms; `None` where
+/// The recorded glitch of an axis in µm: that of the mean of its reversals, each a mean over 8 ms; `None` if
 /// the turns have no glitches or no times.
 pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<f64> {
     let reversals = turns

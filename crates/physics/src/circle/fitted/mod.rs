@@ -1,9 +1,9 @@
 //! The plant from recorded circles (R16.3).
 //!
-//! A [`DriveFit`] holds what an axis did at its reversals with compensation off and on. The unknowns of its
-//! drive are found by least squares over all reversals, each with an offset and a slope of its own. How well they
-//! are known is shown by other selections of the reversals, another friction model and another damping, never
-//! by the noise that is left.
+//! A [`DriveFit`] holds the motion of an axis at its reversals with compensation off and on. The unknowns of its
+//! drive are found by least squares over all reversals, each with a separate offset and slope. Their accuracy is
+//! determined by other selections of the reversals, another friction model and another damping, never by the
+//! residual noise.
 
 mod extent;
 mod fitted_drive;

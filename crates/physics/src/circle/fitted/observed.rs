@@ -11,7 +11,7 @@ use frictcomp::lists::FrictionList;
 /// An axis on a recorded circle, with compensation off or on.
 #[derive(Debug, Clone)]
 pub struct ObservedCircle {
-    /// The circle as it was driven.
+    /// The driven circle.
     pub circle: Circle,
     /// The list that was on.
     pub list: Option<FrictionList>,
@@ -19,13 +19,13 @@ pub struct ObservedCircle {
     pub(super) reversals: Vec<Waveform>,
 }
 
-/// An axis on recorded circles, and the drive that is assumed before they are looked at.
+/// An axis on recorded circles, and the drive that is assumed before they are evaluated.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct DriveFit {
     /// The axis.
     pub axis: PlaneAxis,
-    /// Mass, position loop and measured friction; the rest is where the search begins.
+    /// Mass, position loop and measured friction; the rest is where the search starts.
     pub drive: DriveParameters,
     /// Reading of the documents.
     pub reading: Reading,
@@ -34,7 +34,7 @@ pub struct DriveFit {
 }
 
 impl ObservedCircle {
-    /// The reversals of an axis on turns of one circle; `None` where it has no glitches.
+    /// The reversals of an axis on turns of one circle; `None` if it has no glitches.
     pub fn of(
         axis: PlaneAxis,
         (circle, list): (Circle, Option<FrictionList>),

@@ -12,13 +12,13 @@ use crate::simulation::FrictionModel;
 /// Samples of a waveform that count as one: each is a mean over as many.
 const ALIKE: f64 = 5.0;
 
-/// The least deviation that is expected to be left, in µm.
+/// The smallest deviation that is expected to remain, in µm.
 const LEAST_UM: f64 = 0.05;
 
-/// Steps at most.
+/// Maximum number of steps.
 const MOST_STEPS: usize = 15;
 
-/// A step ends the search where the squares fall by less than this part.
+/// A step ends the search if the squares fall by less than this part.
 const GAIN: f64 = 1e-3;
 
 /// Weight of the measured diagonal that keeps the first steps short, and its factor after a step.
@@ -26,7 +26,7 @@ const DAMPED: f64 = 1e-2;
 const LESS: f64 = 0.2;
 const MORE: f64 = 10.0;
 
-/// Trials to shorten a step.
+/// Number of trials to shorten a step.
 const SHORTENED: usize = 4;
 
 /// A friction model, and the unknowns that are not searched.
@@ -48,7 +48,7 @@ pub(super) struct SolvedUnknowns {
     pub(super) simulations: usize,
 }
 
-/// What is left of each reversal.
+/// The rest of each reversal.
 struct Left {
     of_each: Vec<Vec<f64>>,
     squares: f64,
@@ -62,7 +62,7 @@ impl Left {
 }
 
 impl DriveFit {
-    /// Returns the best unknowns of a setting, from first ones on.
+    /// Returns the best unknowns of a setting, starting from given ones.
     pub(super) fn solve(
         &self,
         setting: ModelSetting,
@@ -84,7 +84,7 @@ impl DriveFit {
                 };
                 let next = at.moved(step);
                 simulations += self.circles.len();
-                // A drive that is unstable is no better one.
+                // An unstable drive is not better.
                 let found = self.left(setting.model, next).ok();
                 let after = found
                     .as_ref()
@@ -151,7 +151,7 @@ impl DriveFit {
         })
     }
 
-    /// The equations of each reversal: by how much each unknown changes what is left there.
+    /// The equations of each reversal: the effect of each unknown on the rest there.
     fn equations(
         &self,
         model: FrictionModel,
@@ -177,14 +177,14 @@ impl DriveFit {
     }
 }
 
-/// The squares as parts of what is expected, with those of the unknowns.
+/// The squares relative to the expected ones, with those of the unknowns.
 fn cost(left: &Left, at: Unknowns, power: f64) -> f64 {
     let each = at.0.iter().zip(BEFORE);
     let before: f64 = each.map(|(it, deviation)| (it / deviation).powi(2)).sum();
     left.squares / power / ALIKE + before
 }
 
-/// The step to the least squares of a selection of reversals; unknowns are drawn to where they were expected.
+/// The step to the least squares of a selection of reversals; unknowns are drawn to their expected values.
 fn step(
     reversals: &[Normal<UNKNOWNS>],
     at: Unknowns,

@@ -1,11 +1,11 @@
-//! The unknowns of a drive, as the search counts them.
+//! The unknowns of a drive, in the form of the search.
 
 use crate::simulation::DriveParameters;
 
 /// The number of unknowns.
 pub(super) const UNKNOWNS: usize = 5;
 
-/// Unknowns against those of the first drive: the logarithms of the factors on the stiffness of the contact, on
+/// Unknowns relative to those of the first drive: the logarithms of the factors on the stiffness of the contact, on
 /// Kp, on the friction and on the damping of the contact, and the additional delay in ms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unknowns(pub(super) [f64; UNKNOWNS]);
@@ -16,7 +16,7 @@ pub(super) const FRICTION: usize = 2;
 pub(super) const DELAY: usize = 3;
 pub(super) const DAMPING: usize = 4;
 
-/// Standard deviation of each unknown before a circle is looked at; that of the friction is what
+/// Standard deviation of each unknown before a circle is evaluated; that of the friction is what
 /// `identify` leaves (R16.3).
 pub(super) const BEFORE: [f64; UNKNOWNS] = [2.0, 0.5, 0.05, 0.7, 0.7];
 
@@ -36,18 +36,18 @@ const NEXT_TO: f64 = 0.99;
 const LEAST_DELAY_S: f64 = 1e-4;
 
 impl Unknowns {
-    /// Those of the first drive.
+    /// The unknowns of the first drive.
     pub(super) fn none() -> Self {
         Self([0.0; UNKNOWNS])
     }
 
-    /// The same with another value of an unknown.
+    /// Replaces the value of an unknown.
     pub(super) fn with(mut self, at: usize, value: f64) -> Self {
         self.0[at] = value;
         self
     }
 
-    /// The same after a step, within the bounds.
+    /// Returns the unknowns after a step, within the bounds.
     pub(super) fn moved(self, step: [f64; UNKNOWNS]) -> Self {
         Self(std::array::from_fn(|at| {
             let step = step[at].clamp(-MOST[at], MOST[at]);
@@ -55,7 +55,7 @@ impl Unknowns {
         }))
     }
 
-    /// Whether an unknown is where its search ends, or next to it.
+    /// Whether an unknown is at the end of its search range, or next to it.
     pub(super) fn is_at_bound(self, at: usize) -> bool {
         self.0[at].abs() > NEXT_TO * BOUNDS[at]
     }

@@ -17,7 +17,7 @@ const DISTANCE: f64 = 5.0;
 /// Greatest change of `reversal_lookahead` in cycles.
 const LOOKAHEAD: f64 = 2.0;
 
-/// The outputs alone scale the table.
+/// A scaling factor with which only the outputs scale the table.
 const UNSCALED: i16 = 1000;
 
 /// Variables of the search: the outputs up to 1 mm/s, `delay_cycles`, `position_delay`,
@@ -70,7 +70,7 @@ impl Steps {
         let output = |at: usize| {
             let part = parts.get(at).map(|it| 1.0 + it);
             let wanted = part.map_or(self.outputs[at], |it| it * self.friction[at]);
-            // Rounding adds half a unit at most.
+            // Rounding adds at most half a unit.
             wanted.min(self.most * self.friction[at] - 0.5).max(0.0)
         };
         let table = INPUTS.iter().enumerate().map(|(at, &input)| TablePoint {

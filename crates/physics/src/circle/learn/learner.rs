@@ -17,22 +17,22 @@ use frictcomp::lists::{FrictionList, Points};
 /// Contacts that are tried against the recordings: from a quarter to four times as stiff.
 const CONTACTS: i32 = 8;
 
-/// Contacts between one and another twice as stiff.
+/// Number of contacts from one to another twice as stiff.
 const PER_OCTAVE: f64 = 4.0;
 
 /// The first step of the search, as a part of the largest.
 const STEP: f64 = 0.3;
 
-/// Generations of the search at most.
+/// Maximum number of generations of the search.
 const MOST: usize = 80;
 
 /// Generations without a gain after which the search ends.
 const IDLE: usize = 20;
 
-/// Least gain that counts, as a part.
+/// Smallest gain that counts, as a part.
 const GAIN: f64 = 0.002;
 
-/// Cost of the largest step, as a part of the glitch: what gains less is not worth it.
+/// Cost of the largest step, as a part of the glitch: a smaller gain is not worthwhile.
 const CHANGE: f64 = 0.1;
 
 /// An axis that learns, and the reference plant that gives the direction (R16.4).
@@ -46,7 +46,7 @@ pub struct Learner {
     pub model: FrictionModel,
     /// Reading of the documents.
     pub reading: Reading,
-    /// Between which values the parameters are searched.
+    /// The ranges in which the parameters are searched.
     pub ranges: Ranges,
     /// Form of the points of the lists.
     pub points: Points,
@@ -66,7 +66,7 @@ pub struct Proposal {
     pub contact: f64,
 }
 
-/// The best round, and what the plant makes of its list.
+/// The best round, and the simulation of its list.
 struct BestRound<'a> {
     circles: &'a [LearnedCircle],
     /// The mean of both recordings on each circle.
@@ -80,13 +80,13 @@ struct BestRound<'a> {
 /// A circle at a feed between two recorded ones.
 struct Between {
     circle: Circle,
-    /// How much higher the glitches in µm at both reversals were recorded than simulated on its two neighbours, as a
-    /// mean.
+    /// The mean amount by which the glitches in µm at both reversals were recorded higher than simulated on its two
+    /// neighbours.
     missed_um: [f64; 2],
 }
 
 impl Between {
-    /// The circles between those of a round, which stand the slowest first.
+    /// The circles between those of a round, which are sorted with the slowest first.
     fn all(
         circles: &[LearnedCircle],
         recorded: &[[Waveform; 2]],
@@ -115,13 +115,13 @@ impl Between {
 }
 
 impl Learner {
-    /// Returns the number of simulations of a proposal at most.
+    /// Returns the maximum number of simulations of a proposal.
     pub fn expected_trials(rounds: usize) -> usize {
         let contacts = usize::try_from(2 * CONTACTS + 1).unwrap_or_default();
         contacts * rounds + MOST * POINTS
     }
 
-    /// The next list after rounds; `None` where there is no round.
+    /// The next list after rounds; `None` if there are no rounds.
     ///
     /// # Errors
     /// A circle that cannot be simulated.
@@ -160,7 +160,7 @@ impl Learner {
         }))
     }
 
-    /// The stiffness of the contact with which the plant comes closest to all that was recorded, as a multiple.
+    /// The stiffness of the contact with which the plant is closest to all recordings, as a multiple.
     fn fitted_contact(
         &self,
         rounds: &[LearnedRound],
@@ -243,7 +243,7 @@ impl Learner {
                     idle = 0;
                 }
                 if cost < before {
-                    // Only what is recorded can show whether it comes true.
+                    // Only the recorded circles can show whether the prediction is correct.
                     let recorded = &heights.0[..2 * start.circles.len()];
                     best = Some((
                         cost,
@@ -261,8 +261,8 @@ impl Learner {
         Ok(found.unwrap_or_else(|| (vec![0.0; VARIABLES], f64::INFINITY)))
     }
 
-    /// The predicted heights with a list at both reversals of each circle: what was recorded with the best list,
-    /// and the difference that the plant makes between both. Those between the recorded feeds follow.
+    /// The predicted heights with a list at both reversals of each circle: the recorded ones with the best list,
+    /// plus the difference of the plant between both lists. Those between the recorded feeds follow.
     fn predicted(
         &self,
         drive: &DriveParameters,

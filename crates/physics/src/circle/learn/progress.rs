@@ -1,4 +1,4 @@
-//! The judgement of rounds by what was recorded.
+//! The judgement of rounds by their recordings.
 
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ pub struct RoundVerdict {
     /// The spread of both recordings.
     #[serde(rename = "spread")]
     pub spread_um: f64,
-    /// Whether it is better than the best before by more than the spread; the first one is.
+    /// Whether it is better than the best before by more than the spread; the first one always is.
     pub is_accepted: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct LearningProgress {
 }
 
 impl LearningProgress {
-    /// Judges rounds in their order: a round is accepted where it is better than the best by more than the
+    /// Judges rounds in their order: a round is accepted if it is better than the best by more than the
     /// larger spread of both, so that the list handed over is never worse than the first by more than that.
     pub fn of(rounds: &[LearnedRound]) -> Self {
         let mut progress = Self {
@@ -69,7 +69,7 @@ impl LearningProgress {
         progress
     }
 
-    /// Whether two rounds in succession gained nothing.
+    /// Whether two rounds in succession brought no gain.
     pub fn is_over(&self) -> bool {
         self.idle >= IDLE
     }

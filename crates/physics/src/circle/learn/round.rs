@@ -9,7 +9,7 @@ use crate::circle::waveform::Waveform;
 use crate::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::FrictionList;
 
-/// Both reversals of an axis on a circle: where it is largest, where it is smallest.
+/// Both reversals of an axis on a circle: at its largest and at its smallest position.
 type OppositeReversals = [Waveform; 2];
 
 /// One axis on one circle, recorded twice with the same list.
@@ -17,7 +17,7 @@ type OppositeReversals = [Waveform; 2];
 pub struct LearnedCircle {
     /// The commanded circle.
     pub circle: Circle,
-    /// What was recorded.
+    /// The recordings.
     pub recorded: RecordedTwice,
 }
 
@@ -57,7 +57,7 @@ impl TooMuchCurrent {
     /// # Errors
     /// The list adds more than `most` times the friction, or acts with it.
     pub fn check(list: &FrictionList, friction: &FrictionList, most: f64) -> Result<(), Self> {
-        /// A whole number is half a unit off, and so is the friction.
+        /// A whole number is off by half a unit, and so is the friction.
         const ROUNDED: f64 = 1.0;
         let inputs = list.table.iter().chain(&friction.table).map(|it| it.input);
         let parts = inputs.filter_map(|input| {
@@ -83,7 +83,7 @@ pub(super) fn output_at(list: &FrictionList, input: f64) -> f64 {
 }
 
 impl RecordedTwice {
-    /// The reversals of an axis in two recordings, each of them a turn in one direction or in each; `None` where
+    /// The reversals of an axis in two recordings, each of them a turn in one direction or in each; `None` if
     /// a circle has no glitches.
     pub fn of(axis: PlaneAxis, recordings: [&[&RecordedCircle]; 2]) -> Option<Self> {
         let [first, second] = recordings.map(|turns| reversals(axis, turns));

@@ -32,9 +32,9 @@ pub struct RecordedCircle {
     pub radius_mm: f64,
     /// Number of points of the evaluated turn.
     pub points: usize,
-    /// Duration of the turn, where the times are known.
+    /// Duration of the turn, if the times are known.
     pub turn_s: Option<f64>,
-    /// The longest time between two of its points, where the times are known.
+    /// The longest time between two of its points, if the times are known.
     pub widest_step_s: Option<f64>,
     /// The rest of the recording.
     pub left_out: LeftOut,
@@ -43,13 +43,13 @@ pub struct RecordedCircle {
     pub(super) turns_m: Vec<Vec<[f64; 2]>>,
 }
 
-/// The rest of a recording besides the evaluated turn.
+/// The rest of a recording without the evaluated turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct LeftOut {
     /// Rows that repeat the one before them, of the whole recording.
     pub repeated: usize,
-    /// Points before the path along the circle in this direction: the way to it, standstill, the
+    /// Points before the path along the circle in this direction: the approach, standstill, the
     /// other direction.
     pub before: usize,
     /// Points after that path.
@@ -66,7 +66,7 @@ impl RecordedCircle {
     /// depend on it.
     ///
     /// # Errors
-    /// Points that make no full circle.
+    /// The points do not make a full circle.
     pub fn find(
         trace: &RecordedTrace,
         commanded_mm: Option<f64>,
@@ -186,7 +186,7 @@ impl RecordedCircle {
         self
     }
 
-    /// The same circle, driven at a feed in mm/min.
+    /// Sets the feed in mm/min at which the circle was driven.
     pub(super) fn driven_at(mut self, feed: f64) -> Self {
         let turn_s = TAU * self.radius_mm / (feed / 60.0);
         self.turn_s = Some(turn_s);
@@ -194,7 +194,7 @@ impl RecordedCircle {
         self
     }
 
-    /// The feed in mm/min, where the times are known.
+    /// The feed in mm/min, if the times are known.
     pub fn feed_mm_per_min(&self) -> Option<f64> {
         Some(TAU * self.radius_mm / self.turn_s? * 60.0)
     }
@@ -234,7 +234,7 @@ fn refusal(fit: &FittedCircle, points: &[[f64; 2]], runs: &[PathRun]) -> Recorde
 }
 
 impl FittedCircle {
-    /// Refuses points around the circle that are too far from it to be one.
+    /// Refuses points around the circle that deviate too far from a circle.
     fn not_round(&self, points: &[[f64; 2]]) -> Option<RecordedError> {
         let outside = points.iter().map(|&point| self.outside(point));
         let [inner, outer] = outside.fold([f64::MAX, f64::MIN], |[inner, outer], it| {

@@ -1,4 +1,4 @@
-//! The turns on a circle among everything that was recorded (R5.26).
+//! The turns on a circle in a whole recording (R5.26).
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -7,17 +7,17 @@ use super::fit::FittedCircle;
 use super::limits::WIDEST_GAP_DEG;
 use crate::circle::direction::Direction;
 
-/// The way back after which a path is taken to have turned round, in radians: more than noise and
-/// standstill make.
+/// The distance back after which a path has turned round, in radians: more than noise and
+/// standstill cause.
 const TURNED_ROUND: f64 = 5.0 * TAU / 360.0;
 
-/// A turn may lack so much at its ends, in radians.
+/// Permitted part missing at the ends of a turn, in radians.
 const LACKING: f64 = TAU / 360.0;
 
-/// A turn that deviates so much more than the best one, as a part, is as good.
+/// A turn with at most this multiple of the smallest deviation is as good as the best one.
 const AS_GOOD: f64 = 1.05;
 
-/// The ends of a path that an axis may still speed up or slow down on, in radians.
+/// The ends of a path on which an axis may still speed up or slow down, in radians.
 const RUN_IN: f64 = TAU / 8.0;
 
 /// Deviations below this make no difference between turns, in mm.
@@ -126,7 +126,7 @@ impl PathRun {
         self.angles.iter().copied()
     }
 
-    /// The same of some of the points.
+    /// The angles of some of the points, in radians.
     pub(super) fn angles_of(&self, points: &Range<usize>) -> &[f64] {
         &self.angles[points.start - self.points.start..points.end - self.points.start]
     }
@@ -169,7 +169,7 @@ impl PathRun {
         let mut begin = RUN_IN;
         let mut turns = Vec::new();
         self.each_turn(|turn| {
-            // The last step ends where the room does, but for what sums round off.
+            // The last step ends where the room does, apart from rounding.
             if begin <= RUN_IN + room + step / 2.0 && self.angles[turn.start] >= begin {
                 begin += step;
                 turns.push(self.points.start + turn.start..self.points.start + turn.end);
@@ -203,7 +203,7 @@ impl PathRun {
         LACKING.max(self.step())
     }
 
-    /// The angle from the last point of a turn to its first one at most: that of a few points.
+    /// The largest angle from the last point of a turn to its first one: that of a few points.
     fn step(&self) -> f64 {
         const POINTS: f64 = 3.0;
         #[allow(clippy::cast_precision_loss)] // points of a file
@@ -211,7 +211,7 @@ impl PathRun {
         POINTS * mean
     }
 
-    /// The points after which too wide a gap follows.
+    /// The points followed by too wide a gap.
     fn holes(&self) -> Vec<usize> {
         let pairs = self.angles.windows(2).enumerate();
         let wide =
@@ -226,14 +226,14 @@ impl PathRun {
         ways.sum::<f64>().to_degrees()
     }
 
-    /// Whether there is a full turn, be it with gaps.
+    /// Whether there is a full turn, even with gaps.
     pub(super) fn is_full(&self) -> bool {
         self.covered() >= TAU - self.lacking()
     }
 }
 
-/// The fourth powers of the deviations along the way up to each point: what lies beside the circle
-/// costs by its length, however many points it has, and costs more than glitches do.
+/// The fourth powers of the deviations along the path up to each point: a part off the circle costs by its length,
+/// however many points it has, and costs more than glitches do.
 fn costs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut last: Option<([f64; 2], f64)> = None;

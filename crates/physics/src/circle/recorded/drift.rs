@@ -29,9 +29,9 @@ impl TurnPart {
     }
 }
 
-/// The shift between the first and the last turn of a run: what both have alike, such as glitches,
-/// backlash or a periodic error, falls out of it. `None` where there are no two turns, or where
-/// they do not show one.
+/// The shift between the first and the last turn of a run: what both have in common, such as glitches,
+/// backlash or a periodic error, cancels out. `None` if there are not two turns, or if
+/// they do not show a shift.
 pub(super) fn drift(run: &PathRun, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<CircleDrift> {
     let covered = run.covered();
     if covered < 2.0 * TAU - run.lacking() {

@@ -1,4 +1,4 @@
-//! Recordings that are no circle.
+//! Recordings that are not a circle.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
 use crate::circle::direction::Direction;
 use frictcomp::diagnostic::ReadableNumber;
 
-/// A recording that is no circle.
+/// A recording that is not a circle.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecordedError {
@@ -22,21 +22,21 @@ pub enum RecordedError {
          ({:.3}, {:.3}) mm; a full turn is needed", .centre_mm[0], .centre_mm[1]
     )]
     NotATurn {
-        /// The angle of the longest way along the circle.
+        /// The angle of the longest path along the circle.
         covered_deg: f64,
         /// The radius that was found.
         radius_mm: f64,
         /// The centre that was found.
         centre_mm: [f64; 2],
     },
-    /// A circle of which a part was not recorded.
+    /// A circle with a part that was not recorded.
     #[error(
         "points are missing: {0:.0}\u{b0} of the circle are in gaps of more than {WIDEST_GAP_DEG}\u{b0}"
     )]
     Gaps(f64),
     /// An egg.
     #[error(
-        "the path is no circle: it deviates by {deviation_mm:.3} mm from one of {radius_mm:.3} mm \
+        "the path is not a circle: it deviates by {deviation_mm:.3} mm from one of {radius_mm:.3} mm \
          around ({:.3}, {:.3}) mm, more than {MOST_MM} mm", .centre_mm[0], .centre_mm[1]
     )]
     NotRound {

@@ -6,7 +6,7 @@ use super::error::RecordedError;
 use super::limits::MOST_MM;
 use crate::circle::linear::Normal;
 
-/// Steps of the fit; it converges in a few.
+/// Number of steps of the fit; it converges in a few.
 const STEPS: usize = 12;
 
 /// A circle in mm.
@@ -17,7 +17,7 @@ pub(super) struct FittedCircle {
 }
 
 impl FittedCircle {
-    /// The circle through three points; `None` where they lie on a line.
+    /// The circle through three points; `None` if they are on a line.
     pub(super) fn through([first, second, third]: [[f64; 2]; 3]) -> Option<Self> {
         let from_first = |point: [f64; 2]| [point[0] - first[0], point[1] - first[1]];
         let square = |way: [f64; 2]| way[0] * way[0] + way[1] * way[1];
@@ -86,7 +86,7 @@ impl FittedCircle {
 
     /// Returns the permitted distance from this circle, in mm.
     pub(super) fn tolerance(&self) -> f64 {
-        /// A small circle is not allowed to be an egg.
+        /// A small circle must not be an egg.
         const PART: f64 = 0.05;
         MOST_MM.min(PART * self.radius)
     }

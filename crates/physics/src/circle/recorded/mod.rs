@@ -1,7 +1,7 @@
 //! Circles that were recorded on a machine: actual positions of two axes (R5.20, R5.26).
 //!
-//! A recording holds more than the circle: the way to it and from it, standstill, several turns,
-//! both directions. [`search`] finds the circle that most of the way lies on, whatever else there
+//! A recording holds more than the circle: the paths to it and from it, standstill, several turns,
+//! both directions. [`search`] finds the circle that most of the path lies on, whatever else there
 //! is; [`cut`] finds the turns on it, and [`circle`] evaluates one of them; [`turns`] compares it
 //! with the others.
 

@@ -19,12 +19,12 @@ pub struct Recording {
     pub side: Side,
 }
 
-/// Commanded values of recorded circles, where they are known.
+/// Commanded values of recorded circles, if they are known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CommandedCircle {
     /// The radius.
     pub radius_mm: Option<f64>,
-    /// The feed; without it that of the times of the recording.
+    /// The feed; without it, the feed from the times of the recording.
     pub feed_mm_per_min: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ impl Recording {
     /// Whether a number of recordings of such circles can be evaluated together.
     ///
     /// # Errors
-    /// More than two, or a radius or feed that no circle has.
+    /// There are more than two, or a radius or feed that no circle has.
     pub fn check(recordings: usize, commanded: CommandedCircle) -> Result<(), RecordedError> {
         if recordings > 2 {
             return Err(RecordedError::Count(recordings));

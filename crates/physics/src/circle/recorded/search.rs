@@ -1,30 +1,30 @@
-//! The circle that most of a recorded way lies on, whatever else was recorded (R5.26).
+//! The circle that most of a recorded path lies on, whatever else was recorded (R5.26).
 //!
-//! Circles through three points of the way are tried; the best has points all around it, and the
-//! most of them. What lies elsewhere does not take part. The way is looked at in equal steps, so
-//! that standstill and slow motion weigh no more than anything else.
+//! Circles through three points of the path are tried; the best has points all around it, and the
+//! most of them. Points elsewhere do not take part. The path is sampled in equal steps, so that
+//! standstill and slow motion have no more weight than anything else.
 
 use std::f64::consts::TAU;
 
 use super::error::RecordedError;
 use super::fit::FittedCircle;
 
-/// Steps of the way along the longer side of all points.
+/// Steps of the path along the longer side of all points.
 const STEPS: f64 = 1000.0;
 
-/// Points of the way that are compared with each circle, at most.
+/// Maximum number of points of the path that are compared with each circle.
 const COMPARED: usize = 1000;
 
 /// Circles that are tried with three points at each of the distances.
 const TRIES: usize = 64;
 
-/// Between the three points, in parts of the way.
+/// Distances between the three points, in parts of the path.
 const DISTANCES: [f64; 6] = [0.01, 0.021, 0.047, 0.09, 0.17, 0.31];
 
-/// A turn in parts, to see how much of it has points.
+/// Number of sectors of a turn, to determine how much of it has points.
 const SECTORS: usize = 72;
 
-/// The radius of a circle in the extent of all points: beyond it they lie on a line.
+/// The largest radius of a circle relative to the extent of all points: beyond it they are on a line.
 const FLATTEST: f64 = 10.0;
 
 /// Rounds in which the best circle is fitted to the points on it.
@@ -110,7 +110,7 @@ fn extent(points: &[[f64; 2]]) -> f64 {
     side(0).max(side(1))
 }
 
-/// The points at least so far from each other along the way.
+/// The points at least this far from each other along the path.
 fn steps_of(points: &[[f64; 2]], step: f64) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     for &point in points {

@@ -7,7 +7,7 @@ use std::ops::Range;
 pub struct RecordedTrace {
     /// X and Y.
     pub points_mm: Vec<[f64; 2]>,
-    /// The time of each point; empty where it is not known.
+    /// The time of each point; empty if it is not known.
     pub times_s: Vec<f64>,
 }
 
@@ -20,8 +20,8 @@ impl RecordedTrace {
         }
     }
 
-    /// The rows without those that repeat the one before: a recorder that is faster than the
-    /// control, or standstill.
+    /// The rows without those that repeat the one before: from a recorder that is faster than the
+    /// control, or from standstill.
     pub(super) fn without_repeats(&self) -> Self {
         let mut kept = Self::default();
         for (at, &point) in self.points_mm.iter().enumerate() {
@@ -33,13 +33,13 @@ impl RecordedTrace {
         kept
     }
 
-    /// The time from one point to another, where it is known and passes.
+    /// The time from one point to another, if it is known and positive.
     pub(super) fn duration_s(&self, from: usize, to: usize) -> Option<f64> {
         let duration = self.times_s.get(to)? - self.times_s.get(from)?;
         (duration.is_finite() && duration > 0.0).then_some(duration)
     }
 
-    /// The longest time between two of some points, where it is known.
+    /// The longest time between two of some points, if it is known.
     pub(super) fn widest_step_s(&self, points: &Range<usize>) -> Option<f64> {
         let times = self.times_s.get(points.clone())?;
         let steps = times.windows(2).map(|pair| pair[1] - pair[0]);

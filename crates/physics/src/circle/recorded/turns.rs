@@ -1,4 +1,4 @@
-//! The whole turns of a recorded circle beside the evaluated one (R5.26).
+//! The whole turns of a recorded circle in addition to the evaluated one (R5.26).
 
 use std::fmt;
 
@@ -11,10 +11,10 @@ use crate::circle::direction::Direction;
 use crate::circle::profile::{Gatherer, RadialProfile};
 use crate::circle::waveform::Waveform;
 
-/// A turn is worse than another one from this part of its glitch on …
+/// Part of its glitch by which a turn has to be worse than another one …
 const WORSE: f64 = 0.25;
 
-/// … and from this on, in µm.
+/// … and the difference in µm.
 const WORSE_UM: f64 = 0.5;
 
 /// The whole turns of a recorded circle: at least two, without its first and last eighth of a turn.
@@ -23,7 +23,7 @@ const WORSE_UM: f64 = 0.5;
 pub struct WholeTurns {
     /// Their number.
     pub count: usize,
-    /// The one that leaves most, where one leaves more than the evaluated turn: by a quarter, by 0.5 µm and by
+    /// The one that leaves most, if one leaves more than the evaluated turn: by a quarter, by 0.5 µm and by
     /// the noise of a sample.
     pub worse: Option<WorseTurn>,
 }
@@ -55,8 +55,8 @@ impl fmt::Display for WorseTurn {
 }
 
 impl RecordedCircle {
-    /// Compares the whole turns with the evaluated one, as means over 8 ms at each crossing. `None` where there
-    /// are no two, or no glitches and times to compare.
+    /// Compares the whole turns with the evaluated one, as means over 8 ms at each crossing. `None` if there
+    /// are not two, or no glitches and times to compare.
     pub fn whole_turns(&self) -> Option<WholeTurns> {
         let noise_um = self.profile.quality().map_or(0.0, |it| it.noise_um);
         let evaluated = heights_um(&self.profile, self.direction)?;
@@ -86,7 +86,7 @@ impl RecordedCircle {
         (count > 1).then_some(WholeTurns { count, worse })
     }
 
-    /// The glitches of a turn in µm; `None` where it has gaps.
+    /// The glitches of a turn in µm; `None` if it has gaps.
     fn of_turn(&self, points: &[[f64; 2]]) -> Option<[f64; 4]> {
         let mut gatherer = Gatherer::new(self.radius_mm / 1000.0, WIDEST_GAP_DEG);
         for [x, y] in points {

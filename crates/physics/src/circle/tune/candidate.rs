@@ -30,13 +30,13 @@ impl Candidate {
         }
     }
 
-    /// The value list with the friction curve of a drive and these parameters, its points as they
-    /// are written.
+    /// The value list with the friction curve of a drive and these parameters, its points in their written
+    /// form.
     pub fn list(self, drive: &DriveParameters, points: Points) -> FrictionList {
         self.with_table(&plant_list(drive), points)
     }
 
-    /// A list with these parameters, its points as they are written.
+    /// A list with these parameters, its points in their written form.
     pub(in crate::circle) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
         FrictionList {
             position_delay: self.position_delay,

@@ -37,7 +37,7 @@ pub(super) enum Deviating {
     DoubleStiff,
     /// 10 % more friction forwards, 10 % less backwards.
     Forwards,
-    /// The other way round.
+    /// The opposite.
     Backwards,
 }
 
@@ -50,7 +50,7 @@ impl Deviating {
         Self::Backwards,
     ];
 
-    /// The drive that deviates from `drive` so.
+    /// Returns the drive that deviates from `drive` in this way.
     pub(super) fn of(self, drive: &DriveParameters) -> DriveParameters {
         match self {
             Self::Nothing => drive.clone(),
@@ -75,19 +75,19 @@ pub struct RemainingGlitch {
     /// With it, at the worst of four places of the reversal within its CNC cycle.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With it, the contact being half as stiff.
+    /// With it, and a contact half as stiff.
     #[serde(rename = "glitch_stiffness_half")]
     pub glitch_half_stiff_um: f64,
-    /// With it, the contact being twice as stiff.
+    /// With it, and a contact twice as stiff.
     #[serde(rename = "glitch_stiffness_double")]
     pub glitch_double_stiff_um: f64,
-    /// With it, friction differing by ±10 % between the directions.
+    /// With it, and friction that differs by ±10 % between the directions.
     #[serde(rename = "glitch_uneven10")]
     pub glitch_uneven_um: f64,
 }
 
 impl RemainingGlitch {
-    /// Whether compensation makes it worse, by more than the place of the reversal within its cycle does.
+    /// Whether compensation makes it worse, by more than the place of the reversal in its cycle does.
     pub fn is_worse(&self) -> bool {
         const PLACE: f64 = 1.02;
         self.glitch_on_um > PLACE * self.glitch_off_um
@@ -140,7 +140,7 @@ impl Trial {
 }
 
 impl Task {
-    /// The circles that a search looks at: those of the task, and others between them.
+    /// The circles of a search: those of the task, and others between them.
     pub(super) fn searched(&self) -> Vec<Circle> {
         let sorted = self.by_acceleration();
         let mut searched = self.circles.clone();
@@ -186,13 +186,13 @@ impl Task {
         sorted
     }
 
-    /// Returns the number of reversals that [`check_reversal`](Self::check_reversal) knows for one
+    /// Returns the number of reversals that [`check_reversal`](Self::check_reversal) distinguishes for one
     /// circle.
     pub(super) fn reversals_of_a_check() -> usize {
         Trial::all().count()
     }
 
-    /// The glitch at one of the reversals of a check, with what compensates the axis.
+    /// The glitch at one of the reversals of a check, with the compensation of the axis.
     pub(super) fn check_reversal(
         &self,
         axis: PlaneAxis,

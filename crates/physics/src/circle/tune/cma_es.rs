@@ -1,9 +1,9 @@
-//! A search for the least value of a function of a dozen or two variables that is not smooth.
+//! A search for the minimum of a function of a dozen or two variables that is not smooth.
 //!
 //! Ros and Hansen, *A Simple Modification in CMA-ES Achieving Linear Time and Space Complexity*,
 //! PPSN X (2008): points are drawn around a mean, and mean, step and the spread along each variable
-//! follow the better half of them. A crate would bring its own linear algebra and generator of
-//! random numbers; these here give the same numbers everywhere and always.
+//! follow the better half of them. A crate would bring its own linear algebra and random number
+//! generator; these here give the same numbers everywhere and always.
 
 /// Points of a generation.
 pub(in crate::circle) const POINTS: usize = 12;
@@ -74,7 +74,7 @@ impl Rates {
 }
 
 impl CmaEs {
-    /// A search that begins around a point with a step; `seed` gives other random numbers.
+    /// Creates a search around a point with a first step; `seed` selects the random numbers.
     pub(in crate::circle) fn new(mean: Vec<f64>, step: f64, seed: u64) -> Self {
         let variables = mean.len();
         Self {
@@ -102,7 +102,7 @@ impl CmaEs {
         self.asked.clone()
     }
 
-    /// Takes the values of the points that were asked for, in their order.
+    /// Takes the values of the requested points, in their order.
     pub(in crate::circle) fn tell(&mut self, values: &[f64]) {
         let variables = real(self.mean.len());
         let rates = Rates::of(variables);
@@ -149,17 +149,17 @@ impl CmaEs {
     }
 }
 
-/// Random numbers that are the same each time.
+/// Reproducible random numbers.
 #[derive(Debug, Clone)]
 pub(in crate::circle) struct XorShift(u64);
 
 impl XorShift {
-    /// The numbers of a seed.
+    /// Creates the numbers of a seed.
     pub(in crate::circle) fn new(seed: u64) -> Self {
         Self(SEED ^ seed.wrapping_mul(0xd1b5_4a32_d192_ed03))
     }
 
-    /// Evenly from 0 to 1.
+    /// A uniformly distributed number from 0 to 1.
     pub(in crate::circle) fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -179,7 +179,7 @@ impl XorShift {
         number.min(count.saturating_sub(1))
     }
 
-    /// Normally with a variance of 1: as the sum of twelve.
+    /// A normally distributed number with a variance of 1: the sum of twelve.
     pub(in crate::circle) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }

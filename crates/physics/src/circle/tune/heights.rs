@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights(pub Vec<f64>);
 
-/// The exponent of the norm that stands for the largest glitch where a search needs a smooth value.
+/// The exponent of the norm that approximates the largest glitch if a search needs a smooth value.
 const SMOOTH: i32 = 16;
 
 impl Heights {
@@ -25,7 +25,7 @@ impl Heights {
         self.0.iter().sum::<f64>() / count
     }
 
-    /// A value between both that is close to the largest and falls with each of them.
+    /// A value between both that is close to the largest and decreases with each of them.
     pub(in crate::circle) fn smooth_um(&self) -> f64 {
         let worst = self.worst_um();
         if !worst.is_finite() || worst <= 0.0 {

@@ -2,9 +2,9 @@
 //! glitch (R5.25, R8.6).
 //!
 //! The friction curve of the plant is the table of a list. First four parameters are searched, then
-//! the shape of the table below 1 mm/s. The axes do not know of each other: each is tuned at a
-//! reversal by itself, and what counts in the end are whole circles. Nothing here knows of threads:
-//! who makes the [`Simulations`] makes them in any order.
+//! the shape of the table below 1 mm/s. The axes are independent: each is tuned at a single reversal, and
+//! the final result is judged on whole circles. Nothing here uses threads: an implementation of
+//! [`Simulations`] makes them in any order.
 
 mod candidate;
 mod check;

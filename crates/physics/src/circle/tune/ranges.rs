@@ -1,8 +1,8 @@
-//! Between which values parameters are searched.
+//! The ranges in which parameters are searched.
 
 use std::ops::RangeInclusive;
 
-/// Between which values parameters are searched.
+/// The ranges in which parameters are searched.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Ranges {
@@ -50,7 +50,7 @@ impl Default for Ranges {
 }
 
 impl Ranges {
-    /// The same with a parameter beyond its documented range.
+    /// Extends a parameter beyond its documented range.
     #[must_use]
     pub fn free(mut self, parameter: FreeParameter) -> Self {
         match parameter {

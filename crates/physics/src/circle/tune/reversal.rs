@@ -1,4 +1,4 @@
-//! One reversal of one axis by itself: what the search looks at in place of whole circles.
+//! A single reversal of one axis: evaluated by the search in place of whole circles.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -15,33 +15,33 @@ use frictcomp::lists::FrictionList;
 /// Half the least window of the glitch (R5.22), in radians.
 const WINDOW: f64 = 8.0 * PI / 180.0;
 
-/// So long before the window, at least, the drives begin, in s.
+/// Minimum time from the start of the drives to the window, in s.
 const SETTLING: f64 = 0.15;
 
-/// The window is not looked at farther from the reversal than this, in s. With the settling that
+/// Maximum time from the start of the window to the reversal, in s. With the settling that
 /// is 0.6 s in which the slow points of a list act before the reversal, too (R5.25).
 const BEFORE: f64 = 0.45;
 
-/// The window lasts at least so long after the reversal, in s.
+/// Minimum length of the window after the reversal, in s.
 const AFTER: f64 = 0.3;
 
-/// And no longer than this: by then the peak has decayed.
+/// Maximum length of the window after the reversal, in s: by then the peak has decayed.
 const LONGEST: f64 = 0.5;
 
-/// CNC cycles by which more than enough is enough.
+/// CNC cycles of reserve.
 const SPARE: usize = 4;
 
 /// CNC cycles at both ends of the window through which the undisturbed path runs.
 const ENDS: usize = 20;
 
-/// One axis, and how its friction is computed.
+/// One axis, and the computation of its friction.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::circle) struct AxisAlone<'a> {
     pub(in crate::circle) axis: PlaneAxis,
     pub(in crate::circle) drive: &'a DriveParameters,
     pub(in crate::circle) model: FrictionModel,
     pub(in crate::circle) reading: Reading,
-    /// Delay of the reversal within its CNC cycle against a whole run, in cycles.
+    /// Delay of the reversal within its CNC cycle relative to a whole run, in cycles.
     pub(in crate::circle) phase: f64,
 }
 
@@ -75,7 +75,7 @@ impl AxisAlone<'_> {
         Ok(self.path(circle, compensation)?.height() * UM_PER_M)
     }
 
-    /// The deviation outwards at a reversal: of each CNC cycle the time of its middle since the reversal in s,
+    /// The deviation outwards at a reversal: for each CNC cycle the time of its middle since the reversal in s,
     /// and the middle between its least and its largest deviation in m.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ impl AxisAlone<'_> {
     }
 }
 
-/// The deviation of one axis from what is commanded, outwards in m.
+/// The deviation of one axis from the commanded position, outwards in m.
 struct Path {
     circle: Circle,
     stretch: CircleArc,
@@ -204,7 +204,7 @@ impl Path {
 
 /// CNC cycles of a whole run around a reversal.
 struct CycleWindow {
-    /// The angle in radians from where the drives begin to the reversal.
+    /// The angle in radians from the start of the drives to the reversal.
     ahead: f64,
     /// First cycle of the drives.
     begin: usize,
@@ -236,9 +236,9 @@ impl CycleWindow {
 }
 
 impl CycleWindow {
-    /// CNC cycles before the drives begin from which on the additive current of a list is what it
-    /// would be on a whole run: its dead time has passed, and before that the axis has moved by more
-    /// than its `position_delay`. A quarter of a turn is enough for any list.
+    /// CNC cycles before the drives begin after which the additive current of a list equals that of a whole
+    /// run: its dead time has passed, and before that the axis has moved by more than its `position_delay`.
+    /// A quarter of a turn is enough for any list.
     fn lead(&self, circle: &Circle, list: &FrictionList) -> usize {
         let quarter = circle.cycles(FRAC_PI_2);
         let dead = usize::try_from(list.delay_cycles).unwrap_or_default() + SPARE;
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn a_short_lead_is_as_good_as_a_quarter_of_a_turn() {
-        // R5.25: what the additive current was long before the drives begin makes no difference.
+        // R5.25: the additive current long before the drives begin makes no difference.
         let circle = Circle {
             feed_mm_per_min: 3000.0,
             ..Circle::default()

@@ -1,28 +1,28 @@
-//! The search: a coarse grid, then neighbours of the best in steps that get smaller.
+//! The search: a coarse grid, then neighbours of the best in decreasing steps.
 
 use std::collections::BTreeSet;
 
 use super::heights::Heights;
 use super::space::Space;
 
-/// Rounds at most; each makes the best better or the steps smaller.
+/// Maximum number of rounds; each improves the best or makes the steps smaller.
 const MAX_ROUNDS: usize = 40;
 
-/// An improvement that is worth another round with the same steps, as a part.
+/// Minimum improvement for another round with the same steps, as a part.
 const GAIN: f64 = 0.005;
 
 /// Sets whose largest glitch is at most this part above the smallest are as good: of them the one
 /// with the smallest mean is taken (R5.25).
 const AS_GOOD: f64 = 1.1;
 
-/// A search for the candidate of a space that leaves least. It hands out trials and takes their
-/// results; with the same results it hands out the same trials.
+/// A search for the candidate of a space that leaves least. It gives out trials and takes their
+/// results; with the same results it gives out the same trials.
 #[derive(Debug, Clone)]
 pub(super) struct Search<S: Space> {
     space: S,
     tried: BTreeSet<S::Candidate>,
     best: Option<(f64, S::Candidate)>,
-    /// All that may be as good as the best.
+    /// All candidates that may be as good as the best.
     good: Vec<(Heights, S::Candidate)>,
     stage: SearchStage,
     rounds: usize,
@@ -48,7 +48,7 @@ impl<S: Space> Search<S> {
         }
     }
 
-    /// The candidates to try next, none of them before; `None` when the search is over.
+    /// The candidates to try next, all of them new; `None` when the search is over.
     pub(super) fn next_trials(&mut self) -> Option<Vec<S::Candidate>> {
         loop {
             let wanted = match self.stage {
@@ -78,7 +78,7 @@ impl<S: Space> Search<S> {
         self.best.map_or(f64::INFINITY, |(value, _)| value)
     }
 
-    /// Takes what trials leave, in their order.
+    /// Takes the results of trials, in their order.
     pub(super) fn take(&mut self, trials: &[S::Candidate], heights: &[Heights]) {
         let before = self.least();
         for (&candidate, heights) in trials.iter().zip(heights) {

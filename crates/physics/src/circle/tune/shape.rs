@@ -1,9 +1,9 @@
 //! The shape of a value list below 1 mm/s (R5.25).
 //!
 //! After a reversal a contact bends before it slides, and the force that the axis needs depends on the
-//! way. A value list depends on the velocity, but at these velocities one follows from the other. The
-//! output of each slow point is free within bounds around the friction curve, and with them are
-//! `delay_cycles`, since a bent contact still pushes the old way, `position_delay` and
+//! distance. A value list depends on the velocity, but at these velocities one follows from the other. The
+//! output of each slow point is free within bounds around the friction curve, and so are
+//! `delay_cycles`, since a bent contact still pushes in the old direction, `position_delay` and
 //! `reversal_lookahead`.
 
 use super::candidate::Candidate;
@@ -41,33 +41,33 @@ const DISTANCE: f64 = 20.0;
 /// Cycles of `reversal_lookahead` for a step of 1.
 const LOOKAHEAD: f64 = 10.0;
 
-/// Delay at which each search begins, against the unshaped list, in cycles: it ends in another
+/// Delay at which each search begins, relative to the unshaped list, in cycles: it ends in another
 /// valley.
 const LATER: [f64; RUNS] = [0.0, 10.0, 20.0];
 
-/// The outputs alone scale the table.
+/// A scaling factor with which only the outputs scale the table.
 const UNSCALED: i16 = 1000;
 
-/// Searches that begin at other places.
+/// Number of searches that begin at different places.
 const RUNS: usize = 3;
 
-/// Generations of each, before the best of them goes on alone.
+/// Generations of each search, before only the best of them continues.
 const TRIAL: usize = 40;
 
-/// Generations at most, of all searches together.
+/// Maximum number of generations, of all searches together.
 const MOST: usize = 300;
 
 /// Generations without a gain after which the search ends.
 const IDLE: usize = 60;
 
-/// Least gain that counts, as a share.
+/// Smallest gain that counts, as a share.
 const GAIN: f64 = 0.001;
 
 /// A search for outputs and times.
 #[derive(Debug, Clone)]
 pub(super) struct ShapeSearch {
     runs: [SearchRun; RUNS],
-    /// Index of the present one.
+    /// Index of the current one.
     current: usize,
     start: Candidate,
     ranges: Ranges,
@@ -80,7 +80,7 @@ pub(super) struct ShapeSearch {
     goal: f64,
 }
 
-/// One of the searches, and the least that it found.
+/// One of the searches, and the least value that it found.
 #[derive(Debug, Clone)]
 struct SearchRun {
     cma_es: CmaEs,
@@ -88,7 +88,7 @@ struct SearchRun {
 }
 
 impl ShapeSearch {
-    /// Lists that a search tries at most.
+    /// Maximum number of lists that a search tries.
     pub(super) const MOST_TRIALS: usize = MOST * POINTS;
 
     /// A search around the friction curve of a drive with the parameters that are best without a
@@ -141,7 +141,7 @@ impl ShapeSearch {
         Some(lists.collect())
     }
 
-    /// Takes what the lists leave, in their order.
+    /// Takes the results of the lists, in their order.
     pub(super) fn take(&mut self, heights: &[Heights]) {
         self.generations += 1;
         self.idle += 1;
@@ -162,7 +162,7 @@ impl ShapeSearch {
             .best
             .as_ref()
             .map_or(f64::INFINITY, |(least, _)| *least);
-        // While the searches compete none of them is given up.
+        // While the searches compete, none of them is abandoned.
         if least < self.goal * (1.0 - GAIN) || self.generations <= RUNS * TRIAL {
             self.goal = least;
             self.idle = 0;
@@ -210,8 +210,8 @@ impl ShapeSearch {
         }
     }
 
-    /// `delay_cycles`, `position_delay` and `reversal_lookahead` of a point as whole numbers, wherever
-    /// they are.
+    /// `delay_cycles`, `position_delay` and `reversal_lookahead` of a point as whole numbers, without regard to
+    /// their ranges.
     fn free(&self, point: &[f64]) -> [f64; 3] {
         let start = &self.start;
         let starts = [
@@ -244,8 +244,8 @@ impl ShapeSearch {
     }
 }
 
-/// The factors of a point of the search, within their bounds and without kinks: again and again, three
-/// neighbours that bend too much share what is too much. The points of the curve that follow are not free.
+/// The factors of a point of the search, within their bounds and without kinks: repeatedly, three
+/// neighbours that bend too much share the excess. The following points of the curve are not free.
 pub(in crate::circle) fn smoothed(point: &[f64]) -> [f64; FREE] {
     const ROUNDS: usize = 200;
     // Rounded outputs bend a little more.
@@ -262,7 +262,7 @@ pub(in crate::circle) fn smoothed(point: &[f64]) -> [f64; FREE] {
             if excess.abs() > 1e-3 {
                 is_smooth = false;
             }
-            // The normal of the bound is 1, -2, 1; what is not free does not move.
+            // The normal of the bound is 1, -2, 1; points that are not free do not move.
             let moved = |at: usize| if at < FREE { 1.0 } else { 0.0 };
             let length = moved(at - 1) + 4.0 * moved(at) + moved(at + 1);
             for (place, weight) in [(at - 1, 1.0), (at, -2.0), (at + 1, 1.0)] {

@@ -17,7 +17,7 @@ pub(super) trait Space {
     /// The candidates around one, at a step of the size with this number.
     fn neighbours(&self, centre: Self::Candidate, step: usize) -> Vec<Self::Candidate>;
 
-    /// The candidate to take where none is known.
+    /// The candidate to take if none is known.
     fn start(&self) -> Self::Candidate;
 }
 

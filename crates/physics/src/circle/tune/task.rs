@@ -23,51 +23,51 @@ pub struct Task {
     pub model: FrictionModel,
     /// The circles, which differ in their feeds and radii.
     pub circles: Vec<Circle>,
-    /// Between which values the parameters are searched.
+    /// The ranges in which the parameters are searched.
     pub ranges: Ranges,
     /// Reading of the documents.
     pub reading: Reading,
     /// Form of the points of the lists.
     pub points: Points,
-    /// Whether the points below 1 mm/s get a shape of their own.
+    /// Whether the points below 1 mm/s get a separate shape.
     pub shaping: Shaping,
-    /// For which machines the list must be good.
+    /// The machines for which the list must be good.
     pub aim: TuningAim,
 }
 
-/// For which machines a list must be good (R5.29).
+/// The machines for which a list must be good (R5.29).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum TuningAim {
     /// The plant as it is described.
     #[default]
     Plant,
-    /// That one, and those whose contact is half or twice as stiff or whose friction differs by ±10 %
+    /// The plant, and machines whose contact is half or twice as stiff or whose friction differs by ±10 %
     /// between the directions; on the plant itself the list may leave a quarter more.
     Robust,
 }
 
-/// Whether the points below 1 mm/s get a shape of their own.
+/// Whether the points below 1 mm/s get a separate shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Shaping {
-    /// Where it is worthwhile.
+    /// If it is worthwhile.
     #[default]
     Allowed,
     /// The table is the friction curve.
     None,
 }
 
-/// With how much friction, and whether with compensation, a circle is driven.
+/// The friction of a driven circle, and whether it has compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Variant {
     /// Without compensation.
     Off,
     /// With it.
     On,
-    /// With it, the friction 20 % less.
+    /// With it, and 20 % less friction.
     Minus20,
-    /// With it, the friction 20 % more.
+    /// With it, and 20 % more friction.
     Plus20,
 }
 
@@ -84,8 +84,8 @@ impl Variant {
     }
 }
 
-/// A change of the velocity in a CNC cycle at a reversal above which it matters where in the cycle
-/// the reversal is, in mm/s.
+/// A change of the velocity in a CNC cycle at a reversal above which the place of the reversal in the
+/// cycle matters, in mm/s.
 const ABRUPT_MM_PER_S: f64 = 0.05;
 
 /// Ratio of the fastest checked circle to the fastest of the range.
@@ -95,7 +95,7 @@ impl Task {
     /// Checks that every circle can be simulated and has glitches.
     ///
     /// # Errors
-    /// What is out of range.
+    /// A value is out of range.
     pub fn check(&self) -> Result<(), CircleError> {
         self.circles.iter().try_for_each(|circle| {
             circle.check()?;
@@ -103,7 +103,7 @@ impl Task {
         })
     }
 
-    /// The axes that are tuned one by one: both at once where their drives are equal.
+    /// The axes that are tuned one by one: both at once if their drives are equal.
     pub(super) fn groups(&self) -> Vec<Vec<PlaneAxis>> {
         if self.plant.x == self.plant.y {
             return vec![PlaneAxis::ALL.to_vec()];
@@ -141,9 +141,9 @@ impl Task {
         Ok(Heights(heights))
     }
 
-    /// The largest glitch at a reversal of axes by themselves, with or without compensation.
+    /// The largest glitch at a reversal of single axes, with or without compensation.
     ///
-    /// Equal axes differ only in where within a CNC cycle they reverse, which is looked at where it
+    /// Equal axes differ only in the place of their reversal within a CNC cycle, which is considered if it
     /// matters.
     pub(super) fn glitch_um(
         &self,
@@ -172,8 +172,8 @@ impl Task {
             .try_fold(0.0, |most: f64, glitch| Ok(most.max(glitch?)))
     }
 
-    /// A circle beyond the range that is tuned for, as far as it can be driven: the one with the largest
-    /// acceleration, 2.4 times as fast.
+    /// A circle beyond the tuned range, if one can be driven: the one with the largest acceleration, 2.4 times
+    /// as fast.
     pub(super) fn beyond(&self) -> Option<Circle> {
         let by = |circle: &&Circle| circle.acceleration_mm_per_s2();
         let fastest = self
@@ -188,7 +188,7 @@ impl Task {
         is_possible.then_some(circle)
     }
 
-    /// The largest glitch of a whole circle with what compensates X and Y. The way round makes no
+    /// The largest glitch of a whole circle with the compensation of X and Y. The direction of travel makes no
     /// difference: a clockwise circle is the mirror image of a counter-clockwise one.
     pub(super) fn whole_um(
         &self,

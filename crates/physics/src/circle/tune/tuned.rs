@@ -35,10 +35,10 @@ pub struct FeedResult {
     /// With it.
     #[serde(rename = "glitch_on")]
     pub glitch_on_um: f64,
-    /// With it, the friction of the machine being 20 % less than the list says.
+    /// With it, and 20 % less friction of the machine than in the list.
     #[serde(rename = "glitch_friction_minus20")]
     pub glitch_friction_minus20_um: f64,
-    /// With it, the friction 20 % more.
+    /// With it, and 20 % more friction.
     #[serde(rename = "glitch_friction_plus20")]
     pub glitch_friction_plus20_um: f64,
 }
@@ -54,31 +54,31 @@ impl FeedResult {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct TunedAxis {
-    /// The best compensation: a value list as it is written, or stiction compensation; none for an
-    /// axis without it beside one that has it.
+    /// The best compensation: a value list in its written form, or stiction compensation; none for an
+    /// axis without it if the other axis has it.
     pub compensation: Option<Method>,
-    /// Whether the points of the list below 1 mm/s have a shape of their own.
+    /// Whether the points of the list below 1 mm/s have a separate shape.
     pub is_shaped: bool,
 }
 
 impl TunedAxis {
-    /// The value list, where there is one.
+    /// The value list, if there is one.
     pub fn list(&self) -> Option<&FrictionList> {
         self.compensation.as_ref()?.list()
     }
 
-    /// The parameters of stiction compensation, where it is that.
+    /// The parameters of stiction compensation, if it is that.
     pub fn stiction(&self) -> Option<&StictionParameters> {
         self.compensation.as_ref()?.stiction()
     }
 }
 
-/// A robust list against one for the plant alone: the largest glitch over the range, on the plant and on
+/// A robust list compared with one for the plant alone: the largest glitch over the range, on the plant and on
 /// machines that deviate from it (R5.29).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Robust {
-    /// Whether it gains 5 % or more and costs a quarter at most on the plant; else the other list is kept.
+    /// Whether it gains 5 % or more and costs at most a quarter on the plant; otherwise the other list is kept.
     pub is_taken: bool,
     /// The list for the plant alone.
     #[serde(rename = "glitch_plain")]
@@ -92,25 +92,25 @@ pub struct Robust {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Tuned {
-    /// X and Y; both the same where their drives are equal.
+    /// X and Y; both are the same if their drives are equal.
     pub axes: [TunedAxis; 2],
     /// Remaining glitches on each circle.
     pub feeds: Vec<FeedResult>,
-    /// Remaining glitches at accelerations all over the range (R5.29).
+    /// Remaining glitches at accelerations over the whole range (R5.29).
     pub check: Vec<RemainingGlitch>,
-    /// Result of the search for a robust list, where it was requested.
+    /// Result of the search for a robust list, if it was requested.
     pub robust: Option<Robust>,
     /// Number of lists, or sets of parameters, tried.
     pub trials: usize,
 }
 
 impl Tuned {
-    /// Whether it is stiction compensation that was tuned.
+    /// Whether stiction compensation was tuned.
     pub fn is_stiction(&self) -> bool {
         self.axes.iter().any(|axis| axis.stiction().is_some())
     }
 
-    /// The largest glitch with compensation, on the circles and all over their range.
+    /// The largest glitch with compensation, on the circles and over their whole range.
     pub fn worst_um(&self) -> f64 {
         let circles = self.feeds.iter().map(|it| it.glitch_on_um);
         circles.fold(worst(&self.check, |it| it.glitch_on_um), f64::max)
@@ -125,9 +125,9 @@ impl Tuned {
     }
 }
 
-/// Simulations that do not depend on each other: how many there are, and what makes one of them.
+/// Independent simulations: their number, and a function that makes one of them.
 pub trait Simulations: Send + Sync {
-    /// Makes all of them, in any order, and gives their results in theirs.
+    /// Makes all of them, in any order, and returns their results in the original order.
     ///
     /// # Errors
     /// A circle that cannot be simulated.
@@ -152,7 +152,7 @@ impl Simulations for InOrder {
     }
 }
 
-/// Tunes by itself, one trial after the other.
+/// Tunes without threads, one trial after the other.
 ///
 /// # Errors
 /// A circle that cannot be simulated, or has no glitch.
@@ -226,14 +226,14 @@ fn worst(check: &[RemainingGlitch], of: impl Fn(&RemainingGlitch) -> f64) -> f64
     check.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Lists, and what they leave over the range.
+/// Lists, and their remaining glitches over the range.
 struct TunedLists {
     axes: [TunedAxis; 2],
     check: Vec<RemainingGlitch>,
 }
 
-/// A list that without a shape takes most of the glitch away beyond the range that is tuned for must
-/// do so with it.
+/// A list that without a shape removes most of the glitch beyond the tuned range must
+/// do so with a shape, too.
 #[derive(Debug, Clone, Copy)]
 struct Reserve {
     /// A circle beyond the range.
@@ -242,10 +242,10 @@ struct Reserve {
     left_um: f64,
 }
 
-/// Most of a glitch is taken away where at most this part of it is left.
+/// Most of a glitch is removed if at most this part of it is left.
 const MOSTLY: f64 = 0.2;
 
-/// Beyond the range a list may leave so much more than within it.
+/// Permitted factor of the glitch beyond the range to that within it.
 const MORE: f64 = 1.5;
 
 impl Reserve {
@@ -259,17 +259,17 @@ impl Reserve {
         Ok(holds.then_some(Self { circle, left_um }))
     }
 
-    /// A glitch beyond the range as one within it, of a list that leaves `worst_um` there: larger than
-    /// that where too much is left.
+    /// Converts a glitch beyond the range to one within it, for a list that leaves `worst_um` there: larger than
+    /// that if too much is left.
     fn weighed(&self, worst_um: f64, glitch_um: f64) -> f64 {
         worst_um * glitch_um / self.left_um.max(MORE * worst_um)
     }
 }
 
 impl Task {
-    /// Returns about the number of simulations of a tuning: a search ends when nothing improves.
+    /// Returns the approximate number of simulations of a tuning: a search ends when nothing improves.
     pub fn expected_trials(&self) -> usize {
-        /// Lists of the search for the parameters of a list, as a rule.
+        /// Usual number of lists in the search for the parameters of a list.
         const PARAMETERS: usize = 400;
         let shapes = match self.shaping {
             Shaping::Allowed => ShapeSearch::MOST_TRIALS,
@@ -284,18 +284,18 @@ impl Task {
     }
 }
 
-/// A task, and what makes its simulations.
+/// A task, and the maker of its simulations.
 struct Tuning<'a> {
     task: &'a Task,
     simulations: &'a dyn Simulations,
-    /// The circles that a search looks at.
+    /// The circles of a search.
     searched: Vec<Circle>,
     /// Greatest glitch of a robust list on the plant; without it only the plant counts.
     limit_um: Option<f64>,
 }
 
 impl Tuning<'_> {
-    /// The best lists, checked over the whole range: with a shape where that leaves less.
+    /// The best lists, checked over the whole range: with a shape if that leaves less.
     fn found(&self, trials: &mut usize) -> Result<TunedLists, CircleError> {
         let task = self.task;
         let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
@@ -406,7 +406,7 @@ impl Tuning<'_> {
                     plant = glitch;
                 }
             }
-            // What costs too much on the plant is no gain elsewhere.
+            // A list that costs too much on the plant is not a gain elsewhere.
             Ok(most * (plant / limit_um).max(1.0).powi(2))
         };
         let heights: Result<Vec<f64>, CircleError> = self.searched.iter().map(of).collect();
@@ -510,7 +510,7 @@ impl Tuning<'_> {
         }))
     }
 
-    /// The glitches of whole circles with what was found: for each circle one a variant.
+    /// The glitches of whole circles with the result: for each circle one per variant.
     fn wholes(
         &self,
         axes: &[TunedAxis; 2],

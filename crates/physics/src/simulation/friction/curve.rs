@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// The friction in N that stands for none: the equation of the bristle divides by it.
+/// The friction in N that represents none: the equation of the bristle divides by it.
 pub(super) const LEAST_N: f64 = 1e-9;
 
 /// One element of the Maxwell-slip model.
@@ -60,7 +60,7 @@ impl Friction {
         self.coulomb_n + (self.breakaway_n - self.coulomb_n) * fading(power)
     }
 
-    /// The same at a velocity with its direction.
+    /// The friction at a velocity with its direction.
     #[inline]
     pub(super) fn level_towards_n(&self, velocity_m_per_s: f64) -> f64 {
         self.level_n(velocity_m_per_s.abs())
@@ -77,7 +77,7 @@ impl Friction {
             + self.viscous_n_s_per_m * velocity_m_per_s
     }
 
-    /// The same contact with more or less friction: every force of the curve times `factor`, the
+    /// Returns the contact with more or less friction: every force of the curve times `factor`, the
     /// stiffness unchanged.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
@@ -97,7 +97,7 @@ impl Friction {
     }
 }
 
-/// `exp(-exponent)`, and 0 where nothing of it is left in the digits of a force.
+/// `exp(-exponent)`, and 0 if it is below the digits of a force.
 #[inline]
 pub(super) fn fading(exponent: f64) -> f64 {
     const FADED: f64 = 40.0;
@@ -107,7 +107,7 @@ pub(super) fn fading(exponent: f64) -> f64 {
     (-exponent).exp()
 }
 
-/// A function of its own, so that it is not computed where it is not needed.
+/// A separate function, so that it is computed only if needed.
 #[cold]
 #[inline(never)]
 fn raised(ratio: f64, exponent: f64) -> f64 {

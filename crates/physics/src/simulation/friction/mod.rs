@@ -1,7 +1,7 @@
-//! Friction of a guideway: the static curve, and models that remember what the contact went
-//! through (R5.10 to R5.12).
+//! Friction of a guideway: the static curve, and models that remember the history of the contact
+//! (R5.10 to R5.12).
 //!
-//! A new model is a file beside [`lugre`], and its variants and arms in [`model`].
+//! A new model is a file next to [`lugre`], and its variants and arms in [`model`].
 
 mod curve;
 mod gms;

@@ -26,7 +26,7 @@ frictcomp::words! {
     }
 }
 
-/// A word that names no friction model.
+/// A word that is not the name of a friction model.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no friction model `{0}`")]
 pub struct UnknownFrictionModel(pub String);

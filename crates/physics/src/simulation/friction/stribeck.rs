@@ -2,7 +2,7 @@
 
 use super::curve::Friction;
 
-/// A contact without a state of its own.
+/// A contact without a state.
 #[derive(Debug, Clone)]
 pub(in crate::simulation) struct Stribeck {
     friction: Friction,

@@ -75,7 +75,7 @@ pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> 
         _ => return None,
     };
     Some(match flow {
-        Flow::If(_) if block.jumps() => return None,
+        Flow::If(_) if block.jumps => return None,
         Flow::If(_) => (If, Opener),
         Flow::ElseIf(_) | Flow::Else => (If, Branch),
         Flow::EndIf => (If, Closer),

@@ -27,23 +27,32 @@ pub(crate) const MAX_WHOLE: usize = 4096;
 
 impl Place {
     /// A place in a block, which shows itself whole unless it is long.
-    pub(crate) fn in_block(file: &Arc<str>, text: &str, first_line: u32, span: Span) -> Self {
-        let whole = 0..text.len();
-        let bytes = text.as_bytes();
-        let lines = if text.len() <= MAX_WHOLE {
-            whole
-        } else {
-            let end = (span.end as usize).min(whole.end);
-            let start = (span.start as usize).min(end);
-            let from = memchr::memrchr(b'\n', &bytes[..start]).map_or(0, |at| at + 1);
-            let to = memchr::memchr(b'\n', &bytes[end..]).map_or(whole.end, |at| end + at);
-            from..to
-        };
-        let before = memchr::memchr_iter(b'\n', &bytes[..lines.start]).count();
-        let from = u32::try_from(lines.start).unwrap_or(u32::MAX);
+    pub(crate) fn in_block(
+        file: &Arc<str>,
+        text: impl AsRef<str> + Into<Arc<str>>,
+        first_line: u32,
+        span: Span,
+    ) -> Self {
+        let block = text.as_ref();
+        if block.len() <= MAX_WHOLE {
+            return Self {
+                file: Arc::clone(file),
+                text: text.into(),
+                first_line,
+                span,
+            };
+        }
+        let bytes = block.as_bytes();
+        let end = (span.end as usize).min(block.len());
+        let start = (span.start as usize).min(end);
+        let from = memchr::memrchr(b'\n', &bytes[..start]).map_or(0, |at| at + 1);
+        let to = memchr::memchr(b'\n', &bytes[end..]).map_or(block.len(), |at| end + at);
+        let before = memchr::memchr_iter(b'\n', &bytes[..from]).count();
+        let shown = block[from..to].into();
+        let from = u32::try_from(from).unwrap_or(u32::MAX);
         Self {
             file: Arc::clone(file),
-            text: text[lines].into(),
+            text: shown,
             first_line: first_line.saturating_add(u32::try_from(before).unwrap_or(u32::MAX)),
             span: Span {
                 start: span.start.saturating_sub(from),

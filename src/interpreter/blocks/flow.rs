@@ -36,12 +36,13 @@ impl Interpreter {
     pub(in crate::interpreter) fn one_line_condition(
         &mut self,
         flow: &Flow,
+        span: Span,
         at: &BlockContext<'_>,
     ) -> Result<Option<bool>, Box<Fault>> {
         let Flow::If(condition) = flow else {
             return Ok(None);
         };
-        if !at.block.jumps() {
+        if !at.block.jumps {
             return Ok(None);
         }
         let value = self.value(*condition, at)?;
@@ -49,13 +50,11 @@ impl Interpreter {
             if self.part_at_jump(*condition, cause, at) {
                 return Ok(Some(false));
             }
-            self.leave_jump(cause, flow_span(at.block), at);
+            self.leave_jump(cause, span, at);
             return Ok(Some(false));
         }
         let truth = value.truth();
-        truth
-            .map(Some)
-            .ok_or_else(|| no_condition(flow_span(at.block)))
+        truth.map(Some).ok_or_else(|| no_condition(span))
     }
 
     /// Executes a `$` statement.
@@ -376,22 +375,32 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        if self.pass_jump(cause, at) {
+        if self.pass_jump(cause, span, at) {
             self.doubt_jump("whether this jump is taken", cause, span, at);
         }
     }
 
-    /// Passes over the jumps of a block, which may be taken. Returns whether anything differs if they are.
+    /// Passes over the jump at a place of a block, or over those of the `$IF` there, up to the next one;
+    /// they may be taken. Returns whether anything differs if they are.
     pub(in crate::interpreter) fn pass_jump(
         &mut self,
         cause: &Arc<str>,
+        span: Span,
         at: &BlockContext<'_>,
     ) -> bool {
+        let items = &at.block.items;
+        let first = items.partition_point(|item| item.span().start < span.start);
         let mut differs = false;
-        for item in &at.block.items {
+        for (place, item) in items.iter().enumerate().skip(first) {
+            if place > first && matches!(item, Item::Flow(Flow::If(_), _)) {
+                break;
+            }
             if let Item::Flow(Flow::Goto(target), _) = item {
                 let exit = self.exit(target, at).unwrap_or(Exit::AnyLabel);
                 differs |= self.note_jump(&exit, cause);
+                if place == first {
+                    break;
+                }
             }
         }
         differs

@@ -187,11 +187,11 @@ impl Interpreter {
                 Ok(())
             }
             Item::Flow(flow, span) => {
-                let condition = self.one_line_condition(flow, at);
+                let condition = self.one_line_condition(flow, *span, at);
                 let condition = condition.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
-                    let _ = self.pass_jump(&cause, at);
+                    let _ = self.pass_jump(&cause, *span, at);
                     Ok::<_, Box<Fault>>(Some(false))
                 })?;
                 if condition.is_some() {

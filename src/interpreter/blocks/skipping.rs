@@ -64,6 +64,6 @@ fn structure(block: &Block) -> Option<(&Flow, Span)> {
         Item::Flow(flow, span) => Some((flow, *span)),
         _ => None,
     });
-    let mut parts = parts.filter(|_| !block.jumps());
+    let mut parts = parts.filter(|_| !block.jumps);
     parts.find(|(flow, _)| !matches!(flow, Flow::Break | Flow::Continue | Flow::Goto(_)))
 }

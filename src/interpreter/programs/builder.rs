@@ -197,7 +197,10 @@ impl Builder {
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
         let block = self.place_of(entry);
-        let place = |span| Place::in_block(&block.file, &block.text, block.first_line, span);
+        let place = |span| {
+            let text = Arc::clone(&block.text);
+            Place::in_block(&block.file, text, block.first_line, span)
+        };
         let at = place(fault.span);
         let diagnostic = fault.into_diagnostic(at, |span| Some(place(span)));
         self.index.refused.push(diagnostic);

@@ -18,6 +18,8 @@ pub struct Block {
     pub words: Vec<Word>,
     /// Items after them, from left to right.
     pub items: Vec<Item>,
+    /// Whether a `$GOTO` is among them; an `$IF` in its block opens no control block.
+    pub jumps: bool,
     /// The expressions of the block.
     pub nodes: Vec<Node>,
     /// The source of each node.
@@ -27,13 +29,6 @@ pub struct Block {
 }
 
 impl Block {
-    /// Whether the block contains a `$GOTO`; an `$IF` with it opens no control block.
-    pub fn jumps(&self) -> bool {
-        self.items
-            .iter()
-            .any(|item| matches!(item, Item::Flow(Flow::Goto(_), _)))
-    }
-
     /// Appends a word to the block.
     #[inline]
     pub(in crate::syntax) fn push_word(&mut self, word: Word) {
@@ -51,6 +46,7 @@ impl Block {
         self.number = None;
         self.words.clear();
         self.items.clear();
+        self.jumps = false;
         self.nodes.clear();
         self.spans.clear();
         self.faults.clear();

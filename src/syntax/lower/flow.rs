@@ -25,6 +25,7 @@ impl BlockLowering<'_> {
             _ => Some(self.flow_statement(statement, word)),
         };
         if let Some(flow) = flow {
+            self.block.jumps |= matches!(flow, Flow::Goto(_));
             self.block.items.push(Item::Flow(flow, span));
         }
     }

@@ -1,21 +1,15 @@
-//! ENI and ESI files: what their devices map, found while the file is read element by element
-//! (R7.3, R7.4). Only the entities of XML itself are expanded; a document type is refused.
+//! ENI and ESI files: what their devices map (R7.3, R7.4). Only the entities of XML itself are expanded;
+//! a document type is refused.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use quick_xml::Reader;
-use quick_xml::XmlVersion;
-use quick_xml::escape::resolve_xml_entity;
-use quick_xml::events::{BytesRef, BytesStart, Event};
+use roxmltree::{Document, Node};
 use thiserror::Error;
 
 use frictcomp::drive_interface::{Device, Network, NetworkObject, Protocol, Slave};
 use frictcomp::drive_interface::{Signal, channel};
 use frictcomp::text::SourceFile;
-
-/// Limit for nested elements; the published structures have fewer than twenty levels.
-const MOST_NESTED: usize = 64;
 
 /// Number of characters kept of a name.
 const MOST_NAME: usize = 200;
@@ -44,13 +38,14 @@ pub struct XmlError {
 /// # Errors
 /// The file is not well-formed XML, has a document type, or is not an ENI file.
 pub fn read_network(source: &SourceFile) -> Result<Network, XmlError> {
-    let mut slaves = Vec::new();
-    read(source, "EtherCATConfig", &mut |item| {
-        slaves.push(item.slave());
-    })?;
+    let document = parse(source)?;
+    let root = Element::root(&document, source, "EtherCATConfig")?;
+    let slaves = root.at(&["Config", "Slave"]).into_iter();
     Ok(Network {
         file: source.name().clone(),
-        slaves,
+        slaves: slaves
+            .map(|slave| Mapping::new(&slave).slave(&slave))
+            .collect(),
     })
 }
 
@@ -59,22 +54,114 @@ pub fn read_network(source: &SourceFile) -> Result<Network, XmlError> {
 /// # Errors
 /// The file is not well-formed XML, has a document type, or is not an ESI file.
 pub fn read_devices(source: &SourceFile) -> Result<Vec<Device>, XmlError> {
-    let mut devices = Vec::new();
-    read(source, "EtherCATInfo", &mut |item| {
-        devices.push(item.device());
-    })?;
-    Ok(devices)
+    let document = parse(source)?;
+    let root = Element::root(&document, source, "EtherCATInfo")?;
+    let vendors = root.at(&["Vendor"]);
+    let vendor = vendors.iter().find_map(|vendor| number(vendor.text("Id")?));
+    let descriptions = root.at(&["Descriptions"]);
+    let groups = descriptions.iter().flat_map(Element::children);
+    let items = groups.flat_map(|group| match group.name() {
+        "Devices" => group.at(&["Device"]),
+        "Modules" => group.at(&["Module"]),
+        _ => Vec::new(),
+    });
+    Ok(items
+        .map(|item| Mapping::new(&item).device(vendor))
+        .collect())
 }
 
-/// Paths of devices in the two kinds of files.
-const ITEMS: [&[&str]; 3] = [
-    &["EtherCATConfig", "Config", "Slave"],
-    &["EtherCATInfo", "Descriptions", "Devices", "Device"],
-    &["EtherCATInfo", "Descriptions", "Modules", "Module"],
-];
+fn parse(source: &SourceFile) -> Result<Document<'_>, XmlError> {
+    Document::parse(source.text()).map_err(|error| XmlError {
+        file: source.name().clone(),
+        line: error.pos().row,
+        reason: match error {
+            roxmltree::Error::DtdDetected => "a document type is not read".to_owned(),
+            error => format!("not well-formed XML: {error}"),
+        },
+    })
+}
 
-/// A process data object while it is read.
-#[derive(Debug, Default)]
+/// An element of a file, with its path in the manner of `XPath`.
+struct Element<'a> {
+    node: Node<'a, 'a>,
+    path: String,
+    source: &'a SourceFile,
+}
+
+impl<'a> Element<'a> {
+    /// Returns the outermost element, which tells what the file is.
+    fn root(
+        document: &'a Document<'_>,
+        source: &'a SourceFile,
+        wanted: &str,
+    ) -> Result<Self, XmlError> {
+        let node = document.root_element();
+        let root = Self {
+            node,
+            path: node.tag_name().name().to_owned(),
+            source,
+        };
+        if root.path == wanted {
+            return Ok(root);
+        }
+        Err(XmlError {
+            file: source.name().clone(),
+            line: root.line(node),
+            reason: other_root(&root.path, wanted),
+        })
+    }
+
+    fn name(&self) -> &'a str {
+        self.node.tag_name().name()
+    }
+
+    fn line(&self, node: Node<'_, '_>) -> u32 {
+        let offset = u32::try_from(node.range().start).unwrap_or(u32::MAX);
+        self.source.lines().line(offset)
+    }
+
+    /// Returns the elements in this one, numbered by their names.
+    fn children(&self) -> impl Iterator<Item = Self> + use<'a> {
+        let mut numbers = HashMap::<&str, u32>::new();
+        let (path, source) = (self.path.clone(), self.source);
+        let nodes = self.node.children().filter(Node::is_element);
+        nodes.map(move |node| {
+            let name = node.tag_name().name();
+            let number = numbers.entry(name).or_default();
+            *number += 1;
+            Self {
+                node,
+                path: format!("{path}/{name}[{number}]"),
+                source,
+            }
+        })
+    }
+
+    /// Returns the elements with these names below this one, from level to level.
+    fn at(&self, names: &[&str]) -> Vec<Self> {
+        let Some((name, rest)) = names.split_first() else {
+            return Vec::new();
+        };
+        let found = self.children().filter(|child| child.name() == *name);
+        if rest.is_empty() {
+            found.collect()
+        } else {
+            found.flat_map(|child| child.at(rest)).collect()
+        }
+    }
+
+    /// Returns the last child with a name.
+    fn last(&self, name: &str) -> Option<Node<'a, 'a>> {
+        self.node.children().rfind(|child| child.has_tag_name(name))
+    }
+
+    /// Returns the text of the last child with a name.
+    fn text(&self, name: &str) -> Option<&'a str> {
+        self.last(name).map(text)
+    }
+}
+
+/// A process data object.
 struct Pdo {
     receives: bool,
     index: u16,
@@ -91,9 +178,34 @@ struct Mapped {
     line: u32,
 }
 
-/// A device while it is read.
-#[derive(Debug, Default)]
-struct OpenDevice {
+impl Pdo {
+    fn new(element: &Element<'_>) -> Option<Self> {
+        let receives = match element.name() {
+            "RxPdo" => true,
+            "TxPdo" => false,
+            _ => return None,
+        };
+        let entries = element.at(&["Entry"]).into_iter();
+        let entries = entries.filter_map(|entry| {
+            let index = entry.last("Index")?;
+            Some(Mapped {
+                index: number16(text(index))?,
+                line: entry.line(index),
+                path: entry.path,
+            })
+        });
+        Some(Self {
+            receives,
+            index: element.text("Index").and_then(number16).unwrap_or_default(),
+            name: shortened(element.text("Name")),
+            has_sync_manager: element.node.has_attribute("Sm"),
+            entries: entries.collect(),
+        })
+    }
+}
+
+/// What a device maps.
+struct Mapping {
     name: String,
     vendor: Option<u32>,
     product: Option<u32>,
@@ -101,11 +213,47 @@ struct OpenDevice {
     pdos: Vec<Pdo>,
     /// The objects that its sync managers list.
     assigned: Vec<u16>,
-    path: String,
-    line: u32,
 }
 
-impl OpenDevice {
+impl Mapping {
+    fn new(device: &Element<'_>) -> Self {
+        let sercos = device.at(&["Mailbox", "SoE"]);
+        let infos = device.at(&["Info"]);
+        let of_info = |name| infos.iter().rev().find_map(|info| info.text(name));
+        let attribute = |name| device.last("Type").and_then(|it| it.attribute(name));
+        let name = device.text("Type").or_else(|| of_info("Name"));
+        let product = attribute("ProductCode").or_else(|| attribute("ModuleIdent"));
+        let mut mapping = Self {
+            name: shortened(name),
+            vendor: of_info("VendorId").and_then(number),
+            product: product.or_else(|| of_info("ProductCode")).and_then(number),
+            protocol: if sercos.is_empty() {
+                Protocol::default()
+            } else {
+                Protocol::Sercos
+            },
+            pdos: Vec::new(),
+            assigned: Vec::new(),
+        };
+        for child in device.children() {
+            mapping.pdos.extend(Pdo::new(&child));
+            if child.name() == "ProcessData" {
+                child.children().for_each(|it| mapping.process_data(&it));
+            }
+        }
+        mapping
+    }
+
+    /// Takes an element of the process data: a process data object, or a sync manager with those assigned to it.
+    fn process_data(&mut self, element: &Element<'_>) {
+        self.pdos.extend(Pdo::new(element));
+        if element.name().starts_with("Sm") {
+            let objects = element.node.children().filter(|it| it.has_tag_name("Pdo"));
+            let numbers = objects.filter_map(|object| number16(text(object)));
+            self.assigned.extend(numbers);
+        }
+    }
+
     /// Whether the file says which objects are exchanged.
     fn assigns(&self) -> bool {
         !self.assigned.is_empty() || self.pdos.iter().any(|pdo| pdo.has_sync_manager)
@@ -160,7 +308,7 @@ impl OpenDevice {
         most.unwrap_or_default()
     }
 
-    fn slave(self) -> Slave {
+    fn slave(self, element: &Element<'_>) -> Slave {
         let assigned = self.pdos.iter().filter(|pdo| self.is_assigned(pdo));
         Slave {
             mapped: self.mapped(assigned),
@@ -170,64 +318,17 @@ impl OpenDevice {
             name: self.name,
             vendor: self.vendor,
             product: self.product,
-            path: self.path,
-            line: self.line,
+            path: element.path.clone(),
+            line: element.line(element.node),
         }
     }
 
-    fn device(self) -> Device {
+    fn device(self, vendor: Option<u32>) -> Device {
         Device {
             mappable: self.mapped(self.pdos.iter()),
             name: self.name,
-            vendor: self.vendor,
+            vendor: self.vendor.or(vendor),
             product: self.product,
-        }
-    }
-
-    /// Takes the beginning of an element below the device.
-    fn open(&mut self, below: &[&str], start: &BytesStart<'_>) {
-        match below {
-            ["Mailbox", "SoE"] => self.protocol = Protocol::Sercos,
-            ["ProcessData", pdo @ ("RxPdo" | "TxPdo")] | [pdo @ ("RxPdo" | "TxPdo")] => {
-                self.pdos.push(Pdo {
-                    receives: *pdo == "RxPdo",
-                    has_sync_manager: attribute(start, "Sm").is_some(),
-                    ..Pdo::default()
-                });
-            }
-            ["Type"] => {
-                let product = attribute(start, "ProductCode").or(attribute(start, "ModuleIdent"));
-                self.product = product.and_then(|text| number(&text));
-            }
-            _ => {}
-        }
-    }
-
-    /// Takes the text of an element below the device.
-    fn take(&mut self, below: &[&str], text: &str, place: impl FnOnce() -> (String, u32)) {
-        match below {
-            ["Info", "Name"] | ["Type"] => self.name = text.chars().take(MOST_NAME).collect(),
-            ["Info", "VendorId"] => self.vendor = number(text),
-            ["Info", "ProductCode"] => self.product = number(text),
-            ["ProcessData", manager, "Pdo"] if manager.starts_with("Sm") => {
-                self.assigned.extend(number16(text));
-            }
-            ["ProcessData", "RxPdo" | "TxPdo", rest @ ..] | ["RxPdo" | "TxPdo", rest @ ..] => {
-                let Some(pdo) = self.pdos.last_mut() else {
-                    return;
-                };
-                match rest {
-                    ["Index"] => pdo.index = number16(text).unwrap_or_default(),
-                    ["Name"] => pdo.name = text.chars().take(MOST_NAME).collect(),
-                    ["Entry", "Index"] => {
-                        let (path, line) = place();
-                        let entry = number16(text).map(|index| Mapped { index, path, line });
-                        pdo.entries.extend(entry);
-                    }
-                    _ => {}
-                }
-            }
-            _ => {}
         }
     }
 }
@@ -235,186 +336,6 @@ impl OpenDevice {
 /// Returns the axis that a SERCOS telegram belongs to: those of further axes lie 1000h higher.
 fn soe_channel(pdo: u16) -> u8 {
     u8::try_from(pdo >> 12).map_or(1, |above| above + 1)
-}
-
-/// An open element, with the texts and children read so far.
-struct Open {
-    name: String,
-    number: u32,
-    text: String,
-    children: HashMap<String, u32>,
-    line: u32,
-}
-
-/// The open elements, from the root on.
-#[derive(Default)]
-struct Path(Vec<Open>);
-
-impl Path {
-    fn names(&self) -> Vec<&str> {
-        self.0.iter().map(|open| open.name.as_str()).collect()
-    }
-
-    /// Returns the path of the innermost element, or of its parent, in the manner of `XPath`.
-    fn shown(&self, without: usize) -> String {
-        let step = |open: &Open| match open.number {
-            0 => open.name.clone(),
-            number => format!("{}[{number}]", open.name),
-        };
-        let shown = self.0.len().saturating_sub(without);
-        let steps: Vec<String> = self.0[..shown].iter().map(step).collect();
-        steps.join("/")
-    }
-
-    fn push(&mut self, name: &str, line: u32) {
-        let number = self.0.last_mut().map_or(0, |parent| {
-            let count = parent.children.entry(name.to_owned()).or_default();
-            *count += 1;
-            *count
-        });
-        self.0.push(Open {
-            name: name.to_owned(),
-            number,
-            text: String::new(),
-            children: HashMap::new(),
-            line,
-        });
-    }
-}
-
-/// Returns the rest of the path below a device, if one is open.
-fn below<'a>(names: &'a [&'a str]) -> Option<&'a [&'a str]> {
-    ITEMS.iter().find_map(|item| names.strip_prefix(*item))
-}
-
-/// Reads a file whose outermost element is `root`, device by device.
-fn read(
-    source: &SourceFile,
-    root: &str,
-    found: &mut dyn FnMut(OpenDevice),
-) -> Result<(), XmlError> {
-    let mut reader = Reader::from_str(source.text());
-    let mut walk = Walk::new(root, found);
-    loop {
-        let offset = u32::try_from(reader.buffer_position()).unwrap_or(u32::MAX);
-        let line = source.lines().line(offset);
-        let refuse = |reason: String| XmlError {
-            file: source.name().clone(),
-            line,
-            reason,
-        };
-        let event = reader.read_event();
-        match event.map_err(|error| refuse(error.to_string()))? {
-            Event::Start(start) => walk.open(&start, line).map_err(refuse)?,
-            Event::Empty(start) => {
-                walk.open(&start, line).map_err(refuse)?;
-                walk.close();
-            }
-            Event::End(_) => walk.close(),
-            Event::Text(text) => walk.add(&text.xml_content(XmlVersion::Implicit1_0)),
-            Event::CData(text) => walk.add(&text.xml_content(XmlVersion::Implicit1_0)),
-            Event::GeneralRef(reference) => walk.add(&expanded(&reference).map_err(refuse)?),
-            Event::DocType(_) => return Err(refuse("a document type is not read".to_owned())),
-            Event::Eof => return walk.end().map_err(refuse),
-            _ => {}
-        }
-    }
-}
-
-/// Returns the text of a character reference or an entity of XML.
-fn expanded(reference: &BytesRef<'_>) -> Result<String, String> {
-    if let Ok(Some(character)) = reference.resolve_char_ref() {
-        return Ok(character.to_string());
-    }
-    let name: &str = reference;
-    let text = resolve_xml_entity(name).map(str::to_owned);
-    text.ok_or_else(|| format!("the entity `{name}` is not expanded"))
-}
-
-/// A file that is being read, from its first element to its last.
-struct Walk<'a> {
-    root: &'a str,
-    found: &'a mut dyn FnMut(OpenDevice),
-    path: Path,
-    item: OpenDevice,
-    vendor: Option<u32>,
-    is_described: bool,
-}
-
-impl<'a> Walk<'a> {
-    fn new(root: &'a str, found: &'a mut dyn FnMut(OpenDevice)) -> Self {
-        Self {
-            root,
-            found,
-            path: Path::default(),
-            item: OpenDevice::default(),
-            vendor: None,
-            is_described: false,
-        }
-    }
-
-    fn open(&mut self, start: &BytesStart<'_>, line: u32) -> Result<(), String> {
-        let name = start.local_name();
-        let name: &str = name.as_ref();
-        if self.path.0.len() >= MOST_NESTED {
-            return Err("the elements are nested too deeply".to_owned());
-        }
-        if self.path.0.is_empty() {
-            self.is_described = true;
-            if name != self.root {
-                return Err(other_root(name, self.root));
-            }
-        }
-        self.path.push(name, line);
-        let names = self.path.names();
-        match below(&names) {
-            Some([]) => {
-                self.item = OpenDevice {
-                    vendor: self.vendor,
-                    path: self.path.shown(0),
-                    line,
-                    ..OpenDevice::default()
-                };
-            }
-            Some(below) => self.item.open(below, start),
-            None => {}
-        }
-        Ok(())
-    }
-
-    fn close(&mut self) {
-        let names = self.path.names();
-        let text = self.path.0.last().map_or("", |open| open.text.trim());
-        match below(&names) {
-            Some([]) => (self.found)(std::mem::take(&mut self.item)),
-            Some(below) => {
-                let line = self.path.0.last().map_or(1, |open| open.line);
-                let here = || (self.path.shown(1), line);
-                self.item.take(below, text, here);
-            }
-            None if names == ["EtherCATInfo", "Vendor", "Id"] => self.vendor = number(text),
-            None => {}
-        }
-        self.path.0.pop();
-    }
-
-    /// Adds to the text of the innermost element.
-    fn add(&mut self, text: &str) {
-        if let Some(open) = self.path.0.last_mut()
-            && open.text.len() < 4 * MOST_NAME
-        {
-            open.text.push_str(text);
-        }
-    }
-
-    /// Checks that no element is open at the end of the file.
-    fn end(&self) -> Result<(), String> {
-        match self.path.0.last() {
-            Some(open) => Err(format!("the file ends inside `<{}>`", open.name)),
-            None if self.is_described => Ok(()),
-            None => Err("there is no XML element".to_owned()),
-        }
-    }
 }
 
 /// Returns the message for a file with another outermost element.
@@ -427,9 +348,14 @@ fn other_root(name: &str, wanted: &str) -> String {
     format!("this is {what}")
 }
 
-fn attribute(start: &BytesStart<'_>, name: &str) -> Option<String> {
-    let attribute = start.try_get_attribute(name).ok().flatten()?;
-    Some(attribute.value.to_string())
+/// Returns the text of an element without the blanks around it.
+fn text<'a>(node: Node<'a, 'a>) -> &'a str {
+    node.text().unwrap_or_default().trim()
+}
+
+/// Returns the beginning of a name that is kept.
+fn shortened(name: Option<&str>) -> String {
+    name.unwrap_or_default().chars().take(MOST_NAME).collect()
 }
 
 /// Parses a number as these files write it: `#x60b2`, `0x60b2` or decimal.

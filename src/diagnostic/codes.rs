@@ -92,7 +92,7 @@ codes! {
     Fc205 "FC205" Error "bracket not closed";
     Fc206 "FC206" Error "block too long";
     Fc207 "FC207" Error "text not understood";
-    Fc208 "FC208" Error "control block not balanced";
+    Fc208 "FC208" Error "control block not well-formed";
     Fc209 "FC209" Error "jump label missing or given twice";
     Fc210 "FC210" Warning "text not known to frictcomp";
     Fc301 "FC301" Warning "opposite COMP commands in one block";

@@ -233,6 +233,48 @@ fn branches_that_no_value_leads_to_are_refused() {
 }
 
 #[test]
+fn a_control_statement_is_alone_in_its_block() {
+    // R2.43
+    let refused = |program: &str, place: &str| {
+        let said = Bench::new().run(&[&format!("{program}\nN9: M30")]);
+        assert!(
+            said.contains(&format!("FC208 {place}\n")),
+            "{program}: {said}"
+        );
+        assert!(said.contains("end 0 error"), "{program}: {said}");
+    };
+    for (program, place) in [
+        ("$IF 0\n$ELSE X[COMP OFF FRICT]\n$ENDIF", "2:7-24"),
+        ("$IF 0\n$ENDIF X1", "2:8-10"),
+        ("X1 $IF 0\n$ENDIF", "1:1-3"),
+        ("$IF 0 $ENDIF", "1:7-13"),
+        ("$IF 1 $IF 0\n$ENDIF\n$ENDIF", "1:7-12"),
+        ("$SWITCH 1 $CASE 1\n$ENDSWITCH", "1:11-18"),
+        ("$SWITCH 1\n$CASE 1 X1\n$ENDSWITCH", "2:9-11"),
+        ("$WHILE 0\n$ENDWHILE #FLUSH WAIT", "2:11-22"),
+        ("$FOR P1=0,1,1\n$BREAK P2=1\n$ENDFOR", "2:8-12"),
+        ("$REPEAT \"M\"\n$UNTIL 1", "1:9-12"),
+        ("$REPEAT\nL a.nc $UNTIL 1", "2:1-7"),
+        ("#IF 0\n#ELSE X1\n#ENDIF", "2:7-9"),
+        ("X1 $IF 0 $GOTO N9", "1:1-3"),
+        ("$IF V.E.A $IF 1 $GOTO N9", "1:11-16"),
+        ("$GOTO N9 $GOTO N9", "1:10-18"),
+        ("$GOTO N9 $IF 1", "1:1-9"),
+    ] {
+        refused(program, place);
+    }
+    for program in [
+        "/2 N10 $IF 0 ; X1\nN20 $ENDIF (X1)",
+        "[HERE] $IF 0\n$ENDIF",
+        "$IF 0 $GOTO N9 X1",
+        "X1 $GOTO N9 Y1",
+    ] {
+        let said = Bench::new().run(&[&format!("{program}\nN9: M30")]);
+        assert!(!said.contains("FC208"), "{program}: {said}");
+    }
+}
+
+#[test]
 fn budgets() {
     // R2.60
     let limits = |limits: Limits| Bench::new().limits(limits);

@@ -249,6 +249,7 @@ impl Builder {
         }
         let at = |span| Statement { entry, span, text };
         self.before_cases(block, at(Span::new(0, text.trim_end().len())));
+        self.shares_block(block, at);
         for item in &block.items {
             match (control_part(block, item), item) {
                 (Some((kind, Part::Opener)), _) => self.opens(kind, at(item.span())),
@@ -265,6 +266,43 @@ impl Builder {
                 _ => {}
             }
         }
+    }
+
+    /// FC208: a control statement whose block contains anything else (PM/206890763, tf5200_diagnosis 20212
+    /// to 20245). `$GOTO` may be among words, or after an `$IF` (PM/206915851).
+    fn shares_block<'t>(&mut self, block: &Block, at: impl Fn(Span) -> Statement<'t>) {
+        let jump = block.items.iter().find(|item| is_jump(item));
+        let is_other = |item: &&Item| matches!(item, Item::Flow(..)) && !is_jump(item);
+        let Some(statement) = block.items.iter().find(is_other).or(jump) else {
+            return;
+        };
+        let from = match statement {
+            Item::Flow(Flow::If(_), span) if jump.is_some() => span.start,
+            Item::Flow(Flow::Goto(_), _) => 0,
+            _ => u32::MAX,
+        };
+        let jump = jump.map(Item::span).filter(|jump| jump.start >= from);
+        let is_shared = |item: &&Item| match item {
+            Item::Label(_) => false,
+            Item::Flow(_, span) => *span != statement.span() && Some(*span) != jump,
+            _ => item.span().start < from,
+        };
+        let words = block.words.iter().map(|word| word.span);
+        let mut words = words.filter(|word| word.start < from);
+        let items = || block.items.iter().find(is_shared).map(Item::span);
+        let Some(span) = words.next().or_else(items) else {
+            return;
+        };
+        let (shown, word) = (at(span), at(statement.span()));
+        let message = format!(
+            "`{}` is in the same block as `{}`, which the control refuses",
+            shown.word().trim(),
+            word.word().trim()
+        );
+        let fault = Fault::new(Code::Fc208, span, message).with_help(
+            "write it in a separate block: only `$GOTO` may be among words, or after an `$IF`",
+        );
+        self.refuse(shown.entry, fault);
     }
 
     fn label(&mut self, entry: EntryIndex, name: LabelName, span: Span) {
@@ -475,6 +513,10 @@ impl Builder {
             }
         }
     }
+}
+
+fn is_jump(item: &Item) -> bool {
+    matches!(item, Item::Flow(Flow::Goto(_), _))
 }
 
 fn not_closed(open: &Open) -> Option<Fault> {

@@ -329,6 +329,27 @@ fn a_region_is_looked_through_anew_where_its_macros_do_something_else() {
 }
 
 #[test]
+fn what_may_be_called_comes_after_the_words_of_its_block() {
+    // R2.52, R2.70
+    for call in [
+        "L V.E.NAME",
+        "LL V.E.NAME",
+        "L SEQUENCE [N[V.E.A] N20]",
+        "FOO[1]",
+        "M[V.E.A]",
+        "MV.E.A",
+        "GV.E.A",
+    ] {
+        let program = format!(
+            "{call} X[COMP ON FRICT] P1=1\nN20: $IF P1 == 2\nX[COMP OFF FRICT]\n$ENDIF\nM30"
+        );
+        let said = Bench::new().run(&[&program]);
+        assert!(said.contains("FC901"), "{call}: {said}");
+        assert!(said.contains("M30 X:unknown"), "{call}: {said}");
+    }
+}
+
+#[test]
 fn what_other_channels_and_drives_send_is_unknown() {
     // R2.50, R2.70: PM/207421579, 913718283, 208525707
     for command in [

@@ -40,7 +40,7 @@ impl Interpreter {
                 part: None,
             })),
             Value::Unknown(cause) => {
-                let _ = self.havoc_block(at, &cause);
+                self.havoc_call(call, at, &cause);
                 if self.scratch.unread.get() {
                     return Ok(None);
                 }

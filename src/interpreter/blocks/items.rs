@@ -305,7 +305,7 @@ impl Interpreter {
 
     /// A macro with unknown code, which may do anything (R2.51).
     fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
-        self.havoc_all(cause);
+        self.havoc_by_call(cause);
         let what = unknown_value(cause);
         let message = format!(
             "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"

@@ -131,7 +131,7 @@ impl Interpreter {
     }
 
     fn unknown_return(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
-        self.havoc_all(cause);
+        self.havoc_by_call(cause);
         self.tell_unknown(what, "the dry run goes on after the call", cause, span, at);
     }
 

@@ -197,7 +197,7 @@ impl Interpreter {
     /// FC210: an unknown word, which may do anything (R2.70).
     fn unread_word(&mut self, span: Span, at: &BlockContext<'_>) {
         let text = span.of(at.text);
-        self.havoc_all(&text.into());
+        self.havoc_by_call(&text.into());
         self.scratch
             .diagnostics
             .push(at.diagnostic(not_known(text, span)));

@@ -74,7 +74,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) {
         let cause = letter.into();
-        self.havoc_all(&cause);
+        self.havoc_by_call(&cause);
         if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
             self.look_through_words(letter.as_bytes()[0], span, unit, &cause);
         }
@@ -101,7 +101,7 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        self.havoc_all(cause);
+        self.havoc_by_call(cause);
         self.tell_unknown(what, "the call is passed over", cause, span, at);
     }
 

@@ -21,7 +21,7 @@ impl Interpreter {
     /// Makes unknown what text of unknown meaning could change (R2.70).
     pub(in crate::interpreter) fn havoc_unread(&mut self, effect: Unread, cause: &Arc<str>) {
         match effect {
-            Unread::Everything => self.havoc_all(cause),
+            Unread::Everything => self.havoc_by_call(cause),
             Unread::Parameters => {
                 self.write(
                     AssignedPlace::Parameters(cause.clone()),
@@ -46,6 +46,14 @@ impl Interpreter {
         self.perhaps_move_all();
         self.havoc_couplings();
         self.havoc_compensation();
+    }
+
+    /// A part of the block that may call any program: everything becomes unknown, and once more after the
+    /// words of the block, since programs are called after them.
+    pub(in crate::interpreter) fn havoc_by_call(&mut self, cause: &Arc<str>) {
+        self.havoc_all(cause);
+        let calls = &mut self.scratch.unknown_call;
+        calls.get_or_insert_with(|| cause.clone());
     }
 
     /// It is not known whether any axis moves.

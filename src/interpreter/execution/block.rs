@@ -115,6 +115,9 @@ impl Interpreter {
             self.perhaps_execute(level, at, &mut outcome);
         } else if !self.is_halted() {
             self.remembered_items(at, &mut outcome, limit);
+            if let Some(cause) = self.scratch.unknown_call.take() {
+                self.havoc_all(&cause);
+            }
         }
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);

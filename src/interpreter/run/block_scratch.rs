@@ -108,6 +108,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) unread: Cell<bool>,
     /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
     pub(in crate::interpreter) flushing: RefCell<Option<String>>,
+    /// Why a program may be called that is not known, if one may.
+    pub(in crate::interpreter) unknown_call: Option<Arc<str>>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block that ends the program.
@@ -168,6 +170,7 @@ impl BlockScratch {
         self.diagnostics.clear();
         self.aside.withheld.clear();
         self.undecided = None;
+        self.unknown_call = None;
         self.geometry = None;
         self.dwells = false;
         self.motion = None;

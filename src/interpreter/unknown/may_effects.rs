@@ -20,7 +20,6 @@ use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::cycles::after_motion_only;
-use crate::interpreter::run::event::Notes;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region, RegionEffect};
@@ -552,6 +551,18 @@ impl Interpreter {
         may_effects.whole_region(from)
     }
 
+    /// Returns the possible effects of a call.
+    pub(in crate::interpreter) fn region_of_call(
+        &self,
+        unit: usize,
+        call: &Call,
+        at: &BlockContext<'_>,
+    ) -> Region {
+        let mut may_effects = self.may_effects((unit, 0));
+        may_effects.call(call, at);
+        may_effects.region
+    }
+
     /// Returns the possible effects of the blocks of a skip level in a file.
     pub(in crate::interpreter) fn region_of_level(&self, unit: usize, level: u8) -> Region {
         let skips = &self.programs.index(unit).skips;
@@ -560,23 +571,6 @@ impl Interpreter {
             may_effects.blocks(unit, *entry..entry + 1);
         }
         may_effects.region
-    }
-
-    /// Notes the values of the machine that a block would read.
-    fn note_reads(&self, at: &BlockContext<'_>) {
-        if self.options.notes == Notes::None {
-            return;
-        }
-        let nodes = at.block.nodes.iter().enumerate();
-        let read = nodes.filter(|(_, node)| matches!(node, Node::Variable { subscripts: 0 }));
-        for (place, _) in read {
-            let node = Span::new(place, place + 1);
-            let read = Operand::Expression(Expression {
-                start: node.start,
-                end: node.end,
-            });
-            let _ = self.with_evaluator(at, |evaluator| evaluator.value(read, &mut Vec::new()));
-        }
     }
 }
 

@@ -22,6 +22,7 @@ use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::syntax::ast::Call;
 use crate::text::Span;
 
 impl Interpreter {
@@ -137,18 +138,36 @@ impl Interpreter {
         region
     }
 
+    /// Makes unknown what a call of an unknown program could change (R2.52).
+    pub(in crate::interpreter) fn havoc_call(
+        &mut self,
+        call: &Call,
+        at: &BlockContext<'_>,
+        cause: &Arc<str>,
+    ) {
+        let unit = self.running_unit();
+        let region = self.region_of_call(unit, call, at);
+        self.suffer_region(&region, unit, cause);
+        self.scratch.unknown_call = Some(cause.clone());
+    }
+
     fn suffer_block(&mut self, at: &BlockContext<'_>, cause: &Arc<str>) -> Region {
-        let unit = self
-            .state
-            .control
-            .frames
-            .running()
-            .map_or(0, |frame| frame.unit);
+        let unit = self.running_unit();
         let region = self.region_of_block(unit, at);
+        self.suffer_region(&region, unit, cause);
+        region
+    }
+
+    fn running_unit(&self) -> usize {
+        let frame = self.state.control.frames.running();
+        frame.map_or(0, |frame| frame.unit)
+    }
+
+    fn suffer_region(&mut self, region: &Region, unit: usize, cause: &Arc<str>) {
         self.state
             .effort
             .charge(ITEM * (region.effects.len() + region.calls.len() + region.targets.len()));
-        self.note_differing(&region);
+        self.note_differing(region);
         for effect in &region.effects {
             self.suffer(effect, unit, cause);
         }
@@ -162,7 +181,6 @@ impl Interpreter {
             region: None,
         });
         self.pending.extend(calls);
-        region
     }
 
     /// Something of the state may have changed.

@@ -130,8 +130,7 @@ size_t frictcomp_machine_axis_count(const FrictcompMachine *machine);
 
 // The name of an axis by its position; NULL if there is none. The text is valid until the machine
 // is changed or freed.
-const char *frictcomp_machine_axis_name(const FrictcompMachine *machine,
-                                        size_t axis);
+const char *frictcomp_machine_axis_name(const FrictcompMachine *machine, size_t axis);
 
 // Writes the position of an axis to `axis`, by its name.
 FrictcompStatus frictcomp_machine_find(const FrictcompMachine *machine,
@@ -147,8 +146,7 @@ size_t frictcomp_machine_error_count(const FrictcompMachine *machine);
 
 // A message about the lists, `file:line:column: severity[code] words`; NULL if there is none. The
 // text is valid until the machine is freed.
-const char *frictcomp_machine_message(const FrictcompMachine *machine,
-                                      size_t message);
+const char *frictcomp_machine_message(const FrictcompMachine *machine, size_t message);
 
 // Frees a machine; NULL is ignored. What was made from it remains valid.
 void frictcomp_machine_free(FrictcompMachine *machine);

@@ -127,7 +127,7 @@ codes! {
     Fc411 "FC411" Warning "COMP while a transformation is active";
     Fc412 "FC412" Info "compensation state read under cutter radius compensation";
     Fc413 "FC413" Warning "state that depends on the block search";
-    Fc409 "FC409" Info "switched while the axis moves on";
+    Fc409 "FC409" Info "switched while the axis keeps moving";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";
     Fc501 "FC501" Error "no additive torque command in the cyclic data";

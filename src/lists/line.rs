@@ -54,7 +54,7 @@ impl Entries {
                     source.place(Span::new(start, end)),
                     "the list ends without `Ende`",
                 )
-                .with_help("write `Ende` on a line of its own after the last entry"),
+                .with_help("write `Ende` on a separate line after the last entry"),
             );
         }
         reader.tell_lost();

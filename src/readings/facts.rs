@@ -193,7 +193,7 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         question: "Does a COMP command for FRICT between two moves stop the path, and with it the look-ahead?",
         readings: ["runs-on", "stops"],
         meanings: [
-            "the path goes on at its feed after a COMP command",
+            "the path continues at its feed after a COMP command",
             "a COMP command stops the path",
         ],
         assumed: Some(First),

@@ -28,6 +28,6 @@ pub(super) fn look(file: &str, head: &str) -> Option<Diagnostic> {
     let message = format!(
         "this is a program for {dialect}, not for an ISG control: {blocks} of the first {of} blocks have words such as `{words}`"
     );
-    let help = "its other messages mean nothing; leave the program out, or translate it";
+    let help = "its other messages are meaningless; leave the program out, or translate it";
     Some(Diagnostic::new(Code::Fc326, place, message).with_help(help))
 }

@@ -304,7 +304,7 @@ impl<S: LineSource> BlockReader<S> {
             .with_help("split it into several")
         } else {
             Fault::new(Code::Fc208, opener, format!("`{name}` has no `{end}`"))
-                .with_help(format!("write `{end}` in a block of its own"))
+                .with_help(format!("write `{end}` in a separate block"))
         });
     }
 }

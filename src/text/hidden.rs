@@ -55,7 +55,7 @@ pub fn changed_direction(text: &str) -> Option<(Span, String)> {
         .map(|(letter, name)| format!("`U+{:04X} {name}`", u32::from(*letter)))
         .collect();
     let sentence = format!(
-        "the line contains {}; on the screen its characters may stand in another order than the control reads",
+        "the line contains {}; on the screen its characters may appear in another order than the control reads",
         names.join(", ")
     );
     Some((Span::new(first, end), sentence))

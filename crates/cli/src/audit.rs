@@ -34,8 +34,8 @@ use frictcomp_report::audit::{
     AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
     sequence_text,
 };
-use frictcomp_report::fitted;
 use frictcomp_report::html::render_audit;
+use frictcomp_report::{counted, fitted};
 
 /// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
 /// in the state that they find
@@ -390,11 +390,6 @@ fn write(changes: &[MendedProgram], console: Console) -> Result<(), Failure> {
         console.remark(&format!("wrote `{}`: {blocks}", shown(&file.path)));
     }
     Ok(())
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
 }
 
 /// Reads one program per line, relative to the folder of the list; empty lines and lines that begin with `#`

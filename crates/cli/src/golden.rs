@@ -23,7 +23,7 @@ use frictcomp_host::{
 };
 use frictcomp_physics::contour::BlockDeviations;
 use frictcomp_report::contour::{AgreedContour, GoldenContour, agreed_contour};
-use frictcomp_report::{Report, Text, TextChange, TextOptions, render_unified};
+use frictcomp_report::{Report, Text, TextChange, TextOptions, counted, render_unified};
 
 const TIMELINE: GoldenKind = GoldenKind {
     extension: "timeline",
@@ -201,11 +201,7 @@ impl GoldenArgs {
     }
 
     fn counted(&self, count: usize) -> String {
-        let kind = self.kind().extension;
-        match count {
-            1 => format!("1 {kind}"),
-            _ => format!("{count} {kind}s"),
-        }
+        counted(count, self.kind().extension)
     }
 }
 

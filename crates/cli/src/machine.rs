@@ -19,7 +19,7 @@ use frictcomp_host::{
     ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
     OutsidePolicy, read_value_list, switched_axes, unread_variables,
 };
-use frictcomp_report::command_line;
+use frictcomp_report::{command_line, counted};
 
 /// The machine, as given on the command line.
 #[derive(Debug, Clone, Args)]
@@ -110,14 +110,13 @@ pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
         let said = loaded.diagnostics.iter();
         match said.filter(|said| said.severity == severity).count() {
             0 => {}
-            1 => parts.push(format!("1 {noun}")),
-            several => parts.push(format!("{several} {noun}s")),
+            count => parts.push(counted(count, noun)),
         }
     }
     let origin = shown_path(loaded.origin.as_ref()?);
     (!parts.is_empty()).then(|| {
         let parts = parts.join(", ");
-        format!("lists: {parts} (`frictcomp lists {origin}` shows them)")
+        format!("lists: {parts} (see `frictcomp lists {origin}`)")
     })
 }
 
@@ -141,7 +140,8 @@ pub(super) fn value_list(path: &Path, registry: &FileRegistry) -> Result<Frictio
     if count > 0 {
         let name = shown_path(path);
         Console::talk(&format!(
-            "lists: {count} remarks (`frictcomp lists {name}` shows them)"
+            "lists: {} (see `frictcomp lists {name}`)",
+            counted(count, "remark")
         ));
     }
     Ok(read.list)

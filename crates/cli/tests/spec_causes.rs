@@ -312,7 +312,7 @@ fn the_closing_line_names_what_the_states_rest_on() {
         let shown = bench.stdout(&["run", "p.nc"]);
         assert!(!shown.contains("Nothing to do"), "{program}: {shown}");
         assert!(
-            shown.contains(&format!("as far as it is known: {codes}")),
+            shown.contains(&format!("as far as is known: {codes}")),
             "{program}: {shown}"
         );
     }

@@ -61,10 +61,10 @@ pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>) -> String
     match codes.as_slice() {
         [] if axes.iter().all(is_compensated) => format!("Nothing to do: e{home}."),
         [] => format!("E{home}."),
-        [code] => format!("E{home} as far as it is known: see {code}."),
+        [code] => format!("E{home} as far as is known: see {code}."),
         [codes @ .., last] => {
             let codes = codes.join(", ");
-            format!("E{home} as far as it is known: see {codes} and {last}.")
+            format!("E{home} as far as is known: see {codes} and {last}.")
         }
     }
 }

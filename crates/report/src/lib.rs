@@ -70,6 +70,7 @@ pub use messages::concise_line;
 pub use messages::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
+pub use strings::counted;
 pub use table::Table;
 pub use text::{Runs, Text, TextOptions};
 pub use timeline_format::{TimelineFormat, TimelineOptions};

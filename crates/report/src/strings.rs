@@ -1,6 +1,7 @@
-//! Values as JSON, and numbers, appended to a reused buffer.
+//! Values as JSON, numbers and counts.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 
 use frictcomp::text::shown_json;
 use serde::Serialize;
@@ -33,6 +34,12 @@ pub(super) fn to_pretty(value: &impl Serialize) -> String {
 /// Appends an integer.
 pub(super) fn integer(out: &mut Vec<u8>, number: impl itoa::Integer) {
     out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
+}
+
+/// Returns a count with its noun in English: `1 block`, `2 blocks`.
+pub fn counted(count: impl Display + PartialEq + From<u8>, noun: &str) -> String {
+    let plural = if count == 1.into() { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }
 
 /// A number with a blank between its thousands.

@@ -436,7 +436,7 @@ impl Interpreter {
         }
         let value = unknown_value(cause);
         let message = format!(
-            "{what} depends on {value}; the dry run goes on after it, and where both ways meet what differs is unknown"
+            "{what} depends on {value}; the dry run continues after it, and where both ways meet what differs is unknown"
         );
         let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
         self.tell_once(cause, what, fault, at);

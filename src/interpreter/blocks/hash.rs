@@ -228,7 +228,7 @@ impl Interpreter {
         let message =
             format!("the control stops here: the program reports an error with `RC={class}`");
         let fault = Fault::new(Code::Fc318, hash.span, message)
-            .with_help("with `RC=0` it is a warning, and the program goes on");
+            .with_help("with `RC=0` it is a warning, and the program continues");
         self.scratch.diagnostics.push(at.diagnostic(fault));
         if self.options.stop == StopPolicy::FirstError {
             outcome.step = Some(ControlStep::End(EndedBy::Error));

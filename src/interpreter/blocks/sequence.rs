@@ -132,7 +132,13 @@ impl Interpreter {
 
     fn unknown_return(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &BlockContext<'_>) {
         self.havoc_by_call(cause);
-        self.tell_unknown(what, "the dry run goes on after the call", cause, span, at);
+        self.tell_unknown(
+            what,
+            "the dry run continues after the call",
+            cause,
+            span,
+            at,
+        );
     }
 
     /// `M17 [MAIN [LABEL]]`

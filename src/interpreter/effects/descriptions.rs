@@ -43,7 +43,7 @@ impl ControlState {
         let open = self.described.take()?;
         let end = description_end(&open.opener)?;
         let message = format!("`{}` has no `{end}`", open.opener);
-        let help = format!("write `{end}` in a block of its own");
+        let help = format!("write `{end}` in a separate block");
         Some(Diagnostic::new(Code::Fc208, open.place, message).with_help(help))
     }
 }

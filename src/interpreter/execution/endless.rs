@@ -125,7 +125,7 @@ impl Interpreter {
         if known.passes > most + MOST_JOINED_PASSES {
             let after = known.from.saturating_add(1);
             self.state.track.loops.push(known);
-            self.havoc_loop(&"a loop that goes on too long".into(), finder);
+            self.havoc_loop(&"a loop that runs too long".into(), finder);
             return ControlStep::Jump(after);
         }
         let now = self.at_head(target);

@@ -529,7 +529,7 @@ fn not_closed(open: &Open) -> Option<Fault> {
         open.span,
         format!("`{opener}` has no `{closer}`"),
     );
-    Some(fault.with_help(format!("write `{closer}` in a block of its own")))
+    Some(fault.with_help(format!("write `{closer}` in a separate block")))
 }
 
 /// Whether a statement is one of the language, and not a misspelt one.

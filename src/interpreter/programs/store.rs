@@ -307,7 +307,7 @@ fn not_at_hand(wanted: &WantedCall, why: &NoProgram) -> Box<Fault> {
             fault.with_help(on_machine_only(name))
         }
         NoProgram::Absent => fault(Code::Fc320, "was not found")
-            .with_help("it was looked for beside the calling file, then in the `program_dirs` of the configuration")
+            .with_help("it was looked for next to the calling file, then in the `program_dirs` of the configuration")
             .with_help(on_machine_only(name)),
         NoProgram::Unusable(what) => fault(Code::Fc320, what)
             .with_help("a called program must be a readable file of at most 1 GiB"),

@@ -44,7 +44,7 @@ impl Interpreter {
             };
             let value = unknown_value(&way.cause);
             let message = format!(
-                "{what} depends on {value}; the dry run goes on, and where both ways meet what differs is unknown"
+                "{what} depends on {value}; the dry run continues, and where both ways meet what differs is unknown"
             );
             let span = way.say.filter(|span| span.end > span.start);
             let span = span.unwrap_or(Span::new(0, at.text.len()));

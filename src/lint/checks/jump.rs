@@ -78,12 +78,12 @@ impl Linter<'_> {
         let name = self.name(jump.axis);
         let way = if now == State::Active { "on" } else { "off" };
         let message = format!(
-            "friction compensation of axis `{name}` is switched {way} while the axis moves on in the same \
+            "friction compensation of axis `{name}` is switched {way} while the axis keeps moving in the same \
              direction, where its current would jump"
         );
         Diagnostic::new(Code::Fc409, jump.place, message)
             .with_axis(name)
-            .with_help("switch it where the axis stands still or reverses")
+            .with_help("switch it where the axis is at standstill or reverses")
             .with_help("it is assumed that the command itself does not stop the path; if it does, there is no jump")
     }
 }

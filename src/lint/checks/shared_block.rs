@@ -17,6 +17,6 @@ pub(super) fn lint(executed: &Executed<'_>) -> Option<Diagnostic> {
             "COMP and motion share a block; the command takes effect before the motion",
         )
         .with_axis(command.axis.clone())
-        .with_help("write the command in a block of its own"),
+        .with_help("write the command in a separate block"),
     )
 }

@@ -105,7 +105,7 @@ impl BlockLowering<'_> {
              could change is unknown from here on"
         );
         let fault = Fault::new(Code::Fc210, span, message)
-            .with_help("write it in a block of its own: a `#` command must be alone in its block");
+            .with_help("write it in a separate block: a `#` command must be alone in its block");
         self.block.faults.push(fault);
         self.block
             .items

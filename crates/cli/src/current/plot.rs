@@ -8,6 +8,7 @@ use super::super::outputs::{Outputs, write_text};
 use frictcomp::lists::FrictionList;
 use frictcomp_host::OutputFile;
 use frictcomp_physics::current::{Reading, Standstill};
+use frictcomp_report::counted;
 use frictcomp_report::pictures::{AxisPlot, CurrentPlot};
 use frictcomp_report::svg::Frame;
 
@@ -37,14 +38,6 @@ impl Plot {
     }
 }
 
-/// Returns `1 cycle`, `2 cycles`.
-fn counted(cycles: u64) -> String {
-    match cycles {
-        1 => "1 cycle".to_owned(),
-        more => format!("{more} cycles"),
-    }
-}
-
 /// Reports, where it matters, what is added at standstill (C11).
 pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
     if cycles == 0 {
@@ -56,7 +49,7 @@ pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
     };
     Console::talk(&format!(
         "C11: in {} at standstill the current{axis} is {now}; {other}",
-        counted(cycles)
+        counted(cycles, "cycle")
     ));
 }
 
@@ -75,7 +68,7 @@ pub(super) fn say_saturated(axis: &str, cycles: u64) {
     if cycles > 0 {
         Console::talk(&format!(
             "FC137: the current of {}{axis} exceeds 16 bits and was limited",
-            counted(cycles)
+            counted(cycles, "cycle")
         ));
     }
 }

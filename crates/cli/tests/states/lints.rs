@@ -139,7 +139,7 @@ fn motion_before_the_first_command_makes_the_second_run_differ() {
     // In one block the command comes first.
     assert_snapshot!(said(&["X1 X[COMP OFF FRICT]\nX2\nM30"]), @"
     FC405 1:4 COMP and motion share a block; the command takes effect before the motion
-      help: write the command in a block of its own
+      help: write the command in a separate block
     FC401 1:4 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30 in line 3: `X[COMP ON FRICT]`
     ");
@@ -156,7 +156,7 @@ fn remarks_on_the_text_of_a_command() {
       help: the configuration lists all axes: X, Y, Z, B
       help: if the machine has axis `x`, add it: `[[axis]]` with `name = "x"` in `frictcomp.toml`
     FC405 2:1 COMP and motion share a block; the command takes effect before the motion
-      help: write the command in a block of its own
+      help: write the command in a separate block
     FC404 2:3 keyword `comp` is not in upper case
       help: write `COMP`
     FC406 2:17 kind `FRICT` is named twice in this bracket; it counts once

@@ -106,10 +106,10 @@ impl MotionRemarks {
                 Advice::CompleteMotion,
             ),
             names => {
-                let stand = if names.len() == 1 { "" } else { "s" };
+                let plural = if names.len() == 1 { "" } else { "s" };
                 let all = names.join(", ");
                 (
-                    format!("unknown start position{stand} of {all}"),
+                    format!("unknown start position{plural} of {all}"),
                     Advice::GiveStart(names.to_vec()),
                 )
             }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use crate::assumptions::rests_on_text;
+use crate::strings::counted;
 use crate::visible::visible_line;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
 use frictcomp::interpreter::MotionKind;
@@ -75,11 +76,6 @@ fn total(report: &AuditReport) -> String {
         ),
     };
     format!("{programs}; {what}")
-}
-
-fn counted(count: u64, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
 }
 
 /// A count that follows another one, if it is not zero.

@@ -173,7 +173,7 @@ fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) 
         };
         let _ = write!(
             out,
-            "{} is switched {way} while it moves on, before {}",
+            "{} is switched {way} while it keeps moving, before {}",
             switch.axis,
             ProgramBlock::from(switch).words()
         );

@@ -6,10 +6,11 @@ use std::io::{self, Write};
 use maud::{Markup, html};
 
 use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, counted, line_id};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id};
 use super::source::Sources;
 use crate::assumptions::rests_on_text;
 use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::strings::counted;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
 
 const FINDINGS: PagePart = PagePart::new("findings", "Findings");

@@ -127,12 +127,6 @@ pub(super) fn times(times: u64) -> Markup {
     html! { @if times > 1 { " " span.quiet { "(" (times) " times)" } } }
 }
 
-/// A number of things.
-pub(super) fn counted(number: u64, noun: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {noun}{plural}")
-}
-
 /// The identifier of a line of source in the page.
 pub(super) fn line_id(file: usize, line: u32) -> String {
     format!("f{file}l{line}")

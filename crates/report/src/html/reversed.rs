@@ -6,8 +6,9 @@ use std::io;
 use maud::{Markup, html};
 
 use super::page::Page;
-use super::parts::{counted, line_id};
+use super::parts::line_id;
 use super::source::{SourceText, Sources};
+use crate::strings::counted;
 use frictcomp::comp::State;
 use frictcomp_physics::contour::{ContourReversal, GlitchFigure};
 use frictcomp_physics::motion::Movement;

@@ -6,8 +6,9 @@ use maud::html;
 
 use super::digest::{ProgramDigest, RunDigest};
 use super::page::Page;
-use super::parts::{counted, figure, line_id};
+use super::parts::{figure, line_id};
 use super::track::{StateSpan, StateTrack};
+use crate::strings::counted;
 use crate::svg::{Band, BandChart, BandRow, ChartAxis, Frame};
 use frictcomp::comp::Kind;
 

@@ -38,7 +38,7 @@ pub struct LearnedRound {
 /// A list that adds more than a multiple of the measured friction (R16.9).
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "at {speed_mm_per_s:.3} mm/s it adds {part:.2} times the measured friction, and {most} times are the most"
+    "at {speed_mm_per_s:.3} mm/s it adds {part:.2} times the measured friction; the limit is {most}"
 )]
 #[non_exhaustive]
 pub struct TooMuchCurrent {

@@ -332,8 +332,6 @@ fn a_region_is_looked_through_anew_where_its_macros_do_something_else() {
 fn what_may_be_called_comes_after_the_words_of_its_block() {
     // R2.52, R2.70
     for call in [
-        "L V.E.NAME",
-        "LL V.E.NAME",
         "L SEQUENCE [N[V.E.A] N20]",
         "FOO[1]",
         "M[V.E.A]",
@@ -346,6 +344,41 @@ fn what_may_be_called_comes_after_the_words_of_its_block() {
         let said = Bench::new().run(&[&program]);
         assert!(said.contains("FC901"), "{call}: {said}");
         assert!(said.contains("M30 X:unknown"), "{call}: {said}");
+    }
+}
+
+#[test]
+fn nothing_follows_a_call_in_its_block() {
+    // R2.13
+    for (call, place) in [
+        ("L SUB.NC X[COMP ON FRICT]", "4:10-26"),
+        ("X1 L \"SUB.NC\" M30", "4:15-18"),
+        ("LL SUB $GOTO N9", "4:8-16"),
+        ("L CYCLE [NAME=SUB.NC] Y1", "4:23-25"),
+        ("L V.E.NAME P1=1", "4:12-16"),
+    ] {
+        let program = format!("%L SUB\nM17\n%MAIN\n{call}\nN9: M30");
+        let said = Bench::new().file("SUB.NC", "M17").run(&[&program]);
+        assert!(said.contains(&format!("FC207 {place}\n")), "{call}: {said}");
+        assert!(said.contains("end 1 error"), "{call}: {said}");
+    }
+}
+
+#[test]
+fn a_call_in_the_block_of_a_jump_or_an_end_may_be_made() {
+    // R2.13
+    for block in [
+        "M30 L SUB.NC",
+        "M2 LL SUB",
+        "$GOTO N9 L SUB.NC",
+        "M17 L CYCLE [NAME=SUB.NC]",
+    ] {
+        let program = format!("%MAIN\n{block}\nX1\nN9: M30");
+        let said = Bench::new()
+            .file("SUB.NC", "X[COMP OFF FRICT]\nM17")
+            .run(&[&program]);
+        assert!(said.contains("FC210 2:"), "{block}: {said}");
+        assert!(said.contains(" X:unknown"), "{block}: {said}");
     }
 }
 

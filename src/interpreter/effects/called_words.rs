@@ -9,6 +9,7 @@ use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::RegionCall;
+use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -103,6 +104,28 @@ impl Interpreter {
     ) {
         self.havoc_by_call(cause);
         self.tell_unknown(what, "the call is passed over", cause, span, at);
+    }
+
+    /// FC210: calls in the block of a jump, a program end or a return. Whether the control makes them is not
+    /// documented, so that everything that a program could change is unknown (R2.52).
+    pub(in crate::interpreter) fn pass_over_calls(
+        &mut self,
+        outcome: &mut BlockOutcome,
+        at: &BlockContext<'_>,
+    ) {
+        let calls = std::mem::take(&mut outcome.calls);
+        let Some(call) = calls.first() else {
+            return;
+        };
+        let shown = call.span.of(at.text).trim();
+        self.havoc_all(&shown.into());
+        let message = format!(
+            "`{shown}` is in the same block as a jump or an end; whether the control calls a program there is not \
+             known, and everything that a program could change is unknown from here on"
+        );
+        let fault = Fault::new(Code::Fc210, call.span, message)
+            .with_help("write the call in a separate block before it");
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC902: `what` depends on a value that only the machine knows.

@@ -88,6 +88,10 @@ impl Interpreter {
         if outcome.calls.is_empty() {
             return Vec::new();
         }
+        if !outcome.goes_on() {
+            self.pass_over_calls(outcome, at);
+            return Vec::new();
+        }
         self.resolve_all(std::mem::take(&mut outcome.calls), at, finder)
     }
 

@@ -43,6 +43,7 @@ impl BlockLowering<'_> {
 
     pub(super) fn finish(&mut self) {
         self.flush_unknown();
+        self.refuse_after_call();
         let words = &self.lower_case;
         if let (Some(span), Some(fix)) = (words.first(), in_upper_case(self.code, words)) {
             let word = span.of(self.code);
@@ -52,6 +53,27 @@ impl BlockLowering<'_> {
                     .with_fix(fix),
             );
         }
+    }
+
+    /// Nothing follows a call in its block (tf5200_diagnosis/255123851, error 21542).
+    fn refuse_after_call(&mut self) {
+        let mut items = self.block.items.iter();
+        let Some(Item::Call(call)) = items.find(|item| matches!(item, Item::Call(_))) else {
+            return;
+        };
+        let refused = |item: &&Item| !matches!(item, Item::BadCommand(_) | Item::Unread(..));
+        let Some(item) = items.next().filter(refused) else {
+            return;
+        };
+        let (shown, call) = (item.span().of(self.code), call.span.of(self.code));
+        let message = format!(
+            "`{}` follows the call `{}` in its block, where the control accepts nothing",
+            shown.trim(),
+            call.trim()
+        );
+        let fault = Fault::new(Code::Fc207, item.span(), message)
+            .with_help("write it before the call, or in the next block");
+        self.block.faults.push(fault);
     }
 
     pub(super) fn flush_unknown(&mut self) {

@@ -1,6 +1,6 @@
 //! Construction of the index of a program: control blocks are paired, labels and jumps noted.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::index::{EntryIndex, Index, IndexEntry, LabelName, Links, ProgramSection};
@@ -64,6 +64,7 @@ impl Index {
             open: Vec::new(),
             jumps: Vec::new(),
             inner: Vec::new(),
+            shared: HashSet::new(),
             here: None,
             earlier: None,
         };
@@ -97,6 +98,8 @@ struct Builder {
     jumps: Vec<PendingJump>,
     /// `$BREAK` and `$CONTINUE` with the loops that contain them, by opener.
     inner: Vec<(EntryIndex, EntryIndex)>,
+    /// Blocks of several statements, which get one message each.
+    shared: HashSet<EntryIndex>,
     /// The last block so far, once something was refused in it.
     here: Option<(EntryIndex, Place)>,
     /// The block before it in which something was last refused. Openers without an end are reported block by
@@ -196,6 +199,9 @@ impl Builder {
     }
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
+        if self.shared.contains(&entry) {
+            return;
+        }
         let block = self.place_of(entry);
         let place = |span| {
             let text = Arc::clone(&block.text);
@@ -303,6 +309,7 @@ impl Builder {
             "write it in a separate block: only `$GOTO` may be among words, or after an `$IF`",
         );
         self.refuse(shown.entry, fault);
+        self.shared.insert(shown.entry);
     }
 
     fn label(&mut self, entry: EntryIndex, name: LabelName, span: Span) {

@@ -37,7 +37,7 @@ pub(super) fn integer(out: &mut Vec<u8>, number: impl itoa::Integer) {
 }
 
 /// Returns a count with its noun in English: `1 block`, `2 blocks`.
-pub fn counted(count: impl Display + PartialEq + From<u8>, noun: &str) -> String {
+pub fn counted(count: impl Copy + Display + PartialEq + From<u8>, noun: &str) -> String {
     let plural = if count == 1.into() { "" } else { "s" };
     format!("{count} {noun}{plural}")
 }

@@ -119,9 +119,6 @@ impl Interpreter {
             self.perhaps_execute(level, at, &mut outcome);
         } else if !self.is_halted() {
             self.remembered_items(at, &mut outcome, limit);
-            if let Some(cause) = self.scratch.unknown_call.take() {
-                self.havoc_all(&cause);
-            }
         }
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
@@ -323,6 +320,9 @@ impl Interpreter {
                 let commands = &mut self.state.control.last_commands;
                 commands.switch(axis, outcome.command.selection, &last);
             }
+        }
+        if let Some(cause) = self.scratch.unknown_call.take() {
+            self.havoc_all(&cause);
         }
     }
 

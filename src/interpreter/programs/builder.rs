@@ -274,8 +274,8 @@ impl Builder {
         }
     }
 
-    /// FC208: a control statement whose block contains anything else (PM/206890763, tf5200_diagnosis 20212
-    /// to 20245). `$GOTO` may be among words, or after an `$IF` (PM/206915851).
+    /// FC208: a control statement whose block contains anything else (PM/206890763, errors 20212 to
+    /// 20245). `$GOTO` may be among words, or after an `$IF` (PM/206915851).
     fn shares_block<'t>(&mut self, block: &Block, at: impl Fn(Span) -> Statement<'t>) {
         let jump = block.items.iter().find(|item| is_jump(item));
         let is_other = |item: &&Item| matches!(item, Item::Flow(..)) && !is_jump(item);

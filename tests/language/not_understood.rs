@@ -144,6 +144,9 @@ fn what_stands_beside_a_command_may_be_executed() {
         "#MSG [\"a\"] L sub.nc",
         "#SET AX [X, 1, 0] FAST M17",
         "#PSET X10 Y[COMP OFF FRICT]",
+        "G1 X10 F100 #TIME 8.15",
+        "[HERE] X[COMP ON FRICT] #FLUSH WAIT",
+        "P1=3 #VAR\nV.P.A = 3\n#ENDVAR",
         "#COMMENT BEGIN X[COMP OFF FRICT]\nX1\n#COMMENT END",
         "#COMMENT BEGIN\nX1\n#COMMENT END X[COMP OFF FRICT]",
         "X10 #COMMENT BEGIN\n#COMMENT END",
@@ -184,6 +187,8 @@ fn a_word_that_goes_on_a_command_is_known_or_may_do_anything() {
         "#MEAS MODE 1",
         "#SLOPE [TYPE=HSC]  (a remark)",
         "#SPLINE ON X10 Y20",
+        "X1 #PSET X10",
+        "/2 N10 [HERE] #TIME 1",
         "#MCS OFF",
     ] {
         let found = codes(&format!("P1=1\n{program}\nM30"));

@@ -105,7 +105,11 @@ impl BlockLowering<'_> {
             Rule::skip => self.skip_mark(pair, span),
             Rule::number => self.number(pair, span),
             Rule::flow => self.flow(pair, span),
-            Rule::hash | Rule::hash_word | Rule::hash_switch => self.hash(span),
+            Rule::hash => {
+                self.words_before(span);
+                self.hash(span);
+            }
+            Rule::hash_word | Rule::hash_switch => self.hash(span),
             Rule::macro_definition => {
                 let mut texts = pair.into_inner().map(|text| span_of(&text));
                 if let (Some(name), Some(code)) = (texts.next(), texts.next()) {

@@ -18,7 +18,26 @@ use crate::text::Span;
 /// Commands followed by a region, whose lines are not arguments.
 const REGIONS: [&str; 3] = ["#VAR", "#RT CYCLE", "#RT CYCLE DEF"];
 
+/// Commands that may be among words (TF5200 Diagnosis, errors 20207, 20450).
+const AMONG_WORDS: [&str; 5] = ["#ACHSE", "#ADD", "#PRESET", "#PSET", "#SUPPRESS OFFSETS"];
+
 impl BlockLowering<'_> {
+    /// Words before a `#` command, which must be alone in its block (R2.47; TF5200 Diagnosis, error 20207).
+    pub(super) fn words_before(&mut self, span: Span) {
+        let words = self.block.words.iter().map(|word| word.span);
+        let items = self.block.items.iter();
+        let items = items.filter(|item| !matches!(item, Item::Label(_) | Item::Flow(..)));
+        let Some(first) = words.chain(items.map(Item::span)).next() else {
+            return;
+        };
+        let (name, _) = command_name(span.of(self.code));
+        if hash_command(&name).is_some() && !AMONG_WORDS.contains(&name.as_str()) {
+            let words = Span::new(first.start as usize, span.start as usize);
+            self.beside(&format!("`{name}`"), words);
+            self.block.items.sort_by_key(|item| item.span().start);
+        }
+    }
+
     pub(super) fn hash(&mut self, span: Span) {
         let code = span.of(self.code);
         let (name, length) = command_name(code);

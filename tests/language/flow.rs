@@ -263,6 +263,12 @@ fn a_control_statement_is_alone_in_its_block() {
     ] {
         refused(program, place);
     }
+    for statement in ["$ELSE", "$BREAK", "$IF 0", "$ENDIF"] {
+        let program =
+            format!("\"A\" = \"{statement}\"\n$IF 1\n\"A\"\nX[COMP OFF FRICT]\n$ENDIF\nM30");
+        let said = Bench::new().run(&[&program]);
+        assert!(said.contains("FC208 3:1-4\n"), "{program}: {said}");
+    }
     for program in [
         "/2 N10 $IF 0 ; X1\nN20 $ENDIF (X1)",
         "[HERE] $IF 0\n$ENDIF",

@@ -67,6 +67,11 @@ impl Interpreter {
         let Some(frame) = self.state.control.frames.running_mut() else {
             return Ok(None);
         };
+        if at.macro_depth > 0 && !matches!(flow, Flow::Goto(_)) {
+            let message = "a control statement in the code of a macro belongs to no control block";
+            let fault = Fault::new(Code::Fc208, span, message);
+            return Err(Box::new(fault.with_help("write it in the program")));
+        }
         let entry = frame.next - 1;
         let seeking = frame.seeking.take();
         let index = self.programs.index(frame.unit);

@@ -356,6 +356,8 @@ fn nothing_follows_a_call_in_its_block() {
         ("LL SUB $GOTO N9", "4:8-16"),
         ("L CYCLE [NAME=SUB.NC] Y1", "4:23-25"),
         ("L V.E.NAME P1=1", "4:12-16"),
+        ("L SUB.NC #FLUSH WAIT", "4:10-21"),
+        ("L SUB.NC FOO[1]", "4:10-16"),
     ] {
         let program = format!("%L SUB\nM17\n%MAIN\n{call}\nN9: M30");
         let said = Bench::new().file("SUB.NC", "M17").run(&[&program]);

@@ -61,8 +61,9 @@ impl BlockLowering<'_> {
         let Some(Item::Call(call)) = items.find(|item| matches!(item, Item::Call(_))) else {
             return;
         };
-        let refused = |item: &&Item| !matches!(item, Item::BadCommand(_) | Item::Unread(..));
-        let Some(item) = items.next().filter(refused) else {
+        let is_after = |item: &&Item| item.span().start > call.span.start;
+        let follows = items.find(is_after);
+        let Some(item) = follows.filter(|item| !matches!(item, Item::BadCommand(_))) else {
             return;
         };
         let (shown, call) = (item.span().of(self.code), call.span.of(self.code));

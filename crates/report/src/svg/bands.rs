@@ -1,62 +1,12 @@
 //! States along an axis as rows of bars, in shapes that need no colour.
 
-use super::canvas::{Anchor, Area, Canvas, Head, PictureRole, WIDTH, text_width, widest_text};
+use super::canvas::{Anchor, Area, Canvas, Head, MARGIN, PictureRole, WIDTH, text_width};
 use super::frame::Frame;
+use super::legend::{Legend, Sample};
 use super::scale::{ChartAxis, Ends, Scale, Spacing};
+use super::shape::{BAR, BandState, BarShape, StartUpRelation};
+use super::ticks::draw_x_axis;
 use frictcomp::comp::State;
-
-/// The content of a bar.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BandState {
-    /// One state all along.
-    One(State),
-    /// It changes too often to be drawn.
-    Changing,
-}
-
-impl BandState {
-    /// Every state, in the order of the legend.
-    const ALL: [Self; 6] = [
-        Self::One(State::Active),
-        Self::One(State::Ineffective),
-        Self::One(State::Inactive),
-        Self::One(State::Unconfigured),
-        Self::One(State::Unknown),
-        Self::Changing,
-    ];
-
-    /// The word in and below the bars.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::One(state) => state.as_str(),
-            Self::Changing => "changing",
-        }
-    }
-}
-
-/// Relation of a state to the start-up state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum StartUpRelation {
-    /// It is that state, or unknown.
-    #[default]
-    StartUp,
-    /// It is another one, which outlives the program.
-    Away,
-}
-
-impl StartUpRelation {
-    /// Returns the relation. Only a state that a command switches can be away from its start-up state.
-    pub fn of(state: State, start_up: State) -> Self {
-        let switched = matches!(state, State::Active | State::Inactive);
-        if switched && state != start_up {
-            Self::Away
-        } else {
-            Self::StartUp
-        }
-    }
-}
 
 /// A bar: one state from one value of the axis to another.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +23,15 @@ pub struct Band {
     pub title: String,
     /// Target of its link, `#id` of the page.
     pub href: Option<String>,
+}
+
+impl Band {
+    fn shape(&self) -> BarShape {
+        BarShape {
+            state: self.state,
+            standing: self.standing,
+        }
+    }
 }
 
 /// The bars of one axis of the machine.
@@ -103,11 +62,12 @@ pub struct BandChart {
 impl BandChart {
     /// The picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
     pub fn render(&self, frame: Frame<'_>) -> String {
-        let mut canvas = Canvas::default();
+        let mut canvas = Canvas::headed(Head {
+            title: &self.title,
+            description: &self.description,
+            role: PictureRole::Group,
+        });
         let top = if self.title.is_empty() { 4.0 } else { 44.0 };
-        if !self.title.is_empty() {
-            canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
-        }
         let ends = self
             .rows
             .iter()
@@ -115,7 +75,7 @@ impl BandChart {
             .flat_map(|band| [band.from, band.to]);
         let mut scale = Scale::over(ends, Spacing::Linear, Ends::Exact, 8);
         self.name_ticks(&mut scale);
-        let left = 16.0 + label_width(&self.rows);
+        let left = MARGIN + label_width(&self.rows);
         let area = Area {
             x: left,
             y: top,
@@ -127,28 +87,12 @@ impl BandChart {
             scale: &scale,
             area,
         };
-        let states = rows.draw(&mut canvas);
-        let floor = area.bottom() + 4.0;
-        let y = draw_ticks(
-            &mut canvas,
-            &scale,
-            Area { y: floor, ..area },
-            &self.x.label,
-        );
-        let height = draw_legend(&mut canvas, &states, (16.0, y + 8.0)) + y + 16.0;
-        canvas.finish(
-            frame,
-            &Head {
-                title: if self.title.is_empty() {
-                    &self.description
-                } else {
-                    &self.title
-                },
-                description: &self.description,
-                height,
-                role: PictureRole::Group,
-            },
-        )
+        let mut legend = Legend::default();
+        rows.draw(&mut canvas, &mut legend);
+        let line = (area.x, area.bottom() + 4.0, area.width);
+        let floor = draw_x_axis(&mut canvas, &scale, line, &self.x.label) + 8.0;
+        let floor = legend.draw(&mut canvas, floor);
+        canvas.finish(frame, floor + 8.0)
     }
 
     /// If the bars represent whole steps, only those have ticks, the first and the last always.
@@ -171,9 +115,6 @@ impl BandChart {
 /// The height of a row.
 const ROW: f64 = 26.0;
 
-/// The height of a bar.
-const BAR: f64 = 18.0;
-
 /// The height that rows need.
 pub(super) fn height(rows: &[BandRow]) -> f64 {
     ROW * f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX))
@@ -193,9 +134,8 @@ pub(super) struct BandRows<'a> {
 }
 
 impl BandRows<'_> {
-    /// Draws the rows one below the other, their labels left of the area; returns the visible
-    /// states.
-    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<(BandState, StartUpRelation)> {
+    /// Draws the rows one below the other, their labels left of the area, and names the visible states.
+    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, legend: &mut Legend<'_>) {
         let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
         let mut top = y;
@@ -225,21 +165,23 @@ impl BandRows<'_> {
                     height: BAR,
                 };
                 draw_band(canvas, &shown, area);
-                drawn.push((shown.state, shown.standing));
+                drawn.push(shown.shape());
             }
             top += ROW;
         }
-        drawn
+        for shape in BarShape::all().filter(|shape| drawn.contains(shape)) {
+            legend.name(Sample::Bar(shape), shape.name());
+        }
     }
 }
 
 /// Narrower bars are joined.
 const NARROW: f64 = 1.5;
 
-fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
+fn draw_band(canvas: &mut Canvas<'_>, band: &Band, area: Area) {
     let href = band.href.as_deref();
     canvas.open_link(href, &band.title);
-    draw_shape(canvas, (band.state, band.standing), area);
+    band.shape().draw(canvas, area);
     let word = band.state.as_str();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
         let class = match band.standing {
@@ -250,97 +192,4 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
         canvas.text(class, place, Anchor::Start, word);
     }
     canvas.close_link(href);
-}
-
-/// The shape of a state: full, hollow, half full, a line, dashed; striped if it is not the start-up
-/// state.
-fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, StartUpRelation), area: Area) {
-    if standing == StartUpRelation::Away {
-        canvas.rect("fc-away", area);
-        let middle = area.y + area.height / 2.0;
-        let class = if area.height < BAR {
-            "fc-stripes fc-low"
-        } else {
-            "fc-stripes"
-        };
-        canvas.line(class, (area.x, middle), (area.right(), middle));
-        return;
-    }
-    match state {
-        BandState::One(State::Active) => canvas.rect("fc-active", area),
-        BandState::One(State::Inactive) => canvas.rect("fc-inactive", area),
-        BandState::One(State::Ineffective) => {
-            canvas.rect("fc-outline", area);
-            let half = Area {
-                y: area.bottom() - 4.0,
-                height: 4.0,
-                ..area
-            };
-            canvas.rect("fc-half", half);
-        }
-        BandState::One(State::Unconfigured) => {
-            // An invisible bar makes the whole row a target for the pointer.
-            canvas.rect("fc-ground", area);
-            let middle = area.y + area.height / 2.0;
-            canvas.line("fc-absent", (area.x, middle), (area.right(), middle));
-        }
-        BandState::One(State::Unknown) => canvas.rect("fc-unknown", area),
-        BandState::Changing => canvas.rect("fc-mixed", area),
-    }
-}
-
-/// Draws each of the states with its word; returns the height of the legend.
-pub(super) fn draw_legend(
-    canvas: &mut Canvas,
-    drawn: &[(BandState, StartUpRelation)],
-    (left, y): (f64, f64),
-) -> f64 {
-    let both = |state| {
-        [
-            (state, StartUpRelation::StartUp),
-            (state, StartUpRelation::Away),
-        ]
-    };
-    let mut states: Vec<_> = BandState::ALL.into_iter().flat_map(both).collect();
-    states.retain(|state| drawn.contains(state));
-    let mut x = left;
-    for state in &states {
-        let word = match *state {
-            (state, StartUpRelation::Away) => format!("{}, not start-up", state.as_str()),
-            (state, StartUpRelation::StartUp) => state.as_str().to_owned(),
-        };
-        let swatch = Area {
-            x,
-            y: y + 3.0,
-            width: 22.0,
-            height: 12.0,
-        };
-        draw_shape(canvas, *state, swatch);
-        canvas.text("", (x + 28.0, y + 13.0), Anchor::Start, &word);
-        x += 28.0 + widest_text(&word) + 14.0;
-    }
-    if states.is_empty() { 0.0 } else { 20.0 }
-}
-
-/// The room between the values at the ticks of an axis.
-pub(super) const TICK_ROOM: f64 = 10.0;
-
-/// Draws an axis with its ticks and its label below an area; returns where the room below it begins.
-pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: &str) -> f64 {
-    canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));
-    let mut free = f64::NEG_INFINITY;
-    for (value, text) in &scale.ticks {
-        let x = area.x + scale.share(*value) * area.width;
-        canvas.line("fc-axis", (x, area.y), (x, area.y + 5.0));
-        let half = text_width(text) / 2.0;
-        // The last label would be cut off at the edge.
-        let middle = x.min(WIDTH - half - 4.0);
-        if middle - half > free {
-            canvas.text("fc-quiet", (middle, area.y + 18.0), Anchor::Middle, text);
-            free = middle + half + TICK_ROOM;
-        }
-    }
-    let middle = area.x + area.width / 2.0;
-    canvas.text("", (middle, area.y + 36.0), Anchor::Middle, label);
-    area.y + 42.0
 }

@@ -10,6 +10,9 @@ use super::frame::{Frame, STYLE};
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;
 
+/// The room left of headings and legends.
+pub(super) const MARGIN: f64 = 16.0;
+
 /// Alignment of a text relative to its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
@@ -37,13 +40,45 @@ impl Area {
     }
 }
 
-/// The body of a picture while it is drawn.
-#[derive(Debug, Default)]
-pub(super) struct Canvas {
+/// The words of a picture as a whole, and its role.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Head<'a> {
+    /// The heading; empty if the page around the picture has one.
+    pub(super) title: &'a str,
+    /// The picture in a sentence or two, for those who do not see it.
+    pub(super) description: &'a str,
+    pub(super) role: PictureRole,
+}
+
+/// The role of a picture for a screen reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PictureRole {
+    /// One image, described by title and description.
+    Image,
+    /// Parts that can be reached one by one.
+    Group,
+}
+
+/// A picture while it is drawn.
+#[derive(Debug)]
+pub(super) struct Canvas<'a> {
+    head: Head<'a>,
     body: String,
 }
 
-impl Canvas {
+impl<'a> Canvas<'a> {
+    /// A picture with its heading.
+    pub(super) fn headed(head: Head<'a>) -> Self {
+        let mut canvas = Self {
+            head,
+            body: String::new(),
+        };
+        if !head.title.is_empty() {
+            canvas.text("fc-title", (MARGIN, 26.0), Anchor::Start, head.title);
+        }
+        canvas
+    }
+
     pub(super) fn line(&mut self, class: &str, (x1, y1): (f64, f64), (x2, y2): (f64, f64)) {
         let (x1, y1, x2, y2) = (px(x1), px(y1), px(x2), px(y2));
         self.raw(&format!(
@@ -145,27 +180,39 @@ impl Canvas {
         self.raw(if href.is_some() { "</a>\n" } else { "</g>\n" });
     }
 
-    /// The whole picture.
-    /// Another picture of the same width below what was drawn. Returns where it ends.
-    pub(super) fn embed(&mut self, picture: &str, y: f64) -> f64 {
-        let height = picture
-            .split_once(" height=\"")
-            .and_then(|(_, rest)| rest.split_once('"'))
-            .and_then(|(height, _)| height.parse::<f64>().ok());
-        let y_px = px(y);
-        self.raw(&format!(
-            "<g transform=\"translate(0 {y_px})\">\n{picture}</g>\n"
-        ));
-        y + height.unwrap_or_default()
+    /// A length of the picture between two ticks, with its words; returns where they end.
+    pub(super) fn scale_bar(&mut self, (left, y): (f64, f64), length: f64, text: &str) -> f64 {
+        let right = left + length;
+        self.line("fc-axis", (left, y), (right, y));
+        for end in [left, right] {
+            self.line("fc-axis", (end, y - 4.0), (end, y + 4.0));
+        }
+        self.text("", (right + 8.0, y + 4.0), Anchor::Start, text);
+        right + 8.0 + widest_text(text)
     }
 
-    pub(super) fn finish(self, frame: Frame<'_>, head: &Head<'_>) -> String {
+    /// Another picture of the same width below what was drawn.
+    pub(super) fn embed(&mut self, picture: &str, y: f64) {
+        let y = px(y);
+        self.raw(&format!(
+            "<g transform=\"translate(0 {y})\">\n{picture}</g>\n"
+        ));
+    }
+
+    /// The whole picture.
+    pub(super) fn finish(self, frame: Frame<'_>, height: f64) -> String {
         let (prefix, alone) = match frame {
             Frame::Alone => ("picture", true),
             Frame::Inside(name) => (name, false),
         };
-        let (width, height) = (px(WIDTH), px(head.height));
-        let role = match head.role {
+        let (width, height) = (px(WIDTH), px(height));
+        let Head {
+            title,
+            description,
+            role,
+        } = self.head;
+        let title = if title.is_empty() { description } else { title };
+        let role = match role {
             PictureRole::Image => "img",
             PictureRole::Group => "group",
         };
@@ -180,9 +227,9 @@ impl Canvas {
              height=\"{height}\" role=\"{role}\" aria-labelledby=\"{prefix}-title\" \
              aria-describedby=\"{prefix}-desc\">\n<title id=\"{prefix}-title\">"
         );
-        push_escaped(&mut out, head.title);
+        push_escaped(&mut out, title);
         let _ = write!(out, "</title>\n<desc id=\"{prefix}-desc\">");
-        push_escaped(&mut out, head.description);
+        push_escaped(&mut out, description);
         out.push_str("</desc>\n");
         if alone {
             // Nothing in it ends the element: it is a constant of this crate.
@@ -202,25 +249,13 @@ impl Canvas {
     }
 }
 
-/// The head of a picture.
-pub(super) struct Head<'a> {
-    pub(super) title: &'a str,
-    pub(super) description: &'a str,
-    pub(super) height: f64,
-    pub(super) role: PictureRole,
-}
-
-/// The role of a picture for a screen reader.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PictureRole {
-    /// One image, described by title and description.
-    Image,
-    /// Parts that can be reached one by one.
-    Group,
-}
-
 /// Number of series that look different.
 pub(super) const SERIES: usize = 4;
+
+/// The class of the curve of the series with this number.
+pub(super) fn curve_class(series: usize) -> String {
+    format!("fc-curve fc-s{}", series % SERIES)
+}
 
 /// The approximate width of a text.
 pub(super) fn text_width(text: &str) -> f64 {
@@ -242,56 +277,4 @@ pub(super) fn px(length: f64) -> String {
         text.remove(0);
     }
     text
-}
-
-/// The names of series with their looks, in rows.
-pub(super) struct Legend<'a> {
-    pub(super) items: Vec<LegendItem<'a>>,
-}
-
-/// A series in the legend.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct LegendItem<'a> {
-    /// The number of its look.
-    pub(super) look: usize,
-    pub(super) name: &'a str,
-    pub(super) drawn: LegendLook,
-}
-
-/// The look of a series in the legend.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LegendLook {
-    Line,
-    Marker,
-    MarkedLine,
-}
-
-const LEGEND_ROW: f64 = 20.0;
-
-impl Legend<'_> {
-    /// Draws it from a place on and returns its height.
-    pub(super) fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64)) -> f64 {
-        let (mut x, mut y) = (left, top);
-        for &LegendItem { look, name, drawn } in &self.items {
-            let width = 34.0 + widest_text(name) + 8.0;
-            if x > left && x + width > WIDTH - 10.0 {
-                x = left;
-                y += LEGEND_ROW;
-            }
-            if drawn != LegendLook::Marker {
-                let class = format!("fc-curve fc-s{}", look % SERIES);
-                canvas.line(&class, (x, y + 8.0), (x + 28.0, y + 8.0));
-            }
-            if drawn != LegendLook::Line {
-                canvas.marker(look, (x + 14.0, y + 8.0));
-            }
-            canvas.text("", (x + 34.0, y + 12.0), Anchor::Start, name);
-            x += width;
-        }
-        if self.items.is_empty() {
-            0.0
-        } else {
-            y + LEGEND_ROW - top
-        }
-    }
 }

@@ -1,13 +1,14 @@
 //! Curves over a common axis, in panels one below the other.
 
-use super::bands::{self, BandRow, BandRows, TICK_ROOM, draw_legend, draw_ticks};
+use super::bands::{self, BandRow, BandRows};
 use super::canvas::{
-    Anchor, Area, Canvas, Head, Legend, LegendItem, LegendLook, PictureRole, SERIES, WIDTH,
-    text_width,
+    Anchor, Area, Canvas, Head, MARGIN, PictureRole, SERIES, WIDTH, curve_class, text_width,
 };
 use super::frame::Frame;
+use super::legend::{Legend, Sample};
 use super::reduce::reduce;
 use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
+use super::ticks::{Side, draw_ticks, draw_x_axis};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -120,8 +121,17 @@ impl LineChart {
     /// The picture, 860 units wide. Points beyond the visible resolution are reduced to the least and the
     /// greatest of each column.
     pub fn render(&self, frame: Frame<'_>) -> String {
-        let mut canvas = Canvas::default();
-        canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        let (canvas, height) = self.draw();
+        canvas.finish(frame, height)
+    }
+
+    /// The picture and its height.
+    pub(super) fn draw(&self) -> (Canvas<'_>, f64) {
+        let mut canvas = Canvas::headed(Head {
+            title: &self.title,
+            description: &self.description,
+            role: PictureRole::Image,
+        });
         let points = self.panels.iter().flat_map(|panel| &panel.series);
         let x_values = points
             .flat_map(|series| &series.points)
@@ -143,7 +153,7 @@ impl LineChart {
         let left = (widest + 22.0).max(MIN_LEFT).max(if self.bands.is_empty() {
             0.0
         } else {
-            16.0 + bands::label_width(&self.bands)
+            MARGIN + bands::label_width(&self.bands)
         });
         let mut area = Area {
             x: left,
@@ -156,7 +166,8 @@ impl LineChart {
             scale: &x,
             area,
         };
-        let states = rows.draw(&mut canvas);
+        let mut legend = Legend::default();
+        rows.draw(&mut canvas, &mut legend);
         area.y = area.bottom();
         let mut above = false;
         for (panel, scale) in self.panels.iter().zip(&y) {
@@ -181,29 +192,20 @@ impl LineChart {
             panel.draw(&mut canvas, &axes);
             area.y = area.bottom();
         }
-        let mut floor = if self.marks.is_empty() {
-            draw_ticks(&mut canvas, &x, area, &self.x.label)
+        let floor = if self.marks.is_empty() {
+            draw_x_axis(&mut canvas, &x, (area.x, area.y, area.width), &self.x.label)
         } else {
             self.draw_marks(&mut canvas, &x, area)
         };
-        floor += 6.0;
-        floor += draw_legend(&mut canvas, &states, (16.0, floor));
-        floor += self.legend().draw(&mut canvas, (16.0, floor));
-        canvas.finish(
-            frame,
-            &Head {
-                title: &self.title,
-                description: &self.description,
-                height: floor + 10.0,
-                role: PictureRole::Image,
-            },
-        )
+        self.name_curves(&mut legend);
+        let floor = legend.draw(&mut canvas, floor + 6.0);
+        (canvas, floor + 10.0)
     }
 
     /// The x axis with names below its values. Names without room are left out; their ticks only if all
     /// of them would be a solid bar.
-    fn draw_marks(&self, canvas: &mut Canvas, x: &Scale, area: Area) -> f64 {
-        draw_ticks(canvas, x, area, "");
+    fn draw_marks(&self, canvas: &mut Canvas<'_>, x: &Scale, area: Area) -> f64 {
+        draw_ticks(canvas, x, (area.x, area.y, area.width), Side::Below);
         let (above, row) = (area.y + 24.0, area.y + 40.0);
         let are_crowded = self.marks.len() > CROWDED;
         let mut free = f64::NEG_INFINITY;
@@ -233,24 +235,13 @@ impl LineChart {
         if self.panels.len() > 1 { 4 } else { 7 }
     }
 
-    /// The names of the curves of panels with several, each once; the one curve of a panel is named
-    /// by its axis.
-    fn legend(&self) -> Legend<'_> {
+    /// Names the curves of panels with several; the one curve of a panel is named by its axis.
+    fn name_curves<'a>(&'a self, legend: &mut Legend<'a>) {
         let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
         let all = self.panels.iter().filter(named).flat_map(Panel::numbered);
-        let drawn = all.filter(|(_, series)| !series.drawn.belongs_to_another());
-        let mut items: Vec<LegendItem<'_>> = Vec::new();
-        for (look, series) in drawn {
-            let item = LegendItem {
-                look,
-                name: &series.name,
-                drawn: series.drawn.in_legend(),
-            };
-            if !items.contains(&item) {
-                items.push(item);
-            }
+        for (look, series) in all.filter(|(_, series)| !series.drawn.belongs_to_another()) {
+            legend.name(series.drawn.in_legend(look), series.name.as_str());
         }
-        Legend { items }
     }
 }
 
@@ -260,11 +251,11 @@ impl Drawn {
         matches!(self, Self::Held | Self::Points)
     }
 
-    fn in_legend(self) -> LegendLook {
+    fn in_legend(self, look: usize) -> Sample {
         match self {
-            Self::Marked => LegendLook::MarkedLine,
-            Self::Scattered => LegendLook::Marker,
-            _ => LegendLook::Line,
+            Self::Marked => Sample::MarkedLine(look),
+            Self::Scattered => Sample::Marker(look),
+            _ => Sample::Line(look),
         }
     }
 
@@ -297,14 +288,13 @@ impl Panel {
         })
     }
 
-    fn draw(&self, canvas: &mut Canvas, axes: &PanelAxes<'_>) {
+    fn draw(&self, canvas: &mut Canvas<'_>, axes: &PanelAxes<'_>) {
         for (number, series) in self.numbered() {
-            let number = number % SERIES;
             let class = match series.drawn {
                 Drawn::Plain => "fc-curve fc-axis".to_owned(),
-                Drawn::Held => format!("fc-curve fc-s{number} fc-held"),
-                Drawn::Steps | Drawn::Notches => format!("fc-curve fc-s{number} fc-steps"),
-                _ => format!("fc-curve fc-s{number}"),
+                Drawn::Held => curve_class(number) + " fc-held",
+                Drawn::Steps | Drawn::Notches => curve_class(number) + " fc-steps",
+                _ => curve_class(number),
             };
             let kept = reduce(&series.points, |point| axes.place(point).0);
             let places: Vec<(f64, f64)> = kept.iter().map(|&point| axes.place(point)).collect();
@@ -314,7 +304,10 @@ impl Panel {
                 Drawn::Notches => {
                     for piece in places.split(|place| !place.0.is_finite() || !place.1.is_finite())
                     {
-                        canvas.path(&format!("fc-f{number}"), below(axes.area.y, piece));
+                        canvas.path(
+                            &format!("fc-f{}", number % SERIES),
+                            below(axes.area.y, piece),
+                        );
                     }
                     canvas.path(&class, steps(&places));
                 }
@@ -371,20 +364,9 @@ fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// The x axis in its other unit, above the first panel.
-fn draw_second(canvas: &mut Canvas, x: &Scale, second: &SecondUnit, area: Area) {
+fn draw_second(canvas: &mut Canvas<'_>, x: &Scale, second: &SecondUnit, area: Area) {
     let scale = x.in_unit(second.factor);
-    let mut free = f64::NEG_INFINITY;
-    for (value, text) in &scale.ticks {
-        let place = area.x + scale.share(*value) * area.width;
-        canvas.line("fc-axis", (place, area.y - 5.0), (place, area.y));
-        let half = text_width(text) / 2.0;
-        let middle = place.min(WIDTH - half - 4.0);
-        if middle - half > free {
-            canvas.text("fc-quiet", (middle, area.y - 9.0), Anchor::Middle, text);
-            free = middle + half + TICK_ROOM;
-        }
-    }
-    canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));
+    draw_ticks(canvas, &scale, (area.x, area.y, area.width), Side::Above);
     let end = (area.right(), area.y - SECOND_ROOM + 9.0);
     canvas.text("", end, Anchor::End, &second.label);
 }
@@ -404,7 +386,7 @@ impl PanelAxes<'_> {
         )
     }
 
-    fn draw_grid(&self, canvas: &mut Canvas) {
+    fn draw_grid(&self, canvas: &mut Canvas<'_>) {
         let area = self.area;
         for (value, text) in &self.y.ticks {
             let y = area.bottom() - self.y.share(*value) * area.height;

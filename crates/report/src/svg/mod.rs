@@ -1,7 +1,7 @@
 //! Pictures as SVG, for a browser, a document or the HTML report.
 //!
-//! The module does not use a plotting crate: it draws lines, points, bands and one magnified circle, in
-//! some six hundred lines. The maintained crates (`plotters`, `poloto`) support neither dark backgrounds,
+//! The module does not use a plotting crate: it draws lines, points, bands, one magnified circle and
+//! one magnified path. The maintained crates (`plotters`, `poloto`) support neither dark backgrounds,
 //! nor titles for screen readers, nor bands with links, nor a magnified polar deviation, so each of these
 //! would have to be written on top of them.
 //!
@@ -14,13 +14,16 @@ mod bands;
 mod canvas;
 mod escape;
 mod frame;
+mod legend;
 mod line;
 mod plane;
 mod polar;
 mod reduce;
 mod scale;
+mod shape;
+mod ticks;
 
-pub use bands::{Band, BandChart, BandRow, BandState, StartUpRelation};
+pub use bands::{Band, BandChart, BandRow};
 pub use frame::{Frame, STYLE};
 pub use line::{CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
 pub use plane::{PlaneChart, PlaneMark, PlanePoint, Stroke};
@@ -28,3 +31,4 @@ pub use polar::{PolarChart, PolarPanel, PolarSeries, PolarStroke};
 pub use reduce::Curve;
 pub(super) use scale::number;
 pub use scale::{ChartAxis, SecondUnit, Spacing};
+pub use shape::{BandState, StartUpRelation};

@@ -1,7 +1,10 @@
 //! A path in a plane with a magnified deviation, and marks on it.
 
-use super::canvas::{Anchor, Area, Canvas, Head, PictureRole, WIDTH, text_width, widest_text};
+use super::canvas::{
+    Anchor, Area, Canvas, Head, MARGIN, PictureRole, WIDTH, curve_class, text_width,
+};
 use super::frame::Frame;
+use super::legend::{Legend, Sample};
 use super::line::LineChart;
 use super::scale::{label, round_step};
 
@@ -30,8 +33,10 @@ const CELL: f64 = 13.0;
 /// The approximate length of the scale of the path.
 const PATH_BAR: f64 = 70.0;
 
-/// The class of a stretch that is left out.
-const LEFT_OUT: &str = "fc-curve fc-s3";
+/// The looks of stretches that are drawn as curves.
+const COMPENSATED: usize = 0;
+const UNCOMPENSATED: usize = 1;
+const LEFT_OUT: usize = 3;
 
 /// How a stretch of the path is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -150,6 +155,21 @@ impl PlaneFit {
         let [x, y] = [0, 1].map(|axis| point.place[axis] + self.magnification * point.error[axis]);
         self.place([x, y])
     }
+
+    /// Round lengths of the deviation and of the path.
+    fn draw_scales(&self, canvas: &mut Canvas<'_>, y: f64) {
+        let of_deviation = self.scale * self.magnification / 1000.0;
+        let bars = [
+            (LARGEST / 2.0, of_deviation, "\u{b5}m of the deviation"),
+            (PATH_BAR, self.scale, "mm of the path"),
+        ];
+        let mut x = MARGIN;
+        for (about, scale, unit) in bars {
+            let step = round_step(about / scale);
+            let text = format!("{} {unit}", label(step, step));
+            x = canvas.scale_bar((x, y), step * scale, &text) + 32.0;
+        }
+    }
 }
 
 impl PlaneChart {
@@ -168,39 +188,38 @@ impl PlaneChart {
 
     /// The picture, with a bar that shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
-        let mut canvas = Canvas::default();
-        canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        let has_links = self.marks.iter().any(|mark| mark.href.is_some());
+        let mut canvas = Canvas::headed(Head {
+            title: &self.title,
+            description: &self.description,
+            role: if has_links {
+                PictureRole::Group
+            } else {
+                PictureRole::Image
+            },
+        });
         let fit = PlaneFit::of(&self.points);
         self.draw_axes(&mut canvas);
         self.draw_path(&mut canvas, &fit);
         self.draw_marks(&mut canvas, &fit);
         self.draw_labels(&mut canvas, &fit);
-        let bottom = self.draw_legend(&mut canvas, &fit);
-        let mut height = bottom + 18.0;
+        let floor = self.legend().draw(&mut canvas, ROOM.bottom() + 12.0) + 12.0;
+        fit.draw_scales(&mut canvas, floor);
+        let mut height = floor + 18.0;
         if let Some(below) = &self.below {
             let inside = match frame {
                 Frame::Alone => "below".to_owned(),
                 Frame::Inside(name) => format!("{name}-below"),
             };
-            let chart = below.render(Frame::Inside(&inside));
-            height = canvas.embed(&chart, height);
+            let (chart, chart_height) = below.draw();
+            let chart = chart.finish(Frame::Inside(&inside), chart_height);
+            canvas.embed(&chart, height);
+            height += chart_height;
         }
-        canvas.finish(
-            frame,
-            &Head {
-                title: &self.title,
-                description: &self.description,
-                height,
-                role: if self.marks.iter().any(|mark| mark.href.is_some()) {
-                    PictureRole::Group
-                } else {
-                    PictureRole::Image
-                },
-            },
-        )
+        canvas.finish(frame, height)
     }
 
-    fn draw_axes(&self, canvas: &mut Canvas) {
+    fn draw_axes(&self, canvas: &mut Canvas<'_>) {
         let (x, y) = (24.0, TOP + 46.0);
         canvas.line("fc-axis", (x, y), (x + 30.0, y));
         canvas.line("fc-axis", (x, y), (x, y - 30.0));
@@ -209,32 +228,28 @@ impl PlaneChart {
     }
 
     /// The commanded path thin, and the magnified one over it, by stretches of one kind.
-    fn draw_path(&self, canvas: &mut Canvas, fit: &PlaneFit) {
+    fn draw_path(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
                 Stroke::Unjudged => "fc-curve fc-grid",
-                Stroke::LeftOut => LEFT_OUT,
+                Stroke::LeftOut => &curve_class(LEFT_OUT),
                 _ => "fc-curve fc-axis",
             };
-            canvas.path(
-                class,
-                thinned(stretch.iter().map(|point| fit.place(point.place))),
-            );
+            let places = stretch.iter().map(|point| fit.place(point.place));
+            canvas.path(class, thinned(places));
         }
         for stretch in stretches(&self.points) {
-            let class = match stretch[stretch.len() - 1].stroke {
+            let look = match stretch[stretch.len() - 1].stroke {
                 Stroke::Unjudged | Stroke::LeftOut => continue,
-                Stroke::Compensated => "fc-curve fc-s0",
-                Stroke::Uncompensated => "fc-curve fc-s1",
+                Stroke::Compensated => COMPENSATED,
+                Stroke::Uncompensated => UNCOMPENSATED,
             };
-            canvas.path(
-                class,
-                thinned(stretch.iter().map(|point| fit.magnified(point))),
-            );
+            let places = stretch.iter().map(|point| fit.magnified(point));
+            canvas.path(&curve_class(look), thinned(places));
         }
     }
 
-    fn draw_marks(&self, canvas: &mut Canvas, fit: &PlaneFit) {
+    fn draw_marks(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         let mut cells: std::collections::BTreeMap<(i64, i64), (&PlaneMark, u32)> =
             std::collections::BTreeMap::new();
         for mark in &self.marks {
@@ -270,7 +285,7 @@ impl PlaneChart {
 
     /// The words next to the worst marks, where neither the path nor another mark is in their way (R11.5); a
     /// thin line leads to a mark that is farther off. A mark without room for words keeps its title.
-    fn draw_labels(&self, canvas: &mut Canvas, fit: &PlaneFit) {
+    fn draw_labels(&self, canvas: &mut Canvas<'_>, fit: &PlaneFit) {
         const LINE: f64 = 16.0;
         let mut ground = Ground::default();
         for pair in self.points.windows(2) {
@@ -329,51 +344,17 @@ impl PlaneChart {
         }
     }
 
-    /// The legend in rows with room for larger letters of narrow windows, and the scales below it.
-    fn draw_legend(&self, canvas: &mut Canvas, fit: &PlaneFit) -> f64 {
-        let mut y = ROOM.bottom() + 20.0;
-        let mut x = 16.0;
-        let lines = [
-            ("fc-curve fc-s0", "compensated"),
-            ("fc-curve fc-s1", "not compensated"),
-            ("fc-curve fc-axis", "commanded"),
-        ];
-        let has_left_out = self
-            .points
-            .iter()
-            .any(|point| point.stroke == Stroke::LeftOut);
-        let left_out = has_left_out.then_some((LEFT_OUT, "left out"));
-        for (class, text) in lines.into_iter().chain(left_out) {
-            canvas.path(class, [(x, y), (x + 26.0, y)]);
-            canvas.text("", (x + 32.0, y + 4.0), Anchor::Start, text);
-            x += 48.0 + widest_text(text);
+    fn legend(&self) -> Legend<'_> {
+        let mut legend = Legend::default();
+        legend.name(Sample::Line(COMPENSATED), "compensated");
+        legend.name(Sample::Line(UNCOMPENSATED), "not compensated");
+        legend.name(Sample::Thin, "commanded");
+        let mut strokes = self.points.iter().map(|point| point.stroke);
+        if strokes.any(|stroke| stroke == Stroke::LeftOut) {
+            legend.name(Sample::Line(LEFT_OUT), "left out");
         }
-        let text = "reversal without compensation";
-        if x + 16.0 + widest_text(text) > WIDTH {
-            (x, y) = (16.0, y + 22.0);
-        }
-        canvas.circle("fc-outline", (x + 6.0, y), 4.5);
-        canvas.circle("fc-m1", (x + 6.0, y), 2.2);
-        canvas.text("", (x + 16.0, y + 4.0), Anchor::Start, text);
-        y += 24.0;
-        let of_deviation = fit.scale * fit.magnification / 1000.0;
-        let bars = [
-            (LARGEST / 2.0, of_deviation, "µm of the deviation"),
-            (PATH_BAR, fit.scale, "mm of the path"),
-        ];
-        x = 16.0;
-        for (about, scale, unit) in bars {
-            let step = round_step(about / scale);
-            let right = x + step * scale;
-            canvas.line("fc-axis", (x, y), (right, y));
-            for end in [x, right] {
-                canvas.line("fc-axis", (end, y - 4.0), (end, y + 4.0));
-            }
-            let text = format!("{} {unit}", label(step, step));
-            canvas.text("", (right + 8.0, y + 4.0), Anchor::Start, &text);
-            x = right + 40.0 + widest_text(&text);
-        }
-        y
+        legend.name(Sample::Ring, "reversal without compensation");
+        legend
     }
 }
 

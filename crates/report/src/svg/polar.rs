@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::canvas::{
-    Anchor, Canvas, Head, Legend, LegendItem, LegendLook, PictureRole, SERIES, WIDTH, text_width,
-};
+use super::canvas::{Anchor, Canvas, Head, MARGIN, PictureRole, WIDTH, curve_class, text_width};
 use super::frame::Frame;
+use super::legend::{Legend, Sample};
 use super::reduce::reduce;
 use super::scale::{label, round_step};
 
@@ -103,15 +102,19 @@ impl PanelLayout {
     }
 
     fn left(self) -> f64 {
-        (self.centre.0 - self.circle - self.reach - NAMES).max(16.0)
+        (self.centre.0 - self.circle - self.reach - NAMES).max(MARGIN)
     }
 }
 
 impl PolarChart {
     /// The picture; in each panel a scale bar shows the magnification of the deviation.
     pub fn render(&self, frame: Frame<'_>) -> String {
-        let mut canvas = Canvas::default();
-        canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        let mut canvas = Canvas::headed(Head {
+            title: &self.title,
+            description: &self.description,
+            role: PictureRole::Image,
+        });
+        let mut legend = Legend::default();
         let count = self.panels.len();
         for (number, panel) in self.panels.iter().enumerate() {
             let layout = PanelLayout::of(number, count);
@@ -120,42 +123,22 @@ impl PolarChart {
             magnified.draw_rings(&mut canvas);
             self.draw_directions(&mut canvas, layout);
             for series in &panel.series {
-                let look = series.look % SERIES;
+                legend.name(Sample::Line(series.look), series.name.as_str());
                 let kept = reduce(&series.points, |[angle, _]| angle / TAU * 1440.0);
                 let class = match series.stroke {
-                    PolarStroke::Full => format!("fc-curve fc-s{look}"),
-                    PolarStroke::Fine => format!("fc-curve fc-s{look} fc-held"),
+                    PolarStroke::Full => curve_class(series.look),
+                    PolarStroke::Fine => curve_class(series.look) + " fc-held",
                 };
                 canvas.path(&class, kept.iter().map(|&point| magnified.place(point)));
             }
             magnified.draw_bar(&mut canvas, self.radius);
         }
         let bottom = PanelLayout::of(0, count).bottom();
-        let mut items: Vec<LegendItem<'_>> = Vec::new();
-        for series in self.panels.iter().flat_map(|panel| &panel.series) {
-            let item = LegendItem {
-                look: series.look,
-                name: &series.name,
-                drawn: LegendLook::Line,
-            };
-            if !items.contains(&item) {
-                items.push(item);
-            }
-        }
-        let legend = Legend { items };
-        let height = legend.draw(&mut canvas, (16.0, bottom)) + bottom + 10.0;
-        canvas.finish(
-            frame,
-            &Head {
-                title: &self.title,
-                description: &self.description,
-                height,
-                role: PictureRole::Image,
-            },
-        )
+        let floor = legend.draw(&mut canvas, bottom);
+        canvas.finish(frame, floor + 10.0)
     }
 
-    fn draw_directions(&self, canvas: &mut Canvas, layout: PanelLayout) {
+    fn draw_directions(&self, canvas: &mut Canvas<'_>, layout: PanelLayout) {
         let (x, y) = layout.centre;
         let reach = layout.circle + layout.reach + 8.0;
         canvas.line("fc-axis", (x - reach, y), (x + reach, y));
@@ -214,7 +197,7 @@ impl Magnified {
         )
     }
 
-    fn draw_rings(&self, canvas: &mut Canvas) {
+    fn draw_rings(&self, canvas: &mut Canvas<'_>) {
         let PanelLayout { centre, circle, .. } = self.layout;
         let rings = (-8..=8).map(f64::from);
         for ring in rings.filter(|ring| ring.abs() <= self.rings) {
@@ -240,14 +223,10 @@ impl Magnified {
     }
 
     /// A length of the picture that is a round deviation, and the magnification in words.
-    fn draw_bar(&self, canvas: &mut Canvas, radius: f64) {
+    fn draw_bar(&self, canvas: &mut Canvas<'_>, radius: f64) {
         let (left, y) = (self.layout.left(), 74.0);
-        let right = left + self.step * self.factor;
-        canvas.line("fc-axis", (left, y), (right, y));
-        canvas.line("fc-axis", (left, y - 5.0), (left, y + 5.0));
-        canvas.line("fc-axis", (right, y - 5.0), (right, y + 5.0));
         let text = format!("{} \u{b5}m", label(self.step, self.step));
-        canvas.text("", (right + 8.0, y + 4.0), Anchor::Start, &text);
+        canvas.scale_bar((left, y), self.step * self.factor, &text);
         if radius > 0.0 && radius.is_finite() {
             // The commanded circle is drawn `circle` long for `radius` millimetres.
             let times = self.factor * 1000.0 * radius / self.layout.circle;

@@ -1,0 +1,122 @@
+//! The shapes of states, which need no colour: full, hollow, half full, a line, dashed; striped if a state
+//! is not the start-up state.
+
+use super::canvas::{Area, Canvas};
+use frictcomp::comp::State;
+
+/// The content of a bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BandState {
+    /// One state all along.
+    One(State),
+    /// It changes too often to be drawn.
+    Changing,
+}
+
+impl BandState {
+    /// Every state, in the order of the legend.
+    const ALL: [Self; 6] = [
+        Self::One(State::Active),
+        Self::One(State::Ineffective),
+        Self::One(State::Inactive),
+        Self::One(State::Unconfigured),
+        Self::One(State::Unknown),
+        Self::Changing,
+    ];
+
+    /// The word in and below the bars.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::One(state) => state.as_str(),
+            Self::Changing => "changing",
+        }
+    }
+}
+
+/// Relation of a state to the start-up state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum StartUpRelation {
+    /// It is that state, or unknown.
+    #[default]
+    StartUp,
+    /// It is another one, which outlives the program.
+    Away,
+}
+
+impl StartUpRelation {
+    /// Returns the relation. Only a state that a command switches can be away from its start-up state.
+    pub fn of(state: State, start_up: State) -> Self {
+        let switched = matches!(state, State::Active | State::Inactive);
+        if switched && state != start_up {
+            Self::Away
+        } else {
+            Self::StartUp
+        }
+    }
+}
+
+/// The height of a bar in a row.
+pub(super) const BAR: f64 = 18.0;
+
+/// What a bar looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct BarShape {
+    pub(super) state: BandState,
+    pub(super) standing: StartUpRelation,
+}
+
+impl BarShape {
+    /// Every shape, in the order of the legend.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let standings = [StartUpRelation::StartUp, StartUpRelation::Away];
+        BandState::ALL
+            .into_iter()
+            .flat_map(move |state| standings.map(|standing| Self { state, standing }))
+    }
+
+    /// Its meaning, for the legend.
+    pub(super) fn name(self) -> String {
+        let word = self.state.as_str();
+        match self.standing {
+            StartUpRelation::Away => format!("{word}, not start-up"),
+            StartUpRelation::StartUp => word.to_owned(),
+        }
+    }
+
+    pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Area) {
+        let middle = area.y + area.height / 2.0;
+        let along = [(area.x, middle), (area.right(), middle)];
+        if self.standing == StartUpRelation::Away {
+            canvas.rect("fc-away", area);
+            let class = if area.height < BAR {
+                "fc-stripes fc-low"
+            } else {
+                "fc-stripes"
+            };
+            canvas.line(class, along[0], along[1]);
+            return;
+        }
+        match self.state {
+            BandState::One(State::Active) => canvas.rect("fc-active", area),
+            BandState::One(State::Inactive) => canvas.rect("fc-inactive", area),
+            BandState::One(State::Ineffective) => {
+                canvas.rect("fc-outline", area);
+                let half = Area {
+                    y: area.bottom() - 4.0,
+                    height: 4.0,
+                    ..area
+                };
+                canvas.rect("fc-half", half);
+            }
+            BandState::One(State::Unconfigured) => {
+                // An invisible bar makes the whole row a target for the pointer.
+                canvas.rect("fc-ground", area);
+                canvas.line("fc-absent", along[0], along[1]);
+            }
+            BandState::One(State::Unknown) => canvas.rect("fc-unknown", area),
+            BandState::Changing => canvas.rect("fc-mixed", area),
+        }
+    }
+}

@@ -4,7 +4,8 @@ use std::fmt::{self, Write};
 
 use serde_json::{Value, json};
 
-use super::visible::visible_line;
+use crate::table::Table;
+use crate::visible::visible_line;
 use frictcomp::drive_interface::{DriveReport, Presence, Signal};
 
 /// Writes what is known about the drive of each axis.
@@ -50,6 +51,7 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
         "; friction compensation is not configured"
     };
     writeln!(out, "axis {name} ({kind}{simulated}{configured})")?;
+    let mut rows = Table::without_headings(2);
     let presences = [&report.additive_torque, &report.actual_torque];
     for (signal, presence) in Signal::ALL.iter().zip(presences) {
         let (word, why) = match presence {
@@ -58,22 +60,15 @@ fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
             Presence::Unknown { reason } => ("unknown", reason.as_str()),
             Presence::NotApplicable => ("none", "no drive takes or gives a torque here"),
         };
-        writeln!(
-            out,
-            "  {:<24} {word:<8} {}",
-            signal.as_str(),
-            visible_line(why)
-        )?;
+        let signal = format!("  {}", signal.as_str());
+        let told = format!("{word:<8} {}", visible_line(why));
+        rows.row(&[&signal, &told]);
     }
     let (numerator, denominator) = (report.scale.numerator, report.scale.denominator);
-    writeln!(out, "  {:<24} {numerator}/{denominator}", "torque scaling")?;
+    rows.row(&[&"  torque scaling", &format!("{numerator}/{denominator}")]);
     if let Some(largest) = report.largest_torque {
-        let percent = largest / 10.0;
-        writeln!(
-            out,
-            "  {:<24} {percent:.1} % of the rated torque",
-            "largest compensation"
-        )?;
+        let percent = format!("{:.1} % of the rated torque", largest / 10.0);
+        rows.row(&[&"  largest compensation", &percent]);
     }
-    Ok(())
+    write!(out, "{rows}")
 }

@@ -4,20 +4,17 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
+use crate::table::Table;
 use frictcomp_physics::stiction::{FeedEffect, Guideline, Quantity, Solution};
 
 /// The values as a table, the computed ones with their formula, and remarks on them.
 pub fn render_stiction(solution: &Solution) -> String {
-    let mut out = String::new();
+    let mut values = Table::without_headings(3);
     for solved in &solution.values {
-        let (symbol, value) = (
-            solved.quantity.symbol(),
-            solved.quantity.shown(solved.value),
-        );
-        let by = solved.by.unwrap_or_default();
-        let line = format!("{symbol:<12}{value:<24}{by}");
-        let _ = writeln!(out, "{}", line.trim_end());
+        let (quantity, by) = (solved.quantity, solved.by.unwrap_or_default());
+        values.row(&[&quantity.symbol(), &quantity.shown(solved.value), &by]);
     }
+    let mut out = values.to_string();
     if let Some(clipped) = solution.clipped_to {
         let _ = writeln!(
             out,
@@ -83,11 +80,11 @@ mod tests {
         ];
         let solution = solve(&given.into_iter().collect()).expect("a solution");
         insta::assert_snapshot!(render_stiction(&solution), @r"
-        Δs_a        0.002 mm
-        t_C         3000 µs
-        k_v         1.5 (m/min)/mm
-        MP1511      8000 µs
-        F_add       0.008 m/min             F_add = Δs_a / t_C · k_v · MP1511
+        Δs_a    0.002 mm
+        t_C     3000 µs
+        k_v     1.5 (m/min)/mm
+        MP1511  8000 µs
+        F_add   0.008 m/min     F_add = Δs_a / t_C · k_v · MP1511
 
         stiction is compensated up to a feed of MP1513, and only with feed precontrol
         ");

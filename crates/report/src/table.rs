@@ -12,7 +12,7 @@ enum Alignment {
 }
 
 /// A table whose columns are as wide as their widest cell, two blanks apart, without trailing blanks. The
-/// first line has the headings; a row may have fewer cells than there are columns.
+/// first line has the headings, if there are any; a row may have fewer cells than there are columns.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     headings: Vec<String>,
@@ -24,6 +24,11 @@ impl Table {
     /// Creates a table whose columns have numbers.
     pub fn of_numbers<const N: usize>(headings: [&str; N]) -> Self {
         headings.into_iter().fold(Self::default(), Self::right)
+    }
+
+    /// Creates a table of columns of words, without a line of headings.
+    pub fn without_headings(columns: usize) -> Self {
+        (0..columns).fold(Self::default(), |table, _| table.left(""))
     }
 
     /// Adds a column of numbers, right-aligned.
@@ -53,7 +58,9 @@ impl Table {
     }
 
     fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
-        [&self.headings].into_iter().chain(&self.rows)
+        let has_headings = self.headings.iter().any(|heading| !heading.is_empty());
+        let headings = has_headings.then_some(&self.headings);
+        headings.into_iter().chain(&self.rows)
     }
 }
 

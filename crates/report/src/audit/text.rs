@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
 use crate::assumptions::rests_on_text;
 use crate::strings::counted;
+use crate::table::Table;
 use crate::visible::visible_line;
 use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
 use frictcomp::interpreter::MotionKind;
@@ -111,37 +112,21 @@ fn push_table(out: &mut String, machine: &MachineAudit, length: Length) {
     rows.sort_by_key(|(_, words)| words.iter().min().copied());
     let shown = rows.len().min(length.of(ROWS));
     let (shown, folded) = rows.split_at(shown);
-    let names: Vec<String> = shown
-        .iter()
-        .map(|(file, _)| visible_line(file).into_owned())
-        .collect();
-    let width = names.iter().map(|name| columns_of(name)).max();
-    let width = width.unwrap_or_default().max("program".len());
     let heads = columns.iter().map(|it| axis_name(&it.axis, it.kind));
-    let heads: Vec<String> = heads.collect();
-    let cell = |head: &str| columns_of(head).max("inherits".len());
-    let mut line = format!("{:<width$}", "program");
-    for head in &heads {
-        let _ = write!(line, "  {:<w$}", visible_line(head), w = cell(head));
+    let table = Table::default().left("program");
+    let mut table = heads.fold(table, |table, head| table.left(visible_line(&head)));
+    for (file, words) in shown {
+        let words = words.iter().map(|word| word.as_str().to_owned());
+        let name = visible_line(file).into_owned();
+        table.cells(std::iter::once(name).chain(words).collect());
     }
-    let _ = writeln!(out, "{}", line.trim_end());
-    for (name, (_, words)) in names.iter().zip(shown) {
-        let mut line = format!("{name}{}", " ".repeat(width - columns_of(name)));
-        for (word, head) in words.iter().zip(&heads) {
-            let _ = write!(line, "  {:<w$}", word.as_str(), w = cell(head));
-        }
-        let _ = writeln!(out, "{}", line.trim_end());
-    }
+    let _ = write!(out, "{table}");
     push_folded(out, folded);
     let met = |word: &Word| rows.iter().any(|(_, words)| words.contains(word));
     out.push('\n');
     for word in Word::ALL.into_iter().filter(met) {
         let _ = writeln!(out, "  {:<9} {}", word.as_str(), word.meaning());
     }
-}
-
-fn columns_of(text: &str) -> usize {
-    unicode_width::UnicodeWidthStr::width(text)
 }
 
 /// Writes the number of programs that are not shown, by their most dangerous word.

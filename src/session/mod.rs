@@ -204,6 +204,7 @@ impl Session {
                 counts: BTreeMap::new(),
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
+                last_changed: vec![None; axes],
                 assumed: BTreeSet::new(),
                 rests_on: QuestionSet::default(),
                 feed_moves: FeedMoveCounter::new(axes),

@@ -39,6 +39,8 @@ pub(super) struct SessionTotals {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
+    /// The last block that changed each axis: its program and its number in the run.
+    pub(super) last_changed: Vec<Option<(u32, u64)>>,
     /// The codes of the messages that states are assumed.
     pub(super) assumed: BTreeSet<Code>,
     /// The open questions whose readings messages depend on (R15.3).
@@ -384,8 +386,16 @@ impl Recorder<'_> {
     }
 
     fn note_change(&mut self, executed: &Executed<'_>, axis: AxisIndex, to: State) {
-        self.tally.changes[axis.get()] += 1;
         let named = &mut self.tally.changed_by[axis.get()];
+        let changes = &mut self.tally.changes[axis.get()];
+        let block = Some((self.program, executed.seq));
+        if std::mem::replace(&mut self.tally.last_changed[axis.get()], block) == block {
+            if let Some(last) = named.last_mut().filter(|_| *changes <= MAX_NAMED as u64) {
+                last.to = to;
+            }
+            return;
+        }
+        *changes += 1;
         if named.len() < MAX_NAMED {
             named.push(ChangedBy {
                 program: self.program,

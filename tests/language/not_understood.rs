@@ -165,6 +165,54 @@ fn what_stands_beside_a_command_may_be_executed() {
 }
 
 #[test]
+fn what_a_macro_holds_limits_what_is_in_its_block() {
+    // R2.13 R2.35 R2.47
+    let define = r##""CALL" = "L sub.nc"
+"TIME" = "#TIME 1"
+"OUTER" = "\"TIME\""
+"BOTH" = "X1 \"TIME\""
+"SET" = "#PSET X1"
+"SPLINE" = "#SPLINE ON"
+"REST" = "G1 ; a remark"
+"OPEN" = "G1 (a remark"
+"CLOSED" = "G1 (a remark)"
+"##;
+    for block in [
+        "X1 \"TIME\"",
+        "\"TIME\" X[COMP OFF FRICT]",
+        "X1 \"OUTER\"",
+        "\"BOTH\"",
+        "\"SET\" X[COMP OFF FRICT]",
+        "\"REST\" X[COMP OFF FRICT]",
+        "\"OPEN\" X[COMP OFF FRICT] (another)",
+    ] {
+        let said = run(&format!("{define}{block}\nM30"));
+        assert!(said.contains("FC210"), "{block}: {said}");
+        assert!(said.contains("X:active>unknown"), "{block}: {said}");
+    }
+    for block in [
+        "\"TIME\"",
+        "N10 \"OUTER\"",
+        "[HERE] \"TIME\" (a remark)",
+        "X1 \"SET\"",
+        "X1 \"SPLINE\" Y2",
+        "\"REST\"",
+        "X1 \"OPEN\"",
+        "\"CLOSED\" Y5",
+    ] {
+        let found = codes(&format!("{define}{block}\nM30"));
+        assert!(found.is_empty(), "{block}: {found:?}");
+    }
+    let found = codes(&format!("{define}\"CALL\" X[COMP OFF FRICT]\nM30"));
+    assert!(found.contains(&"FC207".to_owned()), "{found:?}");
+    // In a region that may or may not be executed.
+    let said = run(&format!(
+        "{define}\"SKIP\" = \"$IF V.E.A == 1 $GOTO N90\"\n\"SKIP\"\nX1 \"TIME\"\nN90 M30"
+    ));
+    assert!(said.contains("X:active>unknown"), "{said}");
+}
+
+#[test]
 fn a_word_that_goes_on_a_command_is_known_or_may_do_anything() {
     // R2.70
     let said = block("#HSC ON SOFTLY [1]\nM30", 1);

@@ -12,7 +12,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::stopping::{is_harmless, stops};
-use crate::interpreter::values::cause::{PROBE, how_to_set, unknown_value};
+use crate::interpreter::values::cause::PROBE;
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::ast::{Block, Flow, Item, Operand};
@@ -300,18 +300,7 @@ impl Interpreter {
         for note in &mut self.scratch.notes.borrow_mut()[noted..] {
             note.place = at.place(span);
         }
-        Ok(())
-    }
-
-    /// A macro with unknown code, which may do anything (R2.51).
-    fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
-        self.havoc_by_call(cause);
-        let what = unknown_value(cause);
-        let message = format!(
-            "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
-        );
-        let fault = Fault::new(Code::Fc901, span, message);
-        Box::new(fault.with_help(how_to_set(cause)))
+        self.check_company(&code, span, at)
     }
 
     pub(in crate::interpreter) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {

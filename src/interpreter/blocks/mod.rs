@@ -8,6 +8,7 @@ pub(super) mod flow;
 pub(super) mod hash;
 pub(super) mod implicit;
 pub(super) mod items;
+pub(super) mod macros;
 pub(super) mod pace;
 pub(super) mod parting;
 pub(super) mod probing;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::event::{Aside, Note, Outcome};
+use super::lone_part::LonePart;
 use super::undecided::Undecided;
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
@@ -110,6 +111,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) flushing: RefCell<Option<String>>,
     /// Why a program may be called that is not known, if one may.
     pub(in crate::interpreter) unknown_call: Option<Arc<str>>,
+    /// A part of the macro expanded last that limits what may be in the block.
+    pub(in crate::interpreter) lone: Option<LonePart>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block that ends the program.
@@ -171,6 +174,7 @@ impl BlockScratch {
         self.aside.withheld.clear();
         self.undecided = None;
         self.unknown_call = None;
+        self.lone = None;
         self.geometry = None;
         self.dwells = false;
         self.motion = None;

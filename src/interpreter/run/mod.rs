@@ -16,6 +16,7 @@ pub(super) mod interpreter;
 pub(super) mod journal;
 pub(super) mod last_commands;
 pub(super) mod limits;
+pub(super) mod lone_part;
 pub(super) mod options;
 pub(super) mod outcome;
 pub(super) mod path;

@@ -22,6 +22,7 @@ use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlock
 use crate::interpreter::run::cycles::after_motion_only;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::lone_part::{LonePart, has_parts};
 use crate::interpreter::run::region::{Exit, Region, RegionEffect};
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::target::RegionTarget;
@@ -46,7 +47,8 @@ struct MayEffects<'a> {
     place: (usize, EntryIndex),
     /// Macros of the region whose code has not been examined yet.
     macros: Vec<(String, Span)>,
-    expanded: HashSet<String>,
+    /// Macros that were found alone in a block, and those found with other parts.
+    expanded: HashSet<(String, bool)>,
     /// Whether it may execute any part of its program.
     whole: bool,
 }
@@ -105,6 +107,7 @@ impl MayEffects<'_> {
     /// Examines the code of macros, each once however often it is used: macros that use each other would
     /// otherwise be examined endlessly.
     fn expand(&mut self, at: &BlockContext<'_>) {
+        let mut is_shared = has_parts(at.block);
         while let Some((name, used)) = self.macros.pop() {
             let code = match self.run.state.control.memory.macro_code(&name) {
                 Some(Value::Text(code)) => &**code,
@@ -122,6 +125,11 @@ impl MayEffects<'_> {
                 block: &block,
                 depth: at.macro_depth,
             };
+            let may_do_anything = LonePart::of(&code).is_some_and(LonePart::leaves_company_open);
+            if is_shared && may_do_anything {
+                self.effect(RegionEffect::All);
+            }
+            is_shared |= has_parts(&block);
             self.block(&at.in_macro(&code, used, &shown));
         }
     }
@@ -181,7 +189,8 @@ impl MayEffects<'_> {
             }
             Item::MacroUse(span) => {
                 let name = unquoted(span.of(at.text)).trim();
-                if self.expanded.insert(name.to_owned()) {
+                let key = (name.to_owned(), has_parts(at.block));
+                if self.expanded.insert(key) {
                     self.macros.push((name.to_owned(), at.in_block(*span)));
                 }
             }

@@ -192,8 +192,21 @@ pub struct Hash {
     pub declarations: Vec<Declaration>,
     /// The places that the command writes with values that only the machine knows.
     pub written: Vec<Target>,
+    /// What may share its block.
+    pub company: HashCompany,
     /// Span of its whole text.
     pub span: Span,
+}
+
+/// What may share the block with a `#` command (R2.47).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HashCompany {
+    /// Nothing.
+    None,
+    /// Words before it.
+    WordsBefore,
+    /// Words before and after it.
+    Words,
 }
 
 /// One declaration in `#VAR` … `#ENDVAR`.

@@ -8,7 +8,9 @@ mod call;
 mod expression;
 mod flow;
 
-pub use block::{Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, Item, Word};
+pub use block::{
+    Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, HashCompany, Item, Word,
+};
 pub use call::{
     Call, CallForm, CallName, CallScope, GCall, Repetition, Return, ReturnLevels, SequenceCall,
 };

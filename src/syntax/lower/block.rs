@@ -109,7 +109,7 @@ impl BlockLowering<'_> {
                 self.words_before(span);
                 self.hash(span);
             }
-            Rule::hash_word | Rule::hash_switch => self.hash(span),
+            Rule::hash_word | Rule::hash_switch => self.hash_word(span),
             Rule::macro_definition => {
                 let mut texts = pair.into_inner().map(|text| span_of(&text));
                 if let (Some(name), Some(code)) = (texts.next(), texts.next()) {

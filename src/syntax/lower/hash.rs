@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
-use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
+use crate::syntax::ast::{Effect, Hash, HashCompany, Item, Operand, Target};
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::hash_words::{command_name, goes_on, hash_name, opening_command};
@@ -18,8 +18,8 @@ use crate::text::Span;
 /// Commands followed by a region, whose lines are not arguments.
 const REGIONS: [&str; 3] = ["#VAR", "#RT CYCLE", "#RT CYCLE DEF"];
 
-/// Commands that may be among words (TF5200 Diagnosis, errors 20207, 20450).
-const AMONG_WORDS: [&str; 5] = ["#ACHSE", "#ADD", "#PRESET", "#PSET", "#SUPPRESS OFFSETS"];
+/// Commands that may follow words (TF5200 Diagnosis, errors 20207, 20450).
+const AFTER_WORDS: [&str; 5] = ["#ACHSE", "#ADD", "#PRESET", "#PSET", "#SUPPRESS OFFSETS"];
 
 impl BlockLowering<'_> {
     /// Words before a `#` command, which must be alone in its block (R2.47; TF5200 Diagnosis, error 20207).
@@ -31,10 +31,18 @@ impl BlockLowering<'_> {
             return;
         };
         let (name, _) = command_name(span.of(self.code));
-        if hash_command(&name).is_some() && !AMONG_WORDS.contains(&name.as_str()) {
+        if hash_command(&name).is_some() && !AFTER_WORDS.contains(&name.as_str()) {
             let words = Span::new(first.start as usize, span.start as usize);
             self.beside(&format!("`{name}`"), words);
             self.block.items.sort_by_key(|item| item.span().start);
+        }
+    }
+
+    /// A command that may be among words.
+    pub(super) fn hash_word(&mut self, span: Span) {
+        self.hash(span);
+        if let Some(Item::Hash(hash)) = self.block.items.last_mut() {
+            hash.company = HashCompany::Words;
         }
     }
 
@@ -82,8 +90,14 @@ impl BlockLowering<'_> {
             Touches::Values => self.places_in(rest),
             _ => Vec::new(),
         };
+        let company = if AFTER_WORDS.contains(&name.as_str()) {
+            HashCompany::WordsBefore
+        } else {
+            HashCompany::None
+        };
         self.block.items.push(Item::Hash(Hash {
             name,
+            company,
             rest,
             arguments,
             declarations,

@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, Area, Canvas, Head, MARGIN, PictureRole, WIDTH, text_width};
 use super::frame::Frame;
-use super::legend::{Legend, Sample};
+use super::legend::{Legend, LegendSample};
 use super::scale::{ChartAxis, Ends, Scale, Spacing};
 use super::shape::{BAR, BandState, BarShape, StartUpRelation};
 use super::ticks::draw_x_axis;
@@ -170,7 +170,7 @@ impl BandRows<'_> {
             top += ROW;
         }
         for shape in BarShape::all().filter(|shape| drawn.contains(shape)) {
-            legend.name(Sample::Bar(shape), shape.name());
+            legend.name(LegendSample::Bar(shape), shape.name());
         }
     }
 }

@@ -7,7 +7,7 @@ use super::shape::BarShape;
 
 /// What a name of the legend belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sample {
+pub(super) enum LegendSample {
     /// The line of the series with this number.
     Line(usize),
     /// Its markers.
@@ -25,7 +25,7 @@ pub(super) enum Sample {
 /// Names with what they belong to, each once, in rows.
 #[derive(Debug, Default)]
 pub(super) struct Legend<'a> {
-    items: Vec<(Sample, Cow<'a, str>)>,
+    items: Vec<(LegendSample, Cow<'a, str>)>,
 }
 
 /// The height of a row, with room for the larger letters of narrow windows.
@@ -35,7 +35,7 @@ const ROW: f64 = 20.0;
 const SAMPLE: f64 = 28.0;
 
 impl<'a> Legend<'a> {
-    pub(super) fn name(&mut self, sample: Sample, name: impl Into<Cow<'a, str>>) {
+    pub(super) fn name(&mut self, sample: LegendSample, name: impl Into<Cow<'a, str>>) {
         let item = (sample, name.into());
         if !self.items.contains(&item) {
             self.items.push(item);
@@ -58,18 +58,18 @@ impl<'a> Legend<'a> {
     }
 }
 
-fn draw_sample(canvas: &mut Canvas<'_>, sample: Sample, (x, y): (f64, f64)) {
+fn draw_sample(canvas: &mut Canvas<'_>, sample: LegendSample, (x, y): (f64, f64)) {
     let middle = (x + SAMPLE / 2.0, y);
     match sample {
-        Sample::Line(look) | Sample::MarkedLine(look) => {
+        LegendSample::Line(look) | LegendSample::MarkedLine(look) => {
             canvas.line(&curve_class(look), (x, y), (x + SAMPLE, y));
         }
-        Sample::Thin => canvas.line("fc-curve fc-axis", (x, y), (x + SAMPLE, y)),
-        Sample::Ring => {
+        LegendSample::Thin => canvas.line("fc-curve fc-axis", (x, y), (x + SAMPLE, y)),
+        LegendSample::Ring => {
             canvas.circle("fc-outline", middle, 4.5);
             canvas.circle("fc-m1", middle, 2.2);
         }
-        Sample::Bar(shape) => shape.draw(
+        LegendSample::Bar(shape) => shape.draw(
             canvas,
             Area {
                 x,
@@ -78,9 +78,9 @@ fn draw_sample(canvas: &mut Canvas<'_>, sample: Sample, (x, y): (f64, f64)) {
                 height: 12.0,
             },
         ),
-        Sample::Marker(_) => {}
+        LegendSample::Marker(_) => {}
     }
-    if let Sample::Marker(look) | Sample::MarkedLine(look) = sample {
+    if let LegendSample::Marker(look) | LegendSample::MarkedLine(look) = sample {
         canvas.marker(look, middle);
     }
 }

@@ -5,10 +5,10 @@ use super::canvas::{
     Anchor, Area, Canvas, Head, MARGIN, PictureRole, SERIES, WIDTH, curve_class, text_width,
 };
 use super::frame::Frame;
-use super::legend::{Legend, Sample};
+use super::legend::{Legend, LegendSample};
 use super::reduce::reduce;
 use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
-use super::ticks::{Side, draw_ticks, draw_x_axis};
+use super::ticks::{TickSide, draw_ticks, draw_x_axis};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -205,7 +205,7 @@ impl LineChart {
     /// The x axis with names below its values. Names without room are left out; their ticks only if all
     /// of them would be a solid bar.
     fn draw_marks(&self, canvas: &mut Canvas<'_>, x: &Scale, area: Area) -> f64 {
-        draw_ticks(canvas, x, (area.x, area.y, area.width), Side::Below);
+        draw_ticks(canvas, x, (area.x, area.y, area.width), TickSide::Below);
         let (above, row) = (area.y + 24.0, area.y + 40.0);
         let are_crowded = self.marks.len() > CROWDED;
         let mut free = f64::NEG_INFINITY;
@@ -251,11 +251,11 @@ impl Drawn {
         matches!(self, Self::Held | Self::Points)
     }
 
-    fn in_legend(self, look: usize) -> Sample {
+    fn in_legend(self, look: usize) -> LegendSample {
         match self {
-            Self::Marked => Sample::MarkedLine(look),
-            Self::Scattered => Sample::Marker(look),
-            _ => Sample::Line(look),
+            Self::Marked => LegendSample::MarkedLine(look),
+            Self::Scattered => LegendSample::Marker(look),
+            _ => LegendSample::Line(look),
         }
     }
 
@@ -366,7 +366,12 @@ fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// The x axis in its other unit, above the first panel.
 fn draw_second(canvas: &mut Canvas<'_>, x: &Scale, second: &SecondUnit, area: Area) {
     let scale = x.in_unit(second.factor);
-    draw_ticks(canvas, &scale, (area.x, area.y, area.width), Side::Above);
+    draw_ticks(
+        canvas,
+        &scale,
+        (area.x, area.y, area.width),
+        TickSide::Above,
+    );
     let end = (area.right(), area.y - SECOND_ROOM + 9.0);
     canvas.text("", end, Anchor::End, &second.label);
 }

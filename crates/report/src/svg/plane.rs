@@ -4,7 +4,7 @@ use super::canvas::{
     Anchor, Area, Canvas, Head, MARGIN, PictureRole, WIDTH, curve_class, text_width,
 };
 use super::frame::Frame;
-use super::legend::{Legend, Sample};
+use super::legend::{Legend, LegendSample};
 use super::line::LineChart;
 use super::scale::{label, round_step};
 
@@ -346,14 +346,14 @@ impl PlaneChart {
 
     fn legend(&self) -> Legend<'_> {
         let mut legend = Legend::default();
-        legend.name(Sample::Line(COMPENSATED), "compensated");
-        legend.name(Sample::Line(UNCOMPENSATED), "not compensated");
-        legend.name(Sample::Thin, "commanded");
+        legend.name(LegendSample::Line(COMPENSATED), "compensated");
+        legend.name(LegendSample::Line(UNCOMPENSATED), "not compensated");
+        legend.name(LegendSample::Thin, "commanded");
         let mut strokes = self.points.iter().map(|point| point.stroke);
         if strokes.any(|stroke| stroke == Stroke::LeftOut) {
-            legend.name(Sample::Line(LEFT_OUT), "left out");
+            legend.name(LegendSample::Line(LEFT_OUT), "left out");
         }
-        legend.name(Sample::Ring, "reversal without compensation");
+        legend.name(LegendSample::Ring, "reversal without compensation");
         legend
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::canvas::{Anchor, Canvas, Head, MARGIN, PictureRole, WIDTH, curve_class, text_width};
 use super::frame::Frame;
-use super::legend::{Legend, Sample};
+use super::legend::{Legend, LegendSample};
 use super::reduce::reduce;
 use super::scale::{label, round_step};
 
@@ -123,7 +123,7 @@ impl PolarChart {
             magnified.draw_rings(&mut canvas);
             self.draw_directions(&mut canvas, layout);
             for series in &panel.series {
-                legend.name(Sample::Line(series.look), series.name.as_str());
+                legend.name(LegendSample::Line(series.look), series.name.as_str());
                 let kept = reduce(&series.points, |[angle, _]| angle / TAU * 1440.0);
                 let class = match series.stroke {
                     PolarStroke::Full => curve_class(series.look),

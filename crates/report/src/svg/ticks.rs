@@ -8,7 +8,7 @@ const ROOM: f64 = 10.0;
 
 /// Where the values are, seen from the line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum TickSide {
     Below,
     Above,
 }
@@ -18,11 +18,11 @@ pub(super) fn draw_ticks(
     canvas: &mut Canvas<'_>,
     scale: &Scale,
     (left, y, width): (f64, f64, f64),
-    side: Side,
+    side: TickSide,
 ) {
     let (tick, words) = match side {
-        Side::Below => (y + 5.0, y + 18.0),
-        Side::Above => (y - 5.0, y - 9.0),
+        TickSide::Below => (y + 5.0, y + 18.0),
+        TickSide::Above => (y - 5.0, y - 9.0),
     };
     canvas.line("fc-axis", (left, y), (left + width, y));
     let mut free = f64::NEG_INFINITY;
@@ -47,7 +47,7 @@ pub(super) fn draw_x_axis(
     (left, y, width): (f64, f64, f64),
     label: &str,
 ) -> f64 {
-    draw_ticks(canvas, scale, (left, y, width), Side::Below);
+    draw_ticks(canvas, scale, (left, y, width), TickSide::Below);
     canvas.text("", (left + width / 2.0, y + 36.0), Anchor::Middle, label);
     y + 42.0
 }

@@ -1,0 +1,67 @@
+//! Parts of a macro that limit what else may be in the block.
+
+use super::block_context::MacroCode;
+use crate::syntax::ast::{Block, HashCompany, Item};
+use crate::syntax::code_of;
+use crate::text::Span;
+
+/// A part of a macro with which words of the same block cannot be, or perhaps not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum LonePart {
+    /// A call, after which the control accepts nothing (R2.13).
+    Call,
+    /// A `#` command (R2.47).
+    Command(HashCompany),
+    /// A comment up to the end, perhaps of the whole block.
+    Comment,
+}
+
+impl LonePart {
+    pub(in crate::interpreter) fn of(code: &MacroCode<'_>) -> Option<Self> {
+        let mut items = code.block.items.iter();
+        let lone = items.find_map(|item| match item {
+            Item::Call(_) => Some(Self::Call),
+            Item::Hash(hash) if hash.company == HashCompany::Words => None,
+            Item::Hash(hash) => Some(Self::Command(hash.company)),
+            _ => None,
+        });
+        lone.or_else(|| ends_in_comment(code.text).then_some(Self::Comment))
+    }
+
+    pub(in crate::interpreter) fn as_str(self) -> &'static str {
+        match self {
+            Self::Call => "a call",
+            Self::Command(_) => "a `#` command",
+            Self::Comment => "a comment",
+        }
+    }
+
+    /// Whether the control may or may not execute what shares the block with it.
+    pub(in crate::interpreter) fn leaves_company_open(self) -> bool {
+        self != Self::Call
+    }
+
+    /// The first part of a block that should not be in it together with a macro.
+    pub(in crate::interpreter) fn companion(self, block: &Block, used: Span) -> Option<Span> {
+        let is_alone = self == Self::Command(HashCompany::None);
+        let mut parts = parts(block);
+        parts.find(|part| part.start > used.start || is_alone && part.start < used.start)
+    }
+}
+
+/// Whether a block has several parts, the label not counted.
+pub(in crate::interpreter) fn has_parts(block: &Block) -> bool {
+    parts(block).nth(1).is_some()
+}
+
+fn parts(block: &Block) -> impl Iterator<Item = Span> + '_ {
+    let words = block.words.iter().map(|word| word.span);
+    let items = block.items.iter();
+    let items = items.filter(|item| !matches!(item, Item::Label(_) | Item::BadCommand(_)));
+    words.chain(items.map(Item::span))
+}
+
+/// Whether the code ends in a comment: a word after it would not be read.
+fn ends_in_comment(code: &str) -> bool {
+    code.contains([';', '(']) && !code_of(&format!("{code} X")).ends_with('X')
+}

@@ -1,5 +1,5 @@
 %MACRO
 ; wrong: the macro contains itself
-N10 "STEP" = "G01 X50 \"STEP\" F1500"
+N10 "STEP" = "H10 \"STEP\" P1=5"
 N20 "STEP"
 N30 M30

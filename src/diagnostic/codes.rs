@@ -103,7 +103,7 @@ codes! {
     Fc310 "FC310" Warning "program without M30";
     Fc311 "FC311" Error "parameter read before it was written";
     Fc312 "FC312" Error "expression cannot be computed";
-    Fc313 "FC313" Error "two words of one G group or axis";
+    Fc313 "FC313" Error "two words of one kind in a block";
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius that ends where it starts";

@@ -78,3 +78,13 @@ impl Fault {
         diagnostic
     }
 }
+
+/// FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20175, 20181,
+/// 20205, 20765).
+pub(crate) fn repeated_word(text: &str, span: Span) -> Fault {
+    let text = text.trim();
+    let message =
+        format!("`{text}` is the second such word in this block; the control accepts one");
+    Fault::new(Code::Fc313, span, message)
+        .with_help("remove one of them, or write it in another block")
+}

@@ -45,6 +45,7 @@ pub(crate) use control_block::{ControlBlock, Part, control_part};
 pub use control_block::{ControlBlock, Part, control_part};
 pub(crate) use dialect::{Foreign, foreign};
 pub use fault::Fault;
+pub(crate) use fault::repeated_word;
 pub use flow_scan::FlowScan;
 pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;

@@ -185,6 +185,15 @@ fn parameters() {
 }
 
 #[test]
+fn variables_of_the_control_are_not_declared() {
+    // R2.34
+    for name in ["V.E.A", "v.g.a", "V.A.A[3]", "V.I.A", "V.SPDL.A"] {
+        let said = Bench::new().run(&[&format!("#VAR\n{name} = 1\n#ENDVAR\nM30")]);
+        assert!(said.contains("FC207 2:1-"), "{name}: {said}");
+    }
+}
+
+#[test]
 fn variables() {
     // R2.34
     let preparation = "#VAR\nV.P.COUNT : UNS32 = 3\nV.P.LIST[2][3] = [1, 2, 3, \\\n4, 5, 6]\nV.P.ZERO\nV.L.NAME : STRING[20] = \"abc\"\nV.L.EMPTY : STRING[5]\nV.L.A[3]\nV.L.T : STRING[5]\nV.CYC.N = 4\n#ENDVAR\nV.P.NEW = 8\nV.L.A[1] = 5\nV.P.GONE = 1\n#DELETE V.P.GONE";

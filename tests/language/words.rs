@@ -172,13 +172,45 @@ fn groups_of_g_functions() {
         "G161 G162",
         "G02 G3",
         "G59 G159",
+        "G1 G01",
+        "G25 G26",
+        "G51 X8 G51",
+        "G9 G900",
+        "G60 G61",
+        "G360 X1 G60",
+        "G100 X1 G102",
+        "G115=2 G116",
+        "G138 G41 G139",
+        "G165 G164",
+        "X1 N20 N30",
+        "N20 X1 N30",
+        "N20 N30 X1",
+        "F100 G1 X1 F200",
+        "F100 F=200",
+        "S1000 M3 S1500",
+        "G2 I1 I2 X0",
+        "G2 K=1 K2 X0",
+        "M10 M10",
+        "M10 M=10",
     ] {
         assert!(refused(pair), "{pair}");
     }
-    for pair in ["G1 G01", "G1 G90", "G4 G1", "G20 G21", "G92 G1", "G60 G61"] {
+    for pair in [
+        "G1 G90",
+        "G4 G1",
+        "G20 G21",
+        "G92 G1",
+        "G60 G9",
+        "G5 G138",
+        "G2 I1 J1",
+        "M3 M10",
+        "F1 E1",
+        "X1 N20",
+        "N10 G115 N5",
+    ] {
         assert!(!refused(pair), "{pair}");
     }
-    assert_snapshot!(run("G00 X1 G01\nG60 G61 G999\nM30"), @r#"
+    assert_snapshot!(run("G00 X1 G01\nG60 G91 G999\nM30"), @r#"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
@@ -187,7 +219,7 @@ fn groups_of_g_functions() {
         FC210 2:9-13
       3 line 3 -
       end 3 M30 X:active Y:active Z:unconfigured B:ineffective
-    opaque {"G61": 1, "G999": 1}
+    opaque {"G999": 1}
     "#);
 }
 

@@ -1,5 +1,6 @@
 //! `#VAR` and `#DELETE` (R2.34).
 
+use crate::diagnostic::Code;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::hash_parts::declared_name;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -45,6 +46,7 @@ impl Interpreter {
         self.journal.begin_anew();
         self.state.write_anything();
         for declaration in declarations {
+            refuse_declaration(declaration, at)?;
             let mut stack = std::mem::take(&mut self.scratch.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
                 evaluator.dimensions(declaration.target.place, &mut stack)
@@ -137,4 +139,24 @@ fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Optio
         element.push(']');
     }
     Some(element)
+}
+
+/// Only the program's own variables can be declared (TF5200 Diagnosis, error 20908).
+fn refuse_declaration(declaration: &Declaration, at: &BlockContext<'_>) -> Result<(), Box<Fault>> {
+    let name = declared_name(declaration, at);
+    let family = name
+        .strip_prefix("V.")
+        .and_then(|rest| rest.split('.').next());
+    if family.is_none_or(|family| matches!(family, "L" | "S" | "P" | "CYC")) {
+        return Ok(());
+    }
+    let span = declaration.target.span;
+    let message = format!(
+        "`{}` cannot be declared: the control has it",
+        span.of(at.text).trim()
+    );
+    let fault = Fault::new(Code::Fc207, span, message);
+    Err(Box::new(fault.with_help(
+        "declare `V.L.`, `V.S.` or `V.P.` variables only",
+    )))
 }

@@ -22,7 +22,7 @@ use crate::interpreter::run::outcome::{BlockOutcome, Feed};
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::syntax::ast::{Address, Operand, Word};
-use crate::syntax::{Fault, is_letter, is_program_number, not_known};
+use crate::syntax::{Fault, is_letter, is_program_number, not_known, repeated_word};
 use crate::text::Span;
 
 /// G functions whose axis words are not a motion: software limits, gain, weighting of velocity,
@@ -225,7 +225,9 @@ impl Interpreter {
             return is_own;
         }
         match letter {
-            b'F' => outcome.feed = Feed::Given(Some(number)),
+            b'F' if matches!(outcome.feed, Feed::Absent) => {
+                outcome.feed = Feed::Given(Some(number));
+            }
             b'G' => return self.state.control.modal_word(number, outcome),
             _ => return false,
         }
@@ -309,6 +311,9 @@ impl Interpreter {
             self.unread_word(span, at);
             return Ok(());
         }
+        if outcome.is_repeated((letter, whole), at.block) {
+            return Err(Box::new(repeated_word(span.of(at.text), span)));
+        }
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, span, at, outcome),
             (b'G', None) => {
@@ -364,18 +369,11 @@ impl Interpreter {
         };
         let group = Group::of(number);
         outcome.probes |= chain::is_measuring(number);
-        if let Some(group) = group {
-            let first = *outcome.groups[group as usize].get_or_insert(number);
-            if first != number {
-                return Err(Box::new(
-                    Fault::new(
-                        Code::Fc313,
-                        span,
-                        format!("`G{number:02}` and `G{first:02}` belong to one group"),
-                    )
-                    .with_help("a block takes one G function of each group"),
-                ));
-            }
+        if let Some(first) = outcome.other_of_group(number, group) {
+            let message = format!("`G{number:02}` and `G{first:02}` belong to one group");
+            let fault = Fault::new(Code::Fc313, span, message)
+                .with_help("a block takes one G function of each group");
+            return Err(Box::new(fault));
         }
         match (group, number) {
             (Some(group), _) => self.state.control.modal.set(group, number),
@@ -519,9 +517,11 @@ impl ControlState {
         let Some(group) = Group::of(number) else {
             return false;
         };
-        if *outcome.groups[group as usize].get_or_insert(number) != number {
+        let first = &mut outcome.groups[group as usize];
+        if first.is_some() {
             return false;
         }
+        *first = Some(number);
         self.modal.set(group, number);
         true
     }

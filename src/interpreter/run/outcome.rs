@@ -1,10 +1,13 @@
 //! The actions of a block after its words.
 
+use std::collections::BTreeSet;
+
 use super::event::EndedBy;
 use super::step::ControlStep;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::programs::wanted::WantedCall;
+use crate::syntax::ast::Block;
 use crate::text::Span;
 
 /// The F word of a block.
@@ -16,6 +19,22 @@ pub(in crate::interpreter) enum Feed {
     /// Its value, where it is known.
     Given(Option<f64>),
 }
+
+/// Groups of G functions that are not modelled: contour transitions, diameter programming, deceleration, measuring,
+/// selection of the cutter radius compensation, centre correction and look-ahead (TF5200 Diagnosis, errors 20113,
+/// 20115, 20977, 20123, 20126, 20128, 20124).
+const OTHER_GROUPS: [&[u32]; 7] = [
+    &[25, 26],
+    &[51, 52],
+    &[9, 900, 901],
+    &[100, 101, 102, 103, 104, 105, 106, 107, 108],
+    &[138, 139],
+    &[164, 165],
+    &[115, 116, 117],
+];
+
+/// The last of them, with which N is a number of blocks, `G115 N5`.
+const LOOK_AHEAD: usize = OTHER_GROUPS.len() - 1;
 
 /// Actions of a block after its words.
 #[derive(Default)]
@@ -30,6 +49,12 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) calls: Vec<WantedCall>,
     /// The G functions of the block, to find two of one group.
     pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
+    /// The same of [`OTHER_GROUPS`].
+    other_groups: [Option<u32>; OTHER_GROUPS.len()],
+    /// The letters of which it has a word and may have one, I at bit 0.
+    letters: u32,
+    /// The numbers of its M functions.
+    functions: BTreeSet<i64>,
     /// Meaning of the axis words: with G04, G92 … they are not coordinates.
     pub(in crate::interpreter) axis_words: AxisWords,
     /// F, which may be unknown.
@@ -43,6 +68,48 @@ pub(in crate::interpreter) struct BlockOutcome {
 }
 
 impl BlockOutcome {
+    /// Takes a G function; returns the one of its group that the block already has.
+    pub(in crate::interpreter) fn other_of_group(
+        &mut self,
+        number: u32,
+        group: Option<Group>,
+    ) -> Option<u32> {
+        // TF5200 Diagnosis, error 20117
+        let is_block_end = matches!(number, 60 | 61 | 260 | 261);
+        let first = match group.or(is_block_end.then_some(Group::ExactStop)) {
+            Some(group) => &mut self.groups[group as usize],
+            None => {
+                let of_number = |group: &&[u32]| group.contains(&number);
+                let group = OTHER_GROUPS.iter().position(of_number)?;
+                &mut self.other_groups[group]
+            }
+        };
+        let before = *first;
+        first.get_or_insert(number);
+        before
+    }
+
+    /// Takes a word of a letter; returns whether the control refuses it, because the block already has one (R2.45).
+    pub(in crate::interpreter) fn is_repeated(
+        &mut self,
+        (letter, number): (u8, Option<i64>),
+        block: &Block,
+    ) -> bool {
+        match letter {
+            b'N' if self.other_groups[LOOK_AHEAD].is_some() => false,
+            b'N' if block.number.is_some() => true,
+            b'F' => matches!(self.feed, Feed::Given(_)),
+            b'M' => number.is_some_and(|number| !self.functions.insert(number)),
+            b'I' | b'J' | b'K' | b'N' | b'S' => {
+                let bit = 1 << (letter - b'I');
+                let is_repeated = self.letters & bit != 0;
+                self.letters |= bit;
+                is_repeated
+            }
+            _ => false,
+        }
+    }
+
     /// Whether the block itself leads only to the next one.
     pub(in crate::interpreter) fn goes_on(&self) -> bool {
         self.end.is_none() && !self.returns && self.step.is_none()

@@ -4,7 +4,7 @@ use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, span_of};
 use crate::syntax::ast::{Address, BlockNumber, Effect, GCall, Item, Operand, Word};
-use crate::syntax::{expression, grammar::Rule};
+use crate::syntax::{expression, fault::repeated_word, grammar::Rule};
 use crate::text::Span;
 
 impl BlockLowering<'_> {
@@ -21,6 +21,12 @@ impl BlockLowering<'_> {
                 }
                 _ => label = true,
             }
+        }
+        if self.block.number.is_some() {
+            self.block
+                .faults
+                .push(repeated_word(span.of(self.code), span));
+            return;
         }
         self.block.number = Some(BlockNumber { value, label, span });
     }

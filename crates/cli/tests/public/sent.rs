@@ -715,6 +715,7 @@ sent! {
     syntax::ast::Function,
     syntax::ast::GCall,
     syntax::ast::Hash,
+    syntax::ast::HashCompany,
     syntax::ast::Item,
     syntax::ast::Node,
     syntax::ast::Operand,

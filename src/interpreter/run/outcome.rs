@@ -76,13 +76,13 @@ impl BlockOutcome {
     ) -> Option<u32> {
         // TF5200 Diagnosis, error 20117
         let is_block_end = matches!(number, 60 | 61 | 260 | 261);
-        let first = match group.or(is_block_end.then_some(Group::ExactStop)) {
-            Some(group) => &mut self.groups[group as usize],
-            None => {
-                let of_number = |group: &&[u32]| group.contains(&number);
-                let group = OTHER_GROUPS.iter().position(of_number)?;
-                &mut self.other_groups[group]
-            }
+        let group = group.or(is_block_end.then_some(Group::ExactStop));
+        let first = if let Some(group) = group {
+            &mut self.groups[group as usize]
+        } else {
+            let of_number = |group: &&[u32]| group.contains(&number);
+            let group = OTHER_GROUPS.iter().position(of_number)?;
+            &mut self.other_groups[group]
         };
         let before = *first;
         first.get_or_insert(number);

@@ -369,8 +369,9 @@ impl Interpreter {
         };
         let group = Group::of(number);
         outcome.probes |= chain::is_measuring(number);
-        if let Some(first) = outcome.other_of_group(number, group) {
-            let message = format!("`G{number:02}` and `G{first:02}` belong to one group");
+        if outcome.is_second_of_group(number, group) {
+            let message =
+                format!("`G{number:02}` is the second G function of its group in this block");
             let fault = Fault::new(Code::Fc313, span, message)
                 .with_help("a block takes one G function of each group");
             return Err(Box::new(fault));
@@ -517,11 +518,9 @@ impl ControlState {
         let Some(group) = Group::of(number) else {
             return false;
         };
-        let first = &mut outcome.groups[group as usize];
-        if first.is_some() {
+        if !outcome.take_group(group) {
             return false;
         }
-        *first = Some(number);
         self.modal.set(group, number);
         true
     }

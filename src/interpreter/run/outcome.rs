@@ -33,8 +33,8 @@ const OTHER_GROUPS: [&[u32]; 7] = [
     &[115, 116, 117],
 ];
 
-/// The last of them, with which N is a number of blocks, `G115 N5`.
-const LOOK_AHEAD: usize = OTHER_GROUPS.len() - 1;
+/// The bit of the last of them, with which N is a number of blocks, `G115 N5`.
+const LOOK_AHEAD: usize = Group::COUNT + OTHER_GROUPS.len() - 1;
 
 /// Actions of a block after its words.
 #[derive(Default)]
@@ -47,14 +47,12 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) step: Option<ControlStep>,
     /// Calls, in the order in which they are made.
     pub(in crate::interpreter) calls: Vec<WantedCall>,
-    /// The G functions of the block, to find two of one group.
-    pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
-    /// The same of [`OTHER_GROUPS`].
-    other_groups: [Option<u32>; OTHER_GROUPS.len()],
+    /// The groups of its G functions, a bit each: those of [`Group`], then [`OTHER_GROUPS`].
+    groups: u32,
     /// The letters of which it has a word and may have one, I at bit 0.
     letters: u32,
-    /// The numbers of its M functions.
-    functions: BTreeSet<i64>,
+    /// The numbers of its M functions; boxed, because few blocks have any.
+    functions: Option<Box<BTreeSet<i64>>>,
     /// Meaning of the axis words: with G04, G92 … they are not coordinates.
     pub(in crate::interpreter) axis_words: AxisWords,
     /// F, which may be unknown.
@@ -68,25 +66,33 @@ pub(in crate::interpreter) struct BlockOutcome {
 }
 
 impl BlockOutcome {
-    /// Takes a G function; returns the one of its group that the block already has.
-    pub(in crate::interpreter) fn other_of_group(
+    /// Takes a G function; returns whether the control refuses it, because the block has one of its group.
+    pub(in crate::interpreter) fn is_second_of_group(
         &mut self,
         number: u32,
         group: Option<Group>,
-    ) -> Option<u32> {
+    ) -> bool {
         // TF5200 Diagnosis, error 20117
         let is_block_end = matches!(number, 60 | 61 | 260 | 261);
-        let group = group.or(is_block_end.then_some(Group::ExactStop));
-        let first = if let Some(group) = group {
-            &mut self.groups[group as usize]
-        } else {
-            let of_number = |group: &&[u32]| group.contains(&number);
-            let group = OTHER_GROUPS.iter().position(of_number)?;
-            &mut self.other_groups[group]
-        };
-        let before = *first;
-        first.get_or_insert(number);
-        before
+        if let Some(group) = group.or(is_block_end.then_some(Group::ExactStop)) {
+            return !self.take_group(group);
+        }
+        let of_number = |group: &&[u32]| group.contains(&number);
+        let other = OTHER_GROUPS.iter().position(of_number);
+        other.is_some_and(|other| !self.take_bit(Group::COUNT + other))
+    }
+
+    /// Takes a G function of a group; returns whether it is the first one.
+    #[inline]
+    pub(in crate::interpreter) fn take_group(&mut self, group: Group) -> bool {
+        self.take_bit(group as usize)
+    }
+
+    #[inline]
+    fn take_bit(&mut self, bit: usize) -> bool {
+        let is_first = self.groups & 1 << bit == 0;
+        self.groups |= 1 << bit;
+        is_first
     }
 
     /// Takes a word of a letter; returns whether the control refuses it, because the block already has one (R2.45).
@@ -96,10 +102,10 @@ impl BlockOutcome {
         block: &Block,
     ) -> bool {
         match letter {
-            b'N' if self.other_groups[LOOK_AHEAD].is_some() => false,
+            b'N' if self.groups & 1 << LOOK_AHEAD != 0 => false,
             b'N' if block.number.is_some() => true,
             b'F' => matches!(self.feed, Feed::Given(_)),
-            b'M' => number.is_some_and(|number| !self.functions.insert(number)),
+            b'M' => number.is_some_and(|it| !self.functions.get_or_insert_default().insert(it)),
             b'I' | b'J' | b'K' | b'N' | b'S' => {
                 let bit = 1 << (letter - b'I');
                 let is_repeated = self.letters & bit != 0;

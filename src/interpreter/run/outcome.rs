@@ -51,7 +51,11 @@ pub(in crate::interpreter) struct BlockOutcome {
     groups: u32,
     /// The letters of which it has a word and may have one, I at bit 0.
     letters: u32,
-    /// The numbers of its M functions; boxed, because few blocks have any.
+    /// The numbers of its M functions.
+    #[allow(
+        clippy::box_collection,
+        reason = "few blocks have any; a set for each block costs 1 % of all instructions"
+    )]
     functions: Option<Box<BTreeSet<i64>>>,
     /// Meaning of the axis words: with G04, G92 … they are not coordinates.
     pub(in crate::interpreter) axis_words: AxisWords,

@@ -358,6 +358,12 @@ fn conditional_interpretation_is_executed() {
         );
         assert!(!text.contains("Y:active>"), "{program}: {text}");
     }
+    for (statement, place) in [("N10 #IF TRUE", "1:1-8"), ("[HERE] #IF TRUE", "1:2-11")] {
+        let said = run(&format!("{statement}\n#ENDIF\nM30"));
+        assert!(said.contains(&format!("FC208 {place}\n")), "{said}");
+    }
+    let said = run("#IF TRUE\nN20 #ENDIF\nM30");
+    assert!(said.contains("FC208 2:1-11\n"), "{said}");
     let marked = format!("/#IF TRUE\n{off}\n/#ENDIF\nM30");
     let text = Bench::new().skip("none").run(&[&marked]);
     assert!(text.contains("X:active>inactive"), "{text}");

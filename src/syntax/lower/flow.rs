@@ -20,6 +20,7 @@ impl BlockLowering<'_> {
             .map_or(word.len(), |at| at + 1);
         self.note_case(Span::new(span.start as usize, span.start as usize + length));
         let word = &word[..length];
+        self.refuse_before_hash(word, span);
         let flow = match statement.as_rule() {
             Rule::flow_unknown => self.unknown_statement(word, span),
             _ => Some(self.flow_statement(statement, word)),
@@ -28,6 +29,25 @@ impl BlockLowering<'_> {
             self.block.jumps |= matches!(flow, Flow::Goto(_));
             self.block.items.push(Item::Flow(flow, span));
         }
+    }
+
+    /// Only a skip mark may be before `#IF` and its parts (R2.73).
+    fn refuse_before_hash(&mut self, word: &str, span: Span) {
+        let first = self.block.items.first();
+        let label = first.filter(|item| matches!(item, Item::Label(_)));
+        let label = label.map(Item::span);
+        let before = self.block.number.map(|number| number.span).or(label);
+        let Some(before) = before.filter(|_| word.starts_with('#')) else {
+            return;
+        };
+        let what = before.of(self.code).trim();
+        let message =
+            format!("`{what}` is before `{word}`, where the control accepts only a skip mark");
+        let place = Span::new(before.start as usize, span.start as usize + word.len());
+        let fault = Fault::new(Code::Fc208, place, message);
+        self.block
+            .faults
+            .push(fault.with_help(format!("remove `{what}`")));
     }
 
     fn flow_statement(&mut self, pair: Pair<'_, Rule>, word: &str) -> Flow {

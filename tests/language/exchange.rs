@@ -17,7 +17,7 @@ fn machine() -> String {
 }
 
 /// Programs that exchange axes, and the states that they leave on X, Y and C.
-const PROGRAMS: [(&str, [State; 3]); 20] = [
+const PROGRAMS: [(&str, [State; 3]); 24] = [
     // An axis that the channel already has is not requested.
     ("#CALL AX [X,1,0]\nM30", [Active; 3]),
     ("#AX REQUEST FAST [C, 4, 3]\nM30", [Active; 3]),
@@ -48,6 +48,20 @@ const PROGRAMS: [(&str, [State; 3]); 20] = [
     (
         "#PUT AX ALL\n#AX DEF DEFAULT\nX[COMP OFF FRICT]\nM30",
         [Inactive, Active, Active],
+    ),
+    (
+        "#PUT AX [C]\n#AX REQUEST [NAME = C NR = 4]\nC[COMP OFF FRICT]\nM30",
+        [Active, Active, Inactive],
+    ),
+    (
+        "#AX RELEASE [NAME = C]\nC[COMP OFF FRICT]\nM30",
+        [Active, Active, Unknown],
+    ),
+    // Which axes are meant is not known.
+    ("#PUT AX [X C]\nX[COMP OFF FRICT]\nM30", [Unknown; 3]),
+    (
+        "#SET AX [X 1, 0][Y, 2, 1]\nY[COMP OFF FRICT]\nM30",
+        [Unknown; 3],
     ),
     // Another name for an axis.
     (

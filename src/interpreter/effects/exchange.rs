@@ -58,6 +58,19 @@ impl Interpreter {
         if every("DEFAULT") {
             self.state.control.channel_axes = ChannelAxes::default();
         }
+        let mut names = groups(rest).flat_map(|group| names_of(exchange, group));
+        if let Some(name) = names.find(|name| !name.bytes().all(is_name_byte)) {
+            self.state.control.havoc_exchange();
+            let message = format!(
+                "`{name}` is not an axis name; which axes `{}` exchanges is not known, and a COMP command after it may \
+                 switch any axis",
+                hash.name
+            );
+            let fault = Fault::new(Code::Fc210, hash.span, message)
+                .with_help("separate names and numbers with commas");
+            self.scratch.diagnostics.push(at.diagnostic(fault));
+            return;
+        }
         match exchange {
             Exchange::Restore if self.state.control.channel_axes == ChannelAxes::default() => {}
             Exchange::Restore => self.state.control.havoc_exchange(),
@@ -76,15 +89,13 @@ impl Interpreter {
             Exchange::Request => self.request_axes(rest, at),
             Exchange::Release if every("ALL") => self.release_others(&[]),
             Exchange::Release => {
-                // `[X, B]` or `[NAME=X]`.
-                let named = groups(rest).flatten();
-                named.for_each(|name| self.release_axis(name.trim_start_matches("NAME=")));
+                let names = groups(rest).flat_map(|group| names_of(exchange, group));
+                names.for_each(|name| self.release_axis(name));
             }
             Exchange::Define => {
                 if !every("DEFAULT") {
-                    let named: Vec<&str> =
-                        groups(rest).filter_map(|group| axis_of(&group).0).collect();
-                    self.release_others(&named);
+                    let names = groups(rest).flat_map(|group| names_of(exchange, group));
+                    self.release_others(&names.collect::<Vec<_>>());
                 }
                 self.request_axes(rest, at);
             }
@@ -228,16 +239,38 @@ fn groups(text: &str) -> impl Iterator<Item = Vec<&str>> {
     })
 }
 
+/// The names of a bracket: `[X, B]` and `[NAME=X]` of a release, one of a request.
+fn names_of(exchange: Exchange, group: Vec<&str>) -> Vec<&str> {
+    match exchange {
+        Exchange::Release => {
+            let names = group.into_iter();
+            names
+                .map(|name| keyed(name, "NAME").unwrap_or(name))
+                .collect()
+        }
+        Exchange::Request | Exchange::Define => axis_of(&group).0.into_iter().collect(),
+        Exchange::Restore | Exchange::Undescribed => Vec::new(),
+    }
+}
+
+/// The value of a key, `X` of `NAME = X NR = 1`.
+fn keyed<'a>(words: &'a str, key: &str) -> Option<&'a str> {
+    let (_, rest) = words.split_once(key)?;
+    let value = rest.trim_start().strip_prefix('=')?;
+    value.split_whitespace().next()
+}
+
+fn is_name_byte(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
 /// The name and the logical number of a bracket, `X, 1, 0` or `NAME=X NR=1 IDX=0`; no name where
 /// it holds switches for conflicts, `NAM, NBR, IDX`.
 fn axis_of<'a>(group: &[&'a str]) -> (Option<&'a str>, Option<&'a str>) {
     let first = group.first().copied().unwrap_or_default();
     if first.contains('=') {
-        let value = |key: &str| {
-            let mut words = group.iter().flat_map(|word| word.split_whitespace());
-            words.find_map(|word| word.strip_prefix(key)?.strip_prefix('='))
-        };
-        return (value("NAME"), value("NR"));
+        let value = |key: &str| group.iter().find_map(|words| keyed(words, key));
+        return (value("NAME").or(Some(first)), value("NR"));
     }
     if first.is_empty() || matches!(first, "NAM" | "NBR" | "IDX" | "FAST") {
         return (None, None);

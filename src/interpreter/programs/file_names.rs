@@ -18,19 +18,29 @@ pub(in crate::interpreter) enum FileName<'a> {
     Elsewhere(&'a str),
 }
 
-/// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional.
+/// The letters of the words that may get a program.
+const LETTERS: [&str; 4] = ["D", "G", "M", "T"];
+
+/// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional. With any
+/// other text, the program of every word is unknown.
 pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_>)> {
     let mut names = Vec::new();
     let mut rest = text.trim_start().strip_prefix('[').unwrap_or(text);
     loop {
-        rest = rest.trim_start_matches([' ', '\t', '\n', ',', '\\']);
+        rest = without_separators(rest);
         let length = rest
             .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
             .unwrap_or(rest.len());
         if length == 0 {
+            if !rest.is_empty() && !rest.starts_with(']') {
+                names.extend(unknown_words(rest));
+            }
             return names;
         }
         let (word, after) = rest.split_at(length);
+        if !is_word(word) {
+            names.extend(unknown_words(word));
+        }
         let after = after.trim_start();
         let after = after.strip_prefix('=').unwrap_or(after).trim_start();
         let word = crate::machine::canonical_word(word);
@@ -45,6 +55,31 @@ pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_
             rest = &after[end..];
         }
     }
+}
+
+/// The text after blanks, commas, continuation signs and comments.
+fn without_separators(mut text: &str) -> &str {
+    loop {
+        text = text.trim_start_matches([' ', '\t', '\r', '\n', ',', '\\']);
+        let end = match text.as_bytes().first() {
+            Some(b'(') => ')',
+            Some(b';') => '\n',
+            _ => return text,
+        };
+        text = text.split_once(end).map_or("", |(_, rest)| rest);
+    }
+}
+
+fn unknown_words(text: &str) -> impl Iterator<Item = (String, FileName<'_>)> {
+    LETTERS
+        .map(|letter| (letter.to_owned(), FileName::Elsewhere(text.trim())))
+        .into_iter()
+}
+
+fn is_word(word: &str) -> bool {
+    let (letter, number) = word.split_at(1);
+    LETTERS.contains(&letter.to_ascii_uppercase().as_str())
+        && number.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 #[cfg(test)]
@@ -66,5 +101,10 @@ mod tests {
         assert_eq!(shown(text), "G80=a b.nc M6=c.nc T= D?V.P.NAME");
         assert_eq!(shown(""), "");
         assert_eq!(shown("[G80=\"open"), "G80?\"open");
+        assert_eq!(
+            shown("[M6=\"a.nc\"; T]"),
+            "M6=a.nc D?; T] G?; T] M?; T] T?; T]"
+        );
+        assert_eq!(shown("[FOO=\"a.nc\"]"), "D?FOO G?FOO M?FOO T?FOO FOO=a.nc");
     }
 }

@@ -101,9 +101,10 @@ mod tests {
         assert_eq!(shown(text), "G80=a b.nc M6=c.nc T= D?V.P.NAME");
         assert_eq!(shown(""), "");
         assert_eq!(shown("[G80=\"open"), "G80?\"open");
+        assert_eq!(shown("[M6=\"a.nc\" (x) \\\n T=\"\"; y\n]"), "M6=a.nc T=");
         assert_eq!(
-            shown("[M6=\"a.nc\"; T]"),
-            "M6=a.nc D?; T] G?; T] M?; T] T?; T]"
+            shown("[M6=\"a.nc\" / T]"),
+            "M6=a.nc D?/ T] G?/ T] M?/ T] T?/ T]"
         );
         assert_eq!(shown("[FOO=\"a.nc\"]"), "D?FOO G?FOO M?FOO T?FOO FOO=a.nc");
     }

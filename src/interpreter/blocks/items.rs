@@ -300,7 +300,7 @@ impl Interpreter {
         for note in &mut self.scratch.notes.borrow_mut()[noted..] {
             note.place = at.place(span);
         }
-        self.check_company(&code, span, at)
+        self.check_sharing(&code, span, at)
     }
 
     pub(in crate::interpreter) fn block_number(&mut self, at: &BlockContext<'_>) -> Option<i64> {

@@ -13,7 +13,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Reports what shares the block with a macro and must not, or perhaps not.
-    pub(in crate::interpreter) fn check_company(
+    pub(in crate::interpreter) fn check_sharing(
         &mut self,
         code: &MacroCode<'_>,
         span: Span,
@@ -23,26 +23,26 @@ impl Interpreter {
         let Some(lone) = LonePart::of(code).or(inner) else {
             return Ok(());
         };
-        let Some(companion) = lone.companion(at.block, span) else {
+        let Some(conflict) = lone.conflict(at.block, span) else {
             // The macro may be part of another one.
             self.scratch.lone = Some(lone).filter(|_| at.macro_depth > 0);
             return Ok(());
         };
         let name = unquoted(span.of(at.text));
-        let shown = companion.of(at.text).trim();
-        let fault = if lone.leaves_company_open() {
+        let shown = conflict.of(at.text).trim();
+        let fault = if lone.leaves_rest_open() {
             self.havoc_by_call(&shown.into());
             let what = lone.as_str();
             let message = format!(
                 "`{shown}` is in the same block as {what} in the code of macro `{name}`; whether the control executes \
                  it is not known, and whatever it could change is unknown from here on"
             );
-            Fault::new(Code::Fc210, companion, message).with_help("write it in a separate block")
+            Fault::new(Code::Fc210, conflict, message).with_help("write it in a separate block")
         } else {
             let message = format!(
                 "`{shown}` follows a call in the code of macro `{name}`, where the control accepts nothing"
             );
-            Fault::new(Code::Fc207, companion, message)
+            Fault::new(Code::Fc207, conflict, message)
                 .with_help("write it before the macro, or in the next block")
         };
         Err(Box::new(fault))

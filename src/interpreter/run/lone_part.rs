@@ -1,7 +1,7 @@
 //! Parts of a macro that limit what else may be in the block.
 
 use super::block_context::MacroCode;
-use crate::syntax::ast::{Block, HashCompany, Item};
+use crate::syntax::ast::{Block, BlockSharing, Item};
 use crate::syntax::code_of;
 use crate::text::Span;
 
@@ -11,7 +11,7 @@ pub(in crate::interpreter) enum LonePart {
     /// A call, after which the control accepts nothing (R2.13).
     Call,
     /// A `#` command (R2.47).
-    Command(HashCompany),
+    Command(BlockSharing),
     /// A comment up to the end, perhaps of the whole block.
     Comment,
 }
@@ -21,8 +21,8 @@ impl LonePart {
         let mut items = code.block.items.iter();
         let lone = items.find_map(|item| match item {
             Item::Call(_) => Some(Self::Call),
-            Item::Hash(hash) if hash.company == HashCompany::Words => None,
-            Item::Hash(hash) => Some(Self::Command(hash.company)),
+            Item::Hash(hash) if hash.sharing == BlockSharing::Words => None,
+            Item::Hash(hash) => Some(Self::Command(hash.sharing)),
             _ => None,
         });
         lone.or_else(|| ends_in_comment(code.text).then_some(Self::Comment))
@@ -37,15 +37,21 @@ impl LonePart {
     }
 
     /// Whether the control may or may not execute what shares the block with it.
-    pub(in crate::interpreter) fn leaves_company_open(self) -> bool {
+    pub(in crate::interpreter) fn leaves_rest_open(self) -> bool {
         self != Self::Call
     }
 
     /// The first part of a block that should not be in it together with a macro.
-    pub(in crate::interpreter) fn companion(self, block: &Block, used: Span) -> Option<Span> {
-        let is_alone = self == Self::Command(HashCompany::None);
-        let mut parts = parts(block);
-        parts.find(|part| part.start > used.start || is_alone && part.start < used.start)
+    pub(in crate::interpreter) fn conflict(self, block: &Block, used: Span) -> Option<Span> {
+        let from = block
+            .items
+            .partition_point(|item| item.span().start <= used.start);
+        let after = block.items[from..].iter().find(|item| is_part(item));
+        let is_alone = self == Self::Command(BlockSharing::None);
+        let before = parts(block)
+            .next()
+            .filter(|part| is_alone && part.start < used.start);
+        before.or(after.map(Item::span))
     }
 }
 
@@ -56,9 +62,12 @@ pub(in crate::interpreter) fn has_parts(block: &Block) -> bool {
 
 fn parts(block: &Block) -> impl Iterator<Item = Span> + '_ {
     let words = block.words.iter().map(|word| word.span);
-    let items = block.items.iter();
-    let items = items.filter(|item| !matches!(item, Item::Label(_) | Item::BadCommand(_)));
+    let items = block.items.iter().filter(|item| is_part(item));
     words.chain(items.map(Item::span))
+}
+
+fn is_part(item: &Item) -> bool {
+    !matches!(item, Item::Label(_) | Item::BadCommand(_))
 }
 
 /// Whether the code ends in a comment: a word after it would not be read.

@@ -125,7 +125,7 @@ impl MayEffects<'_> {
                 block: &block,
                 depth: at.macro_depth,
             };
-            let may_do_anything = LonePart::of(&code).is_some_and(LonePart::leaves_company_open);
+            let may_do_anything = LonePart::of(&code).is_some_and(LonePart::leaves_rest_open);
             if is_shared && may_do_anything {
                 self.effect(RegionEffect::All);
             }

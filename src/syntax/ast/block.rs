@@ -193,14 +193,14 @@ pub struct Hash {
     /// The places that the command writes with values that only the machine knows.
     pub written: Vec<Target>,
     /// What may share its block.
-    pub company: HashCompany,
+    pub sharing: BlockSharing,
     /// Span of its whole text.
     pub span: Span,
 }
 
 /// What may share the block with a `#` command (R2.47).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum HashCompany {
+pub enum BlockSharing {
     /// Nothing.
     None,
     /// Words before it.

@@ -9,7 +9,7 @@ mod expression;
 mod flow;
 
 pub use block::{
-    Address, Assignment, Block, BlockNumber, Declaration, Effect, Hash, HashCompany, Item, Word,
+    Address, Assignment, Block, BlockNumber, BlockSharing, Declaration, Effect, Hash, Item, Word,
 };
 pub use call::{
     Call, CallForm, CallName, CallScope, GCall, Repetition, Return, ReturnLevels, SequenceCall,

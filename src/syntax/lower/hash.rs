@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 
 use super::lowering::{BlockLowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, nearest};
-use crate::syntax::ast::{Effect, Hash, HashCompany, Item, Operand, Target};
+use crate::syntax::ast::{BlockSharing, Effect, Hash, Item, Operand, Target};
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::hash_words::{command_name, goes_on, hash_name, opening_command};
@@ -42,7 +42,7 @@ impl BlockLowering<'_> {
     pub(super) fn hash_word(&mut self, span: Span) {
         self.hash(span);
         if let Some(Item::Hash(hash)) = self.block.items.last_mut() {
-            hash.company = HashCompany::Words;
+            hash.sharing = BlockSharing::Words;
         }
     }
 
@@ -90,14 +90,14 @@ impl BlockLowering<'_> {
             Touches::Values => self.places_in(rest),
             _ => Vec::new(),
         };
-        let company = if AFTER_WORDS.contains(&name.as_str()) {
-            HashCompany::WordsBefore
+        let sharing = if AFTER_WORDS.contains(&name.as_str()) {
+            BlockSharing::WordsBefore
         } else {
-            HashCompany::None
+            BlockSharing::None
         };
         self.block.items.push(Item::Hash(Hash {
             name,
-            company,
+            sharing,
             rest,
             arguments,
             declarations,

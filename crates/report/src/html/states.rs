@@ -17,7 +17,7 @@ pub(super) fn render(page: &mut Page<'_>, digest: &RunDigest) -> io::Result<()> 
     page.push(&html! {
         p {
             "Each bar is a state over the executed blocks and links to the line that caused it. \
-             Striped bars are away from its start-up state, the state after a start of the control."
+             Striped bars differ from the start-up state, the state after a start of the control."
         }
         "\n"
     })?;

@@ -177,7 +177,7 @@ impl LineChart {
                 PanelHeight::Full if self.panels.len() > 1 => 130.0,
                 PanelHeight::Full => 300.0,
             };
-            canvas.text("", (16.0, area.y - 9.0), Anchor::Start, &panel.y.label);
+            canvas.text("", (MARGIN, area.y - 13.0), Anchor::Start, &panel.y.label);
             if let Some(second) = self.x.second.as_ref().filter(|_| !above) {
                 area.y += SECOND_ROOM;
                 draw_second(&mut canvas, &x, second, area);

@@ -79,7 +79,7 @@ impl Fault {
     }
 }
 
-/// FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20175, 20181,
+/// FC313: a second word where the control accepts one in a block (TF5200 Diagnosis, errors 20105, 20170, 20175, 20181,
 /// 20205, 20765).
 pub(crate) fn repeated_word(text: &str, span: Span) -> Fault {
     let text = text.trim();

@@ -1,6 +1,8 @@
 //! Masking of the text that the parser skips: comments, continuation signs, block numbers of continued
 //! lines and foreign characters are blanked out byte for byte.
 
+use std::borrow::Cow;
+
 use super::pieces::{PieceKind, is_blank, pieces};
 use crate::text::Span;
 
@@ -40,6 +42,26 @@ pub fn code_of(line: &str) -> String {
     let mut code = String::new();
     mask(line, &mut code);
     code
+}
+
+/// Part of a block as the parser sees it, byte for byte: its lines without comments, continuation signs and the
+/// block numbers of continued lines.
+pub(crate) fn code_of_part(text: &str) -> Cow<'_, str> {
+    if !text.contains(['(', ';', '\\', '\n']) {
+        return Cow::Borrowed(text);
+    }
+    let mut code = String::with_capacity(text.len());
+    for (at, line) in text.split('\n').enumerate() {
+        if at > 0 {
+            code.push('\n');
+        }
+        let from = code.len();
+        mask(line, &mut code);
+        if at > 0 {
+            mask_number(&mut code, from);
+        }
+    }
+    Cow::Owned(code)
 }
 
 /// Whether a line marks its block as continued on the next one.

@@ -72,7 +72,7 @@ pub use raw::{LostRemarks, RawBlock, Stretch};
 pub(crate) use mask::code_of;
 #[cfg(feature = "unstable")]
 pub use mask::code_of;
-pub(crate) use mask::goes_on;
+pub(crate) use mask::{code_of_part, goes_on};
 #[cfg(feature = "unstable")]
 pub use names::{NameInBlock, NameRole, Named, names_in};
 #[cfg(feature = "unstable")]

@@ -17,7 +17,7 @@ fn machine() -> String {
 }
 
 /// Programs that exchange axes, and the states that they leave on X, Y and C.
-const PROGRAMS: [(&str, [State; 3]); 24] = [
+const PROGRAMS: [(&str, [State; 3]); 27] = [
     // An axis that the channel already has is not requested.
     ("#CALL AX [X,1,0]\nM30", [Active; 3]),
     ("#AX REQUEST FAST [C, 4, 3]\nM30", [Active; 3]),
@@ -55,6 +55,19 @@ const PROGRAMS: [(&str, [State; 3]); 24] = [
     ),
     (
         "#AX RELEASE [NAME = C]\nC[COMP OFF FRICT]\nM30",
+        [Active, Active, Unknown],
+    ),
+    // Comments, continued lines and their block numbers are no names.
+    (
+        "#PUT AX [C (not X)]\nX[COMP OFF FRICT]\nM30",
+        [Inactive, Active, Active],
+    ),
+    (
+        "#PUT AX [X, \\\nN20 C] ; Y\r\nY[COMP OFF FRICT]\r\nM30",
+        [Active, Inactive, Active],
+    ),
+    (
+        "#PUT AX [X (a), C]\nC[COMP OFF FRICT]\nM30",
         [Active, Active, Unknown],
     ),
     // Which axes are meant is not known.

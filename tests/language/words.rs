@@ -395,6 +395,36 @@ fn transformations_mark_positions() {
 }
 
 #[test]
+fn comments_name_no_axes_and_no_programs() {
+    // R2.6 R2.75
+    for program in [
+        "#SET AX LINK [1, Y=B (not X)]\n#ENABLE AX LINK [(the first) 1]",
+        "#SET AX LINK [1, \\\nY=B] ; X\n#ENABLE AX LINK [\\\nN20 1]",
+        "#FILE NAME [G80=\"a.nc\" (M6=\"b.nc\") \\\nN30 T=\"\" ; D\n]",
+        "X[MC_GearIn Master=2 (not 1)]",
+    ] {
+        let said = run(&format!("{program}\nX[COMP OFF FRICT]\nM6\nM30"));
+        assert!(said.contains("X:active>inactive"), "{program}: {said}");
+        assert!(
+            !said.contains("FC9") && !said.contains("P-ERR"),
+            "{program}: {said}"
+        );
+    }
+}
+
+#[test]
+fn a_tool_word_that_gives_data_counts_as_one() {
+    // R2.45 R2.75
+    let mut bench = Bench::new().keep_going();
+    let said = |bench: &Bench, block: &str| bench.run(&[&format!("{block}\nM30")]);
+    assert!(said(&bench, "D1 D2").contains("FC313 1:4-"));
+    assert!(!said(&bench, "T1 D1").contains("FC313"));
+    bench.machine.programs.data_with_tool = true;
+    assert!(said(&bench, "T1 D1").contains("FC313 1:4-"));
+    assert!(!said(&bench, "T1\nD1").contains("FC313"));
+}
+
+#[test]
 fn couplings() {
     // 2.6 and P-ERR-21403
     let program = "#SET AX LINK [1, Y=X]\n#AX LINK [P1+1, Z=X]\n#ENABLE AX LINK [1]\nX[COMP OFF FRICT]\nY[COMP OFF FRICT]\n\

@@ -12,6 +12,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::work_budget::ITEM;
+use crate::syntax::code_of_part;
 use crate::text::Span;
 
 impl Interpreter {
@@ -26,7 +27,7 @@ impl Interpreter {
         };
         let span = bracket.span;
         let keyword = bracket.keyword.to_ascii_uppercase();
-        let body = span.of(at.text).to_ascii_uppercase();
+        let body = code_of_part(span.of(at.text)).to_ascii_uppercase();
         if ends_following(&keyword) {
             self.state.control.couplings.unfollow(&gear_of(axis));
         }

@@ -33,7 +33,7 @@ impl Interpreter {
         at: &BlockContext<'_>,
         outcome: &mut BlockOutcome,
     ) -> Result<(), Box<Fault>> {
-        let rest = hash.rest.of(at.text);
+        let rest = &*hash.code(at.text);
         if !goes_on(&hash.name) {
             self.scratch.rests.set(true);
         }
@@ -123,7 +123,7 @@ impl Interpreter {
                 }
             }
             Some(Touches::Friction) => {
-                for axis in self.axes_or_all(hash.rest.of(at.text)) {
+                for axis in self.axes_or_all(&hash.code(at.text)) {
                     self.havoc(axis, KindSet::of(Kind::Frict));
                 }
                 self.say_undescribed(hash, at);
@@ -158,7 +158,7 @@ impl Interpreter {
 
     /// FC314: the whole axis list is transferred again (R2.92).
     fn write_machine_data(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        let text = hash.rest.of(at.text);
+        let text = &*hash.code(at.text);
         let lost = self.transferred(hash, at);
         let friction = written(text) == WriteTarget::Friction;
         if lost.is_empty() && !friction {
@@ -219,7 +219,8 @@ impl Interpreter {
     /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
     /// known class it is taken for a warning (tf5200, 207457163).
     fn report_error(&mut self, hash: &Hash, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
-        let class = remedy_class(hash.rest.of(at.text));
+        let code = hash.code(at.text);
+        let class = remedy_class(&code);
         let class = class.and_then(|class| self.number_in(class, at));
         let Some(class) = class.filter(|class| *class >= 1.0) else {
             self.pass_over("#ERROR", hash.span, at);

@@ -173,7 +173,7 @@ impl Interpreter {
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
     pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &BlockContext<'_>) {
-        for (word, name) in file_names(hash.rest.of(at.text)) {
+        for (word, name) in file_names(&hash.code(at.text)) {
             let value = match name {
                 FileName::Written(name) => Value::Text(name.into()),
                 FileName::Elsewhere(name) => self.state.control.named_elsewhere(name),

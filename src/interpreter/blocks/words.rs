@@ -311,7 +311,11 @@ impl Interpreter {
             self.unread_word(span, at);
             return Ok(());
         }
-        if outcome.is_repeated((letter, whole), at.block) {
+        // A T word may be a D word as well (P-CHAN-00014; TF5200 Diagnosis, error 20170).
+        let gives_data = letter == b'T' && self.machine.programs.data_with_tool;
+        if outcome.is_repeated((letter, whole), at.block)
+            || gives_data && outcome.is_repeated((b'D', None), at.block)
+        {
             return Err(Box::new(repeated_word(span.of(at.text), span)));
         }
         match (letter, whole) {

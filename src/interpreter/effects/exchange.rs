@@ -53,7 +53,7 @@ impl Interpreter {
             return;
         };
         self.state.control.modal.hash(&hash.name);
-        let rest = hash.rest.of(at.text);
+        let rest = &*hash.code(at.text);
         let every = |word: &str| hash.name.ends_with(word) || rest.trim_start().starts_with(word);
         if every("DEFAULT") {
             self.state.control.channel_axes = ChannelAxes::default();

@@ -58,7 +58,7 @@ impl Interpreter {
         hash: &Hash,
         at: &BlockContext<'_>,
     ) -> Vec<(AxisIndex, KindSet)> {
-        let text = hash.rest.of(at.text);
+        let text = &*hash.code(at.text);
         let axes = match named(text) {
             Some(AxisName::Number(number)) => {
                 let number = self.number_in(number, at).and_then(rounded);

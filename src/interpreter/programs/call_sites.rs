@@ -175,7 +175,7 @@ impl Sites<'_> {
     }
 
     fn name_programs(&mut self, hash: &Hash, text: &str) {
-        for (word, name) in file_names(hash.rest.of(text)) {
+        for (word, name) in file_names(&hash.code(text)) {
             let name = match name {
                 FileName::Written(name) => Some(name.to_owned()),
                 FileName::Elsewhere(_) => None,

@@ -27,7 +27,7 @@ pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_
     let mut names = Vec::new();
     let mut rest = text.trim_start().strip_prefix('[').unwrap_or(text);
     loop {
-        rest = without_separators(rest);
+        rest = rest.trim_start_matches([' ', '\t', '\r', '\n', ',']);
         let length = rest
             .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
             .unwrap_or(rest.len());
@@ -54,19 +54,6 @@ pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_
             names.push((word, FileName::Elsewhere(&after[..end])));
             rest = &after[end..];
         }
-    }
-}
-
-/// The text after blanks, commas, continuation signs and comments.
-fn without_separators(mut text: &str) -> &str {
-    loop {
-        text = text.trim_start_matches([' ', '\t', '\r', '\n', ',', '\\']);
-        let end = match text.as_bytes().first() {
-            Some(b'(') => ')',
-            Some(b';') => '\n',
-            _ => return text,
-        };
-        text = text.split_once(end).map_or("", |(_, rest)| rest);
     }
 }
 
@@ -97,11 +84,10 @@ mod tests {
             });
             names.collect::<Vec<_>>().join(" ")
         };
-        let text = " [ G080=\"a b.nc\" m06 \"c.nc\",T = \"\" D=V.P.NAME ] (x)";
+        let text = " [ G080=\"a b.nc\" m06 \"c.nc\",T = \"\" D=V.P.NAME ]";
         assert_eq!(shown(text), "G80=a b.nc M6=c.nc T= D?V.P.NAME");
         assert_eq!(shown(""), "");
         assert_eq!(shown("[G80=\"open"), "G80?\"open");
-        assert_eq!(shown("[M6=\"a.nc\" (x) \\\n T=\"\"; y\n]"), "M6=a.nc T=");
         assert_eq!(
             shown("[M6=\"a.nc\" / T]"),
             "M6=a.nc D?/ T] G?/ T] M?/ T] T?/ T]"

@@ -49,7 +49,7 @@ pub(in crate::interpreter) struct BlockOutcome {
     pub(in crate::interpreter) calls: Vec<WantedCall>,
     /// The groups of its G functions, a bit each: those of [`Group`], then [`OTHER_GROUPS`].
     groups: u32,
-    /// The letters of which it has a word and may have one, I at bit 0.
+    /// The letters of which it has a word and may have one, D at bit 0.
     letters: u32,
     /// The numbers of its M functions.
     #[allow(
@@ -110,8 +110,8 @@ impl BlockOutcome {
             b'N' if block.number.is_some() => true,
             b'F' => matches!(self.feed, Feed::Given(_)),
             b'M' => number.is_some_and(|it| !self.functions.get_or_insert_default().insert(it)),
-            b'I' | b'J' | b'K' | b'N' | b'S' => {
-                let bit = 1 << (letter - b'I');
+            b'D' | b'I' | b'J' | b'K' | b'N' | b'S' => {
+                let bit = 1 << (letter - b'D');
                 let is_repeated = self.letters & bit != 0;
                 self.letters |= bit;
                 is_repeated

@@ -33,7 +33,7 @@ use crate::syntax::ast::{
     Address, Block, BlockReference, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, Node, Operand, Owner, ReturnLevels, Word,
 };
-use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number};
+use crate::syntax::{Stretch, Touches, code_of_part, hash_command, is_letter, is_program_number};
 use crate::text::Span;
 
 /// A region that is being analysed.
@@ -213,7 +213,7 @@ impl MayEffects<'_> {
             Item::Bracket { axis, keyword, .. } => {
                 let name = axis.of(at.text);
                 let keyword = keyword.of(at.text).to_ascii_uppercase();
-                let body = item.span().of(at.text).to_ascii_uppercase();
+                let body = code_of_part(item.span().of(at.text)).to_ascii_uppercase();
                 self.bracket(name, &keyword, &body);
             }
             Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
@@ -299,12 +299,13 @@ impl MayEffects<'_> {
     }
 
     fn hash(&mut self, hash: &HashCommand, at: &BlockContext<'_>) {
+        let rest = &*hash.code(at.text);
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
             self.effect(RegionEffect::Declaration(name));
         }
         if is_file_name(&hash.name) {
-            for word in named_words(hash.rest.of(at.text)) {
+            for word in named_words(rest) {
                 self.effect(RegionEffect::FileName(word));
             }
             return;
@@ -317,25 +318,25 @@ impl MayEffects<'_> {
             }
             return;
         }
-        if let Some(axes) = self.run.defined_axes(&hash.name, hash.rest.of(at.text)) {
+        if let Some(axes) = self.run.defined_axes(&hash.name, rest) {
             self.effect(RegionEffect::Coupling(axes));
             return;
         }
         if is_machine_data(&hash.name) {
-            for axis in self.run.perhaps_transferred(hash.rest.of(at.text)) {
+            for axis in self.run.perhaps_transferred(rest) {
                 let name = self.run.machine.axis(axis).name.clone();
                 self.effect(RegionEffect::Compensation(name, KindSet::ALL));
             }
         }
         if is_follower_command(&hash.name) {
-            let axes = self.run.axes_in(hash.rest.of(at.text));
+            let axes = self.run.axes_in(rest);
             self.effect(RegionEffect::Followers(axes));
         }
         self.effect(RegionEffect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
             Some(Touches::Motion | Touches::Plane) => self.effect(RegionEffect::Positions),
             Some(Touches::Friction) => {
-                for axis in self.run.axes_or_all(hash.rest.of(at.text)) {
+                for axis in self.run.axes_or_all(rest) {
                     let name = self.run.machine.axis(axis).name.clone();
                     self.effect(RegionEffect::Compensation(name, KindSet::of(Kind::Frict)));
                 }

@@ -1,10 +1,13 @@
 //! A block and its contents.
 
+use std::borrow::Cow;
+
 use super::call::{Call, GCall, Return, SequenceCall};
 use super::expression::{Node, Operand, Target};
 use super::flow::Flow;
 use crate::comp::CompCommand;
 use crate::syntax::fault::Fault;
+use crate::syntax::mask::code_of_part;
 use crate::text::Span;
 
 /// One block.
@@ -196,6 +199,13 @@ pub struct Hash {
     pub sharing: BlockSharing,
     /// Span of its whole text.
     pub span: Span,
+}
+
+impl Hash {
+    /// The text after its words as the parser sees it, without comments.
+    pub(crate) fn code<'a>(&self, text: &'a str) -> Cow<'a, str> {
+        code_of_part(self.rest.of(text))
+    }
 }
 
 /// What may share the block with a `#` command (R2.47).

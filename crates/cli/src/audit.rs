@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::console::{Console, Printed};
 use super::execution::ExecutionArgs;
 use super::exit;
-use super::fail_on::{FailOn, of_axis};
+use super::fail_on::{FailOn, FailOnWord, of_axis};
 use super::failure::{Failure, shown};
 use super::failures::Failures;
 use super::html::Files;
@@ -76,9 +76,9 @@ pub(super) struct AuditArgs {
     /// Write a report with the matrix of programs and axes to this HTML file
     #[arg(long, value_name = "FILE", conflicts_with = "fix")]
     html: Option<PathBuf>,
-    /// The lowest severity that gives exit status 1; hazards are warnings
-    #[arg(long, value_name = "SEVERITY", default_value = "error")]
-    fail_on: FailOn,
+    /// What gives exit status 1, where hazards are warnings; a list such as `error,unknown`
+    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "warning")]
+    fail_on: Vec<FailOnWord>,
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
@@ -216,17 +216,18 @@ impl AuditArgs {
         console: Console,
     ) -> u8 {
         let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
-        if let Some(remark) = self.fail_on.unknown_remark(&unknown) {
+        let fail_on = FailOn::judging(&self.fail_on);
+        if let Some(remark) = fail_on.unknown_remark(&unknown) {
             console.remark(&remark);
         }
-        self.fail_on.unknown_status(&unknown)
+        fail_on.unknown_status(&unknown)
     }
 
     fn status(&self, warnings: bool, errors: bool) -> u8 {
         let mut counts = BTreeMap::new();
         counts.insert(Severity::Warning, u64::from(warnings));
         counts.insert(Severity::Error, u64::from(errors));
-        self.fail_on.status(&counts)
+        FailOn::judging(&self.fail_on).status(&counts)
     }
 
     /// Follows the programs in a given order.

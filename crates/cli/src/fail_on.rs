@@ -7,40 +7,64 @@ use clap::ValueEnum;
 use frictcomp::comp::Kind;
 use frictcomp::diagnostic::Severity;
 
-/// The lowest severity that gives exit status 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum FailOn {
-    /// An error of the control or of a list.
-    #[default]
-    Error,
-    /// A warning or an error.
-    Warning,
-    /// Any message.
-    Info,
-    /// An error, or a state that is not known at a program's end or where its axis moves.
-    Unknown,
-    /// Nothing.
+/// A word of `--fail-on`; a list of them gives exit status 1 for each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum FailOnWord {
+    /// Nothing
     Never,
+    /// Any message
+    Info,
+    /// A warning or an error
+    Warning,
+    /// An error of the control or of a list
+    Error,
+    /// A state that is not known at a program's end or where its axis moves, besides the severity
+    /// that is named or the default
+    Unknown,
+}
+
+impl FailOnWord {
+    fn severity(self) -> Option<Severity> {
+        match self {
+            Self::Info => Some(Severity::Info),
+            Self::Warning => Some(Severity::Warning),
+            Self::Error => Some(Severity::Error),
+            Self::Never | Self::Unknown => None,
+        }
+    }
+}
+
+/// What gives exit status 1 (R18.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct FailOn {
+    least: Option<Severity>,
+    unknown: bool,
 }
 
 impl FailOn {
-    /// Whether this severity gives the status 1.
-    pub(super) fn counts(self, severity: Severity) -> bool {
-        self.least().is_some_and(|least| severity >= least)
+    /// Creates the condition that the words of a command describe; `unknown` alone adds to the command's default.
+    pub(super) fn new(words: &[FailOnWord], default: Severity) -> Self {
+        let names_severity = words.iter().any(|word| *word != FailOnWord::Unknown);
+        let named = words.iter().filter_map(|word| word.severity()).min();
+        Self {
+            least: if names_severity { named } else { Some(default) },
+            unknown: words.contains(&FailOnWord::Unknown),
+        }
     }
 
-    fn least(self) -> Option<Severity> {
-        match self {
-            Self::Error | Self::Unknown => Some(Severity::Error),
-            Self::Warning => Some(Severity::Warning),
-            Self::Info => Some(Severity::Info),
-            Self::Never => None,
-        }
+    /// Creates the condition of a command that judges.
+    pub(super) fn judging(words: &[FailOnWord]) -> Self {
+        Self::new(words, Severity::Warning)
+    }
+
+    /// Whether this severity gives the status 1.
+    pub(super) fn counts(self, severity: Severity) -> bool {
+        self.least.is_some_and(|least| severity >= least)
     }
 
     /// Returns the exit status for unknown states, given by their names (R2.98).
     pub(super) fn unknown_status(self, unknown: &BTreeSet<String>) -> u8 {
-        if self == Self::Unknown && !unknown.is_empty() {
+        if self.unknown && !unknown.is_empty() {
             super::exit::FOUND
         } else {
             super::exit::CLEAN
@@ -77,21 +101,26 @@ mod tests {
 
     #[test]
     fn the_status_follows_the_severity_that_counts() {
-        // R9.26
+        // R9.26, R18.1
+        use FailOnWord::{Error, Info, Never, Unknown, Warning};
+        let judging = FailOn::judging;
         let mut counts = BTreeMap::new();
-        assert_eq!(FailOn::Info.status(&counts), 0);
+        assert_eq!(judging(&[Info]).status(&counts), 0);
         counts.insert(Severity::Warning, 1);
-        assert_eq!(FailOn::Error.status(&counts), 0);
-        assert_eq!(FailOn::Warning.status(&counts), 1);
-        assert_eq!(FailOn::Info.status(&counts), 1);
+        assert_eq!(judging(&[]).status(&counts), 1);
+        assert_eq!(FailOn::new(&[], Severity::Error).status(&counts), 0);
+        assert_eq!(judging(&[Error]).status(&counts), 0);
+        assert_eq!(judging(&[Warning]).status(&counts), 1);
+        assert_eq!(judging(&[Error, Info]).status(&counts), 1);
         counts.insert(Severity::Error, 1);
-        assert_eq!(FailOn::Error.status(&counts), 1);
-        assert_eq!(FailOn::Never.status(&counts), 0);
+        assert_eq!(judging(&[Error]).status(&counts), 1);
+        assert_eq!(judging(&[Never]).status(&counts), 0);
         // R2.98
         let unknown = BTreeSet::from(["FRICT of X".to_owned()]);
-        assert_eq!(FailOn::Unknown.status(&counts), 1);
-        assert_eq!(FailOn::Unknown.unknown_status(&unknown), 1);
-        assert_eq!(FailOn::Error.unknown_status(&unknown), 0);
-        assert_eq!(FailOn::Unknown.unknown_status(&BTreeSet::new()), 0);
+        assert_eq!(judging(&[Unknown]).status(&counts), 1);
+        assert_eq!(judging(&[Never, Unknown]).status(&counts), 0);
+        assert_eq!(judging(&[Never, Unknown]).unknown_status(&unknown), 1);
+        assert_eq!(judging(&[Error]).unknown_status(&unknown), 0);
+        assert_eq!(judging(&[Unknown]).unknown_status(&BTreeSet::new()), 0);
     }
 }

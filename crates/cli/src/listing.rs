@@ -9,7 +9,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::console::{Console, DataTarget, Printed};
-use super::fail_on::FailOn;
+use super::fail_on::{FailOn, FailOnWord};
 use super::failure::Failure;
 use super::severities::SeverityArgs;
 use super::values;
@@ -30,9 +30,9 @@ pub(super) struct ListingArgs {
     /// Write the messages to this file
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// The lowest severity that gives exit status 1
-    #[arg(long, value_name = "SEVERITY", default_value = "error")]
-    pub(super) fail_on: FailOn,
+    /// What gives exit status 1; a list such as `error,unknown`
+    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "warning")]
+    fail_on: Vec<FailOnWord>,
     /// Print only the messages that count for the exit status
     #[arg(long, short)]
     pub(super) quiet: bool,
@@ -82,6 +82,7 @@ impl ListingArgs {
         };
         Ok(Lister {
             args: self,
+            fail_on: FailOn::judging(&self.fail_on),
             listing: Listing::new(writer, format, look),
             counted,
             counts: BTreeMap::new(),
@@ -94,6 +95,7 @@ impl ListingArgs {
 /// A list that is being written.
 pub(super) struct Lister<'a> {
     args: &'a ListingArgs,
+    fail_on: FailOn,
     listing: Listing<Box<dyn Write + Send>>,
     /// Destination of the counts, in place of the list.
     counted: Option<DataTarget>,
@@ -131,7 +133,7 @@ impl Lister<'_> {
 
     /// Lists a diagnostic. `Break` when the writer accepts no more.
     pub(super) fn diagnostic(&mut self, said: &Diagnostic) -> ControlFlow<()> {
-        if self.args.quiet && !self.args.fail_on.counts(said.severity) {
+        if self.args.quiet && !self.fail_on.counts(said.severity) {
             return ControlFlow::Continue(());
         }
         *self.counts.entry((said.code, said.severity)).or_default() += 1;
@@ -158,12 +160,12 @@ impl Lister<'_> {
 
     /// Returns the remark on unknown states, where they count for the exit status.
     pub(super) fn unknown_remark(&self) -> Option<String> {
-        self.args.fail_on.unknown_remark(&self.unknown)
+        self.fail_on.unknown_remark(&self.unknown)
     }
 
     /// Counts diagnostics that are too many to be listed (R2.85).
     pub(super) fn count(&mut self, severity: Severity, more: u64) {
-        if !self.args.quiet || self.args.fail_on.counts(severity) {
+        if !self.args.quiet || self.fail_on.counts(severity) {
             self.listing.count(severity, more);
         }
     }
@@ -221,8 +223,8 @@ impl Lister<'_> {
 
     /// Returns the exit status that the list gives.
     pub(super) fn status(&self) -> u8 {
-        let status = self.args.fail_on.status(&self.tally().counts);
-        status.max(self.args.fail_on.unknown_status(&self.unknown))
+        let status = self.fail_on.status(&self.tally().counts);
+        status.max(self.fail_on.unknown_status(&self.unknown))
     }
 
     /// Returns the hint to more about the messages, once (R9.79).

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::console::{Console, DataTarget};
 use super::execution::ExecutionArgs;
-use super::fail_on::{FailOn, of_axis};
+use super::fail_on::{FailOn, FailOnWord, of_axis};
 use super::failure::Failure;
 use super::html::HtmlFile;
 use super::listeners::{Listeners, SharedReport};
@@ -81,9 +81,9 @@ pub(super) struct RunArgs {
     /// Run again after each save of a program, a list or the configuration that the run reads
     #[arg(long, conflicts_with_all = ["state", "output", "html"])]
     watch: bool,
-    /// The lowest severity that gives exit status 1
-    #[arg(long, value_name = "SEVERITY", default_value = "error")]
-    fail_on: FailOn,
+    /// What gives exit status 1; a list such as `error,unknown`
+    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "error")]
+    fail_on: Vec<FailOnWord>,
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
@@ -104,7 +104,7 @@ enum TimelineColumn {
 impl RunArgs {
     fn report(&self, target: DataTarget) -> Box<dyn Report> {
         if self.quiet {
-            return Box::new(Quiet::new(target, self.fail_on));
+            return Box::new(Quiet::new(target, self.fail_on()));
         }
         let blocks = if self.changes {
             Blocks::Changed
@@ -157,6 +157,11 @@ impl RunArgs {
             );
         }
         Ok(())
+    }
+
+    /// Returns what gives exit status 1: `run` shows what a program does, and fails where the control stops.
+    fn fail_on(&self) -> FailOn {
+        FailOn::new(&self.fail_on, Severity::Error)
     }
 
     fn stop_policy(&self) -> StopPolicy {
@@ -294,11 +299,12 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let unknown = start.session.unknown();
     let unknown: BTreeSet<String> = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
-    if let Some(remark) = args.fail_on.unknown_remark(&unknown) {
+    let fail_on = args.fail_on();
+    if let Some(remark) = fail_on.unknown_remark(&unknown) {
         console.remark(&remark);
     }
-    let status = args.fail_on.status(start.session.counts());
-    let status = status.max(args.fail_on.unknown_status(&unknown));
+    let status = fail_on.status(start.session.counts());
+    let status = status.max(fail_on.unknown_status(&unknown));
     // Programs that did not run are not an all-clear, whatever the reason.
     let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
     Ok(status.max(unrun.unwrap_or_default()))

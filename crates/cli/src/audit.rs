@@ -77,7 +77,12 @@ pub(super) struct AuditArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "fix")]
     html: Option<PathBuf>,
     /// What gives exit status 1, where hazards are warnings; a list such as `error,unknown`
-    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "warning")]
+    #[arg(
+        long,
+        value_name = "SEVERITY",
+        value_delimiter = ',',
+        default_value = "warning"
+    )]
     fail_on: Vec<FailOnWord>,
     #[command(flatten)]
     severities: SeverityArgs,

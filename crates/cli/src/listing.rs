@@ -31,7 +31,12 @@ pub(super) struct ListingArgs {
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
     /// What gives exit status 1; a list such as `error,unknown`
-    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "warning")]
+    #[arg(
+        long,
+        value_name = "SEVERITY",
+        value_delimiter = ',',
+        default_value = "warning"
+    )]
     fail_on: Vec<FailOnWord>,
     /// Print only the messages that count for the exit status
     #[arg(long, short)]

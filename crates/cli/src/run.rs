@@ -82,7 +82,12 @@ pub(super) struct RunArgs {
     #[arg(long, conflicts_with_all = ["state", "output", "html"])]
     watch: bool,
     /// What gives exit status 1; a list such as `error,unknown`
-    #[arg(long, value_name = "SEVERITY", value_delimiter = ',', default_value = "error")]
+    #[arg(
+        long,
+        value_name = "SEVERITY",
+        value_delimiter = ',',
+        default_value = "error"
+    )]
     fail_on: Vec<FailOnWord>,
     #[command(flatten)]
     severities: SeverityArgs,

@@ -37,7 +37,7 @@ fn only_what_counts_is_said_where_that_is_wanted() {
     // R9.72
     let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", NOT_CONFIGURED)]);
     for command in ["check", "run"] {
-        let output = bench.call(&[command, "-q", "a.nc"]);
+        let output = bench.call(&[command, "-q", "--fail-on", "error", "a.nc"]);
         assert_eq!(output.status.code(), Some(0));
         assert_eq!(
             (output.stdout.len(), stderr(&output).len()),
@@ -71,18 +71,46 @@ fn a_state_that_is_not_known_may_fail() {
     let bench = Bench::new(&[("a.nc", program), ("b.nc", known), ("c.nc", moved)]);
     let status = |arguments: &[&str]| bench.call(arguments).status.code();
     for command in ["check", "run"] {
-        let strict = [command, "--fail-on", "unknown"];
+        let strict = [command, "--fail-on", "error,unknown"];
         let of = |rest: &[&str]| status(&[&strict[..], rest].concat());
-        assert_eq!(status(&[command, "a.nc"]), Some(0), "{command}");
+        let error = [command, "--fail-on", "error", "a.nc"];
+        assert_eq!(status(&error), Some(0), "{command}");
         assert_eq!(of(&["a.nc"]), Some(1), "{command}");
         assert_eq!(of(&["--skip", "none", "a.nc"]), Some(0), "{command}");
         assert_eq!(of(&["b.nc"]), Some(0), "{command}");
         assert_eq!(of(&["c.nc"]), Some(1), "{command}");
     }
-    let audit = |program| status(&["audit", "--fail-on", "unknown", program]);
+    let audit = |program| status(&["audit", "--fail-on", "never,unknown", program]);
     assert_eq!((audit("a.nc"), audit("b.nc")), (Some(1), Some(0)));
     let said = stderr(&bench.call(&["check", "--fail-on", "unknown", "a.nc"]));
     assert!(said.contains("`FRICT` of `X`"), "{said}");
+}
+
+#[test]
+fn a_warning_fails_the_commands_that_judge() {
+    // R18.1
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", "N10 G0 X5\nN20 M30\n")]);
+    for (arguments, status) in [
+        (&["check", "a.nc"][..], 1),
+        (&["check", "b.nc"], 0),
+        (&["check"], 1),
+        (&["check", "--fail-on", "unknown", "a.nc"], 1),
+        (&["check", "--fail-on", "error,unknown", "a.nc"], 0),
+        (&["check", "--fail-on", "never", "a.nc"], 0),
+        (&["audit"], 1),
+        (&["audit", "--fail-on", "error"], 0),
+        (&["run", "a.nc"], 0),
+        (&["run", "--fail-on", "warning", "a.nc"], 1),
+        (&["check", "--write-baseline", "known.json"], 0),
+        (&["check", "--baseline", "known.json"], 0),
+    ] {
+        assert_eq!(bench.status(arguments), Some(status), "{arguments:?}");
+    }
+    bench.write("c.nc", LEAVE_OFF);
+    assert_eq!(
+        bench.status(&["check", "--baseline", "known.json"]),
+        Some(1)
+    );
 }
 
 #[test]

@@ -131,6 +131,9 @@ fn filled(part: &str, question: Question, axis: &AskedAxis, fingerprint: &str) -
 
 const STATE: &str = "V.A.FRICT_COMP_ACTIVE.@";
 
+/// Comment on the blocks that switch an axis both on and off.
+const OPPOSITE: &str = " ; frictcomp: allow FC301 the question";
+
 const NOTHING_MOVES: &str = "nothing";
 
 /// Precondition where the state of the axis itself is examined.
@@ -163,7 +166,11 @@ fn off_and_on(between: &str) -> String {
 fn spanning(between: &'static str) -> Script {
     Script {
         parts: vec![
-            format!(">begin\n>start {STATE}\nN10 @[COMP OFF FRICT]\n>off {STATE}\nN99 M30\n"),
+            format!(
+                ">begin\n>start {STATE}\n\
+                 N10 @[COMP OFF FRICT] ; frictcomp: allow FC401 the second program reads this state\n\
+                 >off {STATE}\nN99 M30\n"
+            ),
             format!(">answer {STATE}\nN90 @[COMP ON FRICT]\nN99 M30\n"),
         ],
         between,
@@ -202,8 +209,8 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
         Question::OrderInBlock => by_itself(
             ACTIVE,
             format!(
-                ">begin\n>start {STATE}\nN10 @[COMP OFF FRICT] @[COMP ON FRICT]\n>answer {STATE}\n\
-                 N20 @[COMP ON FRICT] @[COMP OFF FRICT]\n>other {STATE}\nN90 @[COMP ON FRICT]\nN99 M30\n"
+                ">begin\n>start {STATE}\nN10 @[COMP OFF FRICT] @[COMP ON FRICT]{OPPOSITE}\n>answer {STATE}\n\
+                 N20 @[COMP ON FRICT] @[COMP OFF FRICT]{OPPOSITE}\n>other {STATE}\nN90 @[COMP ON FRICT]\nN99 M30\n"
             ),
             READ,
         ),
@@ -242,13 +249,13 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
             "skip level 2 is off",
             ">begin\nN10 #VAR\nV.S.FRICTASK : UNS32 = 0\nN20 #ENDVAR\nN25 V.S.FRICTASK = 0\n\
              ; Turn skip level 2 on now, then press start.\nN30 M00\nN40 #FLUSH WAIT\n\
-             /2 N50 V.S.FRICTASK = 1\n>answer V.S.FRICTASK\nN99 M30\n"
+             /2 N50 V.S.FRICTASK = 1 ; frictcomp: allow FC901 the question\n>answer V.S.FRICTASK\nN99 M30\n"
                 .to_owned(),
             "turn skip level 2 off again; give message.txt to frictcomp ask --read",
         ),
         Question::MachineData => by_itself(
             ACTIVE,
-            off_and_on("N20 #MACHINE DATA [AX=@ P-AXIS-00522=1]\n"),
+            off_and_on("N20 #MACHINE DATA [AX=@ P-AXIS-00522=1] ; frictcomp: allow FC314 the question\n"),
             READ,
         ),
         Question::BlockSearch => by_itself(

@@ -24,7 +24,7 @@ fn the_extension_stands_beside_that_of_isg() {
         (
             0,
             "frictcomp-nc",
-            [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"].as_slice(),
+            [".nc", ".cnc", ".cyc", ".sub", ".plc"].as_slice(),
         ),
         (1, "frictcomp-list", &[".lis"]),
     ] {
@@ -109,16 +109,11 @@ fn other_editors_start_the_same_server_for_the_same_files() {
         "{neovim}"
     );
     let documents = file("docs/editors.md");
-    for ending in ["ecy", "plc"] {
-        // R12.14
-        assert!(
-            documents.contains(&format!("{ending} = \"isg-cnc\"")),
-            "{ending}"
-        );
-    }
+    // R12.14, R18.5
+    assert!(documents.contains("plc = \"isg-cnc\"") && !documents.contains("ecy"));
     assert!(documents.contains("command = \"frictcomp\"\nargs = [\"lsp\"]"));
     let endings = file("editors/vscode/package.json");
-    for ending in ["nc", "cnc", "cyc", "ecy", "sub", "plc", "lis"] {
+    for ending in ["nc", "cnc", "cyc", "sub", "plc", "lis"] {
         assert!(documents.contains(&format!("\"{ending}\"")), "{ending}");
         assert!(endings.contains(&format!("\".{ending}\"")), "{ending}");
     }

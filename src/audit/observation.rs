@@ -58,6 +58,8 @@ pub(super) struct Observation {
     pub(super) by: Option<EndedBy>,
     /// The block of the main file that ended it.
     pub(super) end: Option<u32>,
+    /// Messages about the file as a whole: it has no block, or is no program (R18.6).
+    pub(super) about_file: Vec<Diagnostic>,
     /// Reason for a stop before the end.
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
@@ -89,6 +91,7 @@ impl Observation {
             observed: vec![Observed::default(); count],
             by: None,
             end: None,
+            about_file: Vec::new(),
             stopped: None,
             left: vec![Selected::Unknown; count],
             possible: vec![None; count],
@@ -124,7 +127,12 @@ impl Observation {
             Event::Started { compensation, .. } => self.stand(scope, compensation),
             Event::Executed(executed) => self.executed(scope, executed),
             Event::Joined(_) => {}
-            Event::Ended(ended) => self.ended(scope, ended),
+            Event::Ended(ended) => {
+                let said = ended.diagnostics.iter();
+                let said = said.filter(|said| matches!(said.code, Code::Fc103 | Code::Fc104));
+                self.about_file = said.cloned().collect();
+                self.ended(scope, ended);
+            }
         }
     }
 

@@ -12,7 +12,7 @@ use super::observation::Observation;
 use super::runs::{ProgramRuns, RunStart};
 use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet, State};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{
     Event, FoundVariables, Interpreter, Observer, Options, PossibleStates, StopPolicy, VariableUse,
     WayCondition,
@@ -131,6 +131,8 @@ pub struct ProgramAudit {
     pub axes: Vec<AxisAudit>,
     /// The end of the run that starts with every axis in its start-up state.
     pub ending: Ending,
+    /// Messages about the file as a whole: it has no block, or is no program (R18.6).
+    pub about_file: Vec<Diagnostic>,
     /// The files of other programs whose blocks it executes, by their names.
     pub called: BTreeSet<Arc<str>>,
     /// The open questions whose readings decided something in its runs (R15.3).
@@ -214,6 +216,7 @@ impl Auditor {
             file: file.to_owned(),
             axes: self.axes(&runs),
             ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
+            about_file: runs.start_up.about_file.clone(),
             called: runs.called(),
             rests_on: runs.rests_on(),
             used: runs.used(),

@@ -33,6 +33,8 @@ pub(crate) struct ConfigFile {
     pub(crate) levels: Levels,
     /// The extensions of programs in `[check]`, in lower case and without a dot.
     pub(crate) extensions: Vec<String>,
+    /// Patterns of files and folders that are no programs, in `[check]`.
+    pub(crate) exclude: Vec<String>,
     /// `[reading]` and `[confirmed]`.
     pub(crate) readings: Readings,
 }
@@ -75,7 +77,7 @@ pub(super) const LINT: Shape = Shape {
 
 pub(super) const CHECK: Shape = Shape {
     name: "[check]",
-    keys: Some(&["extensions"]),
+    keys: Some(&["extensions", "exclude"]),
 };
 
 impl ConfigFile {
@@ -92,6 +94,7 @@ impl ConfigFile {
             stable: stable(&root)?,
             levels: levels(&root)?,
             extensions: extensions(&root)?,
+            exclude: exclude(&root)?,
             readings: readings::read(&root)?,
             axes: AxisTable::read_all(&root)?,
             one_more_axis: one_more_axis(&root),
@@ -131,6 +134,15 @@ fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     };
     let given = check.strings("extensions")?;
     given.into_iter().map(extension).collect()
+}
+
+/// Reads the patterns of files and folders that are no programs (R18.5).
+fn exclude(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
+    let Some(check) = root.table("check", &CHECK)? else {
+        return Ok(Vec::new());
+    };
+    let given = check.strings("exclude")?;
+    Ok(given.into_iter().map(|given| given.value).collect())
 }
 
 /// Reads the variables of the machine that keep their values while a program runs (R14.1).

@@ -317,11 +317,18 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
     },
     table(
         &CHECK,
-        &[key(
-            "extensions",
-            Form::Texts,
-            "of programs in folders, in place of the usual ones",
-        )],
+        &[
+            key(
+                "extensions",
+                Form::Texts,
+                "of programs in folders, in place of the usual ones",
+            ),
+            key(
+                "exclude",
+                Form::Texts,
+                "files and folders that are left out, by patterns as in a `.gitignore`",
+            ),
+        ],
     ),
 ];
 

@@ -72,6 +72,8 @@ pub enum Advice {
     GiveStart(Vec<String>),
     /// Allow calls of programs in the folder of this one, or anywhere.
     AllowOutside,
+    /// Take what is hidden or ignored, too, or exclude it.
+    TakeIgnored,
     /// Allow the text of lists outside the folders of the machine and the programs to be shown.
     ShowOutside,
     /// Give the network description, which lists the data that the drives exchange.
@@ -181,6 +183,9 @@ impl fmt::Display for Advice {
             }
             Self::AllowOutside => f.write_str(
                 "add its folder to `program_dirs`, or allow calls from anywhere",
+            ),
+            Self::TakeIgnored => f.write_str(
+                "take the programs that are hidden or ignored, too, or exclude it",
             ),
             Self::ShowOutside => f.write_str("allow files outside the project to be shown"),
             Self::GiveNetwork => f.write_str(

@@ -67,6 +67,9 @@ codes! {
     PErr110641 "P-ERR-110641" Error "max_points changed after the first load";
     Fc101 "FC101" Warning "character outside ASCII";
     Fc102 "FC102" Warning "text shown in another order than it is read";
+    Fc103 "FC103" Warning "program without a block";
+    Fc104 "FC104" Error "file that is no program";
+    Fc105 "FC105" Warning "program that was not looked at";
     Fc110 "FC110" Error "configuration not understood";
     Fc120 "FC120" Info "list without `Ende`";
     Fc121 "FC121" Warning "key given twice";
@@ -190,6 +193,8 @@ impl Code {
             self,
             Self::Fc101
                 | Self::Fc102
+                | Self::Fc103
+                | Self::Fc104
                 | Self::Fc210
                 | Self::Fc323
                 | Self::Fc324

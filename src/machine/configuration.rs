@@ -25,6 +25,8 @@ pub struct Configuration {
     pub levels: Levels,
     /// The extensions of files that are programs, in lower case; empty for the usual ones.
     pub extensions: Vec<String>,
+    /// Patterns of files and folders that are left out, from the folder of the configuration.
+    pub exclude: Vec<String>,
     /// The folders that are searched for called programs, as written.
     pub program_dirs: Vec<String>,
     /// Messages on the lists.

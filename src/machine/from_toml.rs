@@ -26,6 +26,7 @@ impl Configuration {
             settings: file.variables.into_iter().map(setting).collect(),
             levels: file.levels,
             extensions: file.extensions,
+            exclude: file.exclude,
             ..Self::default()
         };
         let startup = file.machine.startup.clone();

@@ -24,9 +24,12 @@ mod grammar;
 mod hash_words;
 mod keywords;
 mod lines;
+#[cfg(feature = "unstable")]
+mod look_alike;
 mod lower;
 mod mask;
 mod names;
+mod no_program;
 mod parse;
 mod pieces;
 mod raw;
@@ -68,6 +71,8 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
+#[cfg(feature = "unstable")]
+pub use look_alike::reads_as_program;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use mask::code_of;
 #[cfg(feature = "unstable")]
@@ -75,6 +80,10 @@ pub use mask::code_of;
 pub(crate) use mask::{code_of_part, goes_on};
 #[cfg(feature = "unstable")]
 pub use names::{NameInBlock, NameRole, Named, names_in};
+#[cfg(not(feature = "unstable"))]
+pub(crate) use no_program::no_program;
+#[cfg(feature = "unstable")]
+pub use no_program::{HEAD, no_program};
 #[cfg(feature = "unstable")]
 pub use pieces::{PieceKind, code_words, kind_at};
 pub(crate) use scan::may_call_file;

@@ -26,6 +26,16 @@ pub struct Place {
 pub(crate) const MAX_WHOLE: usize = 4096;
 
 impl Place {
+    /// The start of a file, of which no text is shown.
+    pub(crate) fn head_of(file: &Arc<str>) -> Self {
+        Self {
+            file: Arc::clone(file),
+            text: "".into(),
+            first_line: 1,
+            span: Span::default(),
+        }
+    }
+
     /// A place in a block, which shows itself whole unless it is long.
     pub(crate) fn in_block(
         file: &Arc<str>,

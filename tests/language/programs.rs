@@ -438,7 +438,7 @@ fn faults_in_a_called_file_point_there() {
 
 #[test]
 fn a_file_without_a_program_of_its_own() {
-    // R2.8 R2.16
+    // R2.8 R2.16 R18.6
     let bench = Bench::new()
         .passing_branches()
         .file("lib.nc", "%L A\nX[COMP OFF FRICT]\nM17")
@@ -451,6 +451,17 @@ fn a_file_without_a_program_of_its_own() {
     );
     let said = bench.said("L empty.nc\nL notes.nc\nM30");
     assert!(!said.contains("FC320"), "{said}");
+    assert_eq!(
+        said.matches("FC103 1:1 the program has no block").count(),
+        2,
+        "{said}"
+    );
+    let bench = bench.file("settings.nc", "[machine]\nstartup = \"a.lis\"\n");
+    let said = bench.said("L settings.nc\nM30");
+    assert!(
+        said.contains("`settings.nc` is TOML, not an NC program"),
+        "{said}"
+    );
     let region = bench.run(&["$IF V.E.X\nL empty.nc\n$ENDIF\nM30"]);
     assert!(region.contains("M30 X:active"), "{region}");
     let region = bench.run(&["$IF V.E.X\nL lib.nc\n$ENDIF\nM30"]);

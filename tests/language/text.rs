@@ -207,15 +207,17 @@ fn continued_lines() {
 
 #[test]
 fn nothing_is_a_program() {
-    // R2.8
+    // R2.8 R18.6
     assert_snapshot!(run(""), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
+        FC103 1:1-1
       end 0 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
     assert_snapshot!(run("\n; only\n(comments)\n#COMMENT BEGIN\n#COMMENT END\n"), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
+        FC103 1:1-1
       end 0 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
 }

@@ -8,8 +8,8 @@ use frictcomp::Severity;
 use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Axes, Disk, ExecutedProgram, FileRegistry, HostError, Input, LoadedMachine, MachineOptions,
-    Machines, Naming, SingleRun, in_order, main_programs, processors, run_alone,
+    Axes, Disk, ExecutedProgram, FileRegistry, FoundPrograms, HostError, Input, LoadedMachine,
+    MachineOptions, Machines, Naming, SingleRun, in_order, main_programs, processors, run_alone,
 };
 use pyo3::prelude::*;
 
@@ -60,10 +60,15 @@ struct ProgramFindings<'a> {
 
 impl CheckJob {
     fn done(self, stop: &Stop) -> Result<GivenMessages, Failure> {
-        let mut machines =
-            Machines::new(self.machine, &FileRegistry::default()).on_disk(&self.programs.disk);
+        let registry = FileRegistry::default();
+        let mut machines = Machines::new(self.machine, &registry).on_disk(&self.programs.disk);
         let disk = self.programs.disk.clone();
-        let (inputs, mut errors) = self.programs.found(&mut machines);
+        let FoundPrograms {
+            inputs,
+            failures: mut errors,
+            mut left_out,
+            ..
+        } = self.programs.found(&mut machines);
         machines.look_ahead(&inputs);
         let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
         let pairs: Vec<ProgramOnMachine<'_>> =
@@ -86,6 +91,9 @@ impl CheckJob {
             stop.flow()
         });
         said.gather(all, &disk);
+        left_out.forget_read(&registry);
+        let unseen = left_out.diagnostics(&mut machines);
+        said.messages.extend(unseen.iter().map(PyMessage::of));
         match Failure::of_several(errors) {
             Some(failure) => Err(failure),
             None => Ok(said),

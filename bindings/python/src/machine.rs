@@ -9,7 +9,7 @@ use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     ConfigurationChoice, FileRegistry, Input, LoadedMachine, MachineOptions, Machines,
-    OutsidePolicy, Watcher, switched_axes,
+    OutsidePolicy, UnusedAxes, Watcher, switched_axes,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -65,6 +65,7 @@ impl PyMachine {
             configuration,
             startup,
             enable: enable.map_or_else(Vec::new, |Several(axes)| axes),
+            unused_axes: UnusedAxes::PassedOver,
             ..MachineOptions::default()
         };
         if allow_outside {

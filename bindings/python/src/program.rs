@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use frictcomp::text::shown_path;
 use frictcomp_host::decode;
-use frictcomp_host::{Disk, HostError, Input, Machines, OpenText, find_programs};
+use frictcomp_host::{Disk, FoundPrograms, Input, Machines, OpenText, find_programs};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyFrozenSet, PySet, PyString};
@@ -104,21 +104,22 @@ impl GivenPrograms {
     }
 
     /// The programs, including those of the folders, each once; and the paths that gave no program.
-    pub(crate) fn found(self, machines: &mut Machines) -> (Vec<Input>, Vec<HostError>) {
-        let (mut found, mut errors) = (Vec::new(), Vec::new());
+    pub(crate) fn found(self, machines: &mut Machines) -> FoundPrograms {
+        let mut found = FoundPrograms::default();
         for input in self.inputs {
             match input {
                 Input::File(path) => {
-                    let below = find_programs(&[path], |folder| machines.extensions(folder));
-                    found.extend(below.inputs);
-                    errors.extend(below.failures);
+                    let below = find_programs(&[path], |folder| machines.selection(folder));
+                    found.inputs.extend(below.inputs);
+                    found.failures.extend(below.failures);
+                    found.left_out.files.extend(below.left_out.files);
                 }
-                text => found.push(text),
+                text => found.inputs.push(text),
             }
         }
         let mut seen = BTreeSet::new();
-        found.retain(|input| seen.insert(input.clone()));
-        (found, errors)
+        found.inputs.retain(|input| seen.insert(input.clone()));
+        found
     }
 
     /// Names a program that cannot be run, before any of them is.

@@ -155,3 +155,10 @@ def test_messages_that_are_left_out_are_counted() -> None:
     assert listed + messages.left_out["error"] == messages.errors
     timeline = frictcomp.run(text, machine=machine, keep_going=True)
     assert timeline.messages.errors == 20_000
+
+
+def test_axes_that_no_program_has_are_no_error() -> None:
+    text = frictcomp.Text("N10 X[COMP OFF FRICT]\nN20 M30\n")
+    machine = frictcomp.Machine(isolated=True, enable=["X", "Y", "Q"])
+    assert list(frictcomp.run(text, machine=machine).programs[0].start) == ["X"]
+    frictcomp.run(text, machine=frictcomp.Machine(isolated=True, enable=["Z"]))

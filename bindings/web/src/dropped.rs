@@ -72,7 +72,7 @@ impl Dropped {
             let kind = match file.kind {
                 Kind::Other => {
                     let folder = path.parent().unwrap_or(path);
-                    match machines.extensions(folder) {
+                    match machines.selection(folder).extensions {
                         Some(extensions) if is_program(path, Some(&extensions)) => Kind::Program,
                         _ => Kind::Other,
                     }

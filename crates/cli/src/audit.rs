@@ -13,6 +13,7 @@ use super::exit;
 use super::fail_on::{FailOn, FailOnWord, of_axis};
 use super::failure::{Failure, shown};
 use super::failures::Failures;
+use super::folders::{FolderArgs, say_left_out};
 use super::html::Files;
 use super::machine::{MachineArgs, undescribed_remark};
 use super::mend::differences;
@@ -22,8 +23,8 @@ use super::settings;
 use super::severities::SeverityArgs;
 use frictcomp::audit::{Archive, MendedEnd, Selected, WhyMissed};
 use frictcomp::comp::{Kind, KindSet};
-use frictcomp::diagnostic::Severity;
-use frictcomp::session::StopPolicy;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::session::{Causes, StopPolicy};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::SCHEMA;
 use frictcomp_host::{
@@ -87,6 +88,8 @@ pub(super) struct AuditArgs {
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
+    folders: FolderArgs,
+    #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
@@ -142,8 +145,9 @@ impl AuditArgs {
         let mut outputs = Outputs::new(&registry, console);
         let mut target = outputs.result(self.output.as_deref())?;
         let mut html = outputs.optional("--html", self.html.as_deref())?;
-        let mut machines = self.machine.weighed(&self.severities, &registry)?;
-        let found = find_programs(&self.paths, |folder| machines.extensions(folder));
+        let machines = self.machine.weighed(&self.severities, &registry)?;
+        let mut machines = machines.selecting(self.folders.options());
+        let mut found = find_programs(&self.paths, |folder| machines.selection(folder));
         if found.inputs.contains(&Input::Stdin) {
             return Err(Failure::new(
                 "standard input can be read only once, and an audit runs each program twice",
@@ -188,10 +192,18 @@ impl AuditArgs {
             return Ok(exit::CLEAN);
         }
         outputs.finish()?;
-        self.machine.say_unread(&registry, console);
+        self.machine.say_unread(&machines, &registry, console);
         let errors = say_lists(&auditor, console);
         let unknown = self.unknown_status(report.unknown(), console);
-        let status = self.status(report.has_warnings(), errors);
+        let mut unseen = about_files(&auditor, &report);
+        say_left_out(&mut found.left_out, &registry, console);
+        unseen.extend(found.left_out.diagnostics(&mut machines));
+        console.show(&unseen);
+        let mut counts = self.counts(report.has_warnings(), errors);
+        for said in &unseen {
+            *counts.entry(said.severity).or_default() += 1;
+        }
+        let status = FailOn::judging(&self.fail_on).status(&counts);
         Ok(status.max(unknown))
     }
 
@@ -229,10 +241,14 @@ impl AuditArgs {
     }
 
     fn status(&self, warnings: bool, errors: bool) -> u8 {
-        let mut counts = BTreeMap::new();
-        counts.insert(Severity::Warning, u64::from(warnings));
-        counts.insert(Severity::Error, u64::from(errors));
-        FailOn::judging(&self.fail_on).status(&counts)
+        FailOn::judging(&self.fail_on).status(&self.counts(warnings, errors))
+    }
+
+    fn counts(&self, warnings: bool, errors: bool) -> BTreeMap<Severity, u64> {
+        let counts = [(Severity::Warning, warnings), (Severity::Error, errors)];
+        counts
+            .map(|(severity, any)| (severity, u64::from(any)))
+            .into()
     }
 
     /// Follows the programs in a given order.
@@ -263,7 +279,7 @@ impl AuditArgs {
             AuditFormat::Text | AuditFormat::Csv => fitted(&sequence_text(&steps), width),
         })?;
         outputs.finish()?;
-        self.machine.say_unread(&registry, console);
+        self.machine.say_unread(&machines, &registry, console);
         let is_cut = steps.iter().any(|step| step.stopped.is_some());
         let errors = say_lists(&auditor, console) || is_cut;
         let mut axes = steps.iter().flat_map(|step| &step.axes);
@@ -295,6 +311,22 @@ fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
     AuditReport {
         machines: machines.collect(),
     }
+}
+
+/// Returns the messages about programs without a block, and files that are no programs (R18.6).
+fn about_files(auditor: &ArchiveAuditor, report: &AuditReport) -> Vec<Diagnostic> {
+    let mut causes = Causes::default();
+    for (loaded, machine) in auditor.machines().iter().zip(&report.machines) {
+        let programs = machine.archive.programs().iter();
+        for said in programs.flat_map(|program| &program.about_file) {
+            if let Some(severity) = loaded.levels.severity(said.code) {
+                let mut said = said.clone();
+                said.severity = severity;
+                causes.say(said);
+            }
+        }
+    }
+    causes.diagnostics().to_vec()
 }
 
 /// Reports before everything else that no machine is described (R1.37).

@@ -16,20 +16,21 @@ use super::execution::ExecutionArgs;
 use super::fail_on::of_axis;
 use super::failure::Failure;
 use super::failures::Failures;
+use super::folders::{FolderArgs, say_left_out};
 use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{FixArgs, MendRun};
 use super::notes::{self, NotedName};
 use super::outputs::Outputs;
 use super::watch::FileWatch;
-use frictcomp::diagnostic::Severity;
+use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::session::{Causes, Findings, NoteKind, Notes};
 use frictcomp::text::shown_path;
 use frictcomp::timeline::{ReadingsInForce, Record, Sink};
 use frictcomp_host::{
     Axes, ChangedFile, ChangedPrograms, Disk, ExecutedProgram, FileRegistry, HostError, Input,
-    LoadedMachine, Naming, Revision, SingleRun, find_programs, in_order, is_source, main_programs,
-    processors, run_alone,
+    LoadedMachine, Machines, Naming, Revision, SingleRun, find_programs, in_order, is_source,
+    main_programs, processors, run_alone,
 };
 use frictcomp_report::assumptions::rests_on_text;
 use frictcomp_report::{ListingFormat, command_line, wrap};
@@ -71,6 +72,8 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     listing: ListingArgs,
     #[command(flatten)]
+    folders: FolderArgs,
+    #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
@@ -95,8 +98,8 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     files.watch(args.paths.iter().map(PathBuf::as_path))?;
     let mut saved: Option<Vec<ChangedFile>> = None;
     loop {
-        let mut machines = args.machine.machines(&FileRegistry::default());
-        let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+        let mut machines = args.machines(&FileRegistry::default())?;
+        let found = find_programs(&args.paths, |folder| machines.selection(folder));
         for input in &found.inputs {
             // A machine that cannot be used is reported by the check.
             let _ = machines.for_folder(input.folder());
@@ -109,8 +112,8 @@ fn watch(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
             console.explain(&failure);
         }
         files.say();
-        let extensions = machines.extensions(args.paths.first().map_or(Path::new(""), |it| it));
-        saved = Some(files.next(|path| is_source(path, extensions.as_deref()))?);
+        let selection = machines.selection(args.paths.first().map_or(Path::new(""), |it| it));
+        saved = Some(files.next(|path| is_source(path, selection.extensions.as_deref()))?);
     }
 }
 
@@ -120,9 +123,9 @@ fn check(
     (saved, failures): (Option<Vec<ChangedFile>>, &mut Failures),
 ) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    let mut machines = args.machine.weighed(&args.listing.severities, &registry)?;
+    let mut machines = args.machines(&registry)?;
     let Since { paths, revision } = args.since()?;
-    let found = find_programs(&paths, |folder| machines.extensions(folder));
+    let mut found = find_programs(&paths, |folder| machines.selection(folder));
     failures.extend(Failures::from(found.failures));
     let mut inputs = found.inputs;
     if let Some((name, revision)) = &revision {
@@ -181,6 +184,13 @@ fn check(
     let mut baseline = args.baseline.open(&registry, &mut outputs)?;
     outputs.check()?;
     let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
+    found.left_out.forget_read(&registry);
+    for mut said in found.left_out.diagnostics(&mut machines) {
+        said.reword(Some(command_line));
+        if list((&mut listing, &mut baseline), &said).is_break() {
+            break;
+        }
+    }
     let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
     let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
     if let Some(record) = baseline.finish(console, is_checked)? {
@@ -194,18 +204,19 @@ fn check(
     for remark in machines.loaded().filter_map(remark) {
         console.remark(&remark);
     }
-    args.machine.say_unread(&registry, console);
+    args.machine.say_unread(&machines, &registry, console);
     if args.listing.format == ListingFormat::Text
         && listing.tally().files > 0
         && !args.baseline.is_written()
     {
-        let beside = in_callers_remark(in_callers) + &passed_over(found.passed_over);
+        let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
         console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
         if let Some(said) = rests_on_text(&listing.tally().rests_on) {
             console.remark(&said);
         }
     }
+    say_left_out(&mut found.left_out, &registry, console);
     if let Some(remark) = listing.unknown_remark() {
         console.remark(&remark);
     }
@@ -253,6 +264,11 @@ struct Since {
 }
 
 impl CheckArgs {
+    fn machines(&self, registry: &FileRegistry) -> Result<Machines, Failure> {
+        let machines = self.machine.weighed(&self.listing.severities, registry)?;
+        Ok(machines.selecting(self.folders.options()))
+    }
+
     /// Returns the paths, and the revision with its name where only changed programs are checked. A word after
     /// `--changed` that is not a revision may be the first path.
     fn since(&self) -> Result<Since, Failure> {
@@ -369,12 +385,7 @@ impl CheckArgs {
         }
         // Only now is it known which programs reach a message.
         let mut said = causes.diagnostics().iter();
-        let _ = said.try_for_each(|said| {
-            if baseline.lists(said) {
-                listing.diagnostic(said)?;
-            }
-            ControlFlow::Continue(())
-        });
+        let _ = said.try_for_each(|said| list((listing, baseline), said));
         mains.iter().filter(|is_main| !**is_main).count()
     }
 
@@ -418,6 +429,17 @@ impl CheckArgs {
         });
         main_programs(&executed.collect::<Vec<_>>(), &Disk::default())
     }
+}
+
+/// Lists a message that is not in the baseline.
+fn list(
+    (listing, baseline): (&mut Lister<'_>, &mut Baseline),
+    said: &Diagnostic,
+) -> ControlFlow<()> {
+    if baseline.lists(said) {
+        listing.diagnostic(said)?;
+    }
+    ControlFlow::Continue(())
 }
 
 /// Returns the remark on programs that were checked only in their callers.

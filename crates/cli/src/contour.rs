@@ -137,7 +137,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
         .iter()
         .chain(&exceeded)
         .for_each(|line| Console::talk(line));
-    args.machine.say_unread(&registry, console);
+    args.machine.say_unread(&machines, &registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed || !exceeded.is_empty() {
         exit::FOUND

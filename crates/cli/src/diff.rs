@@ -8,6 +8,7 @@ use super::console::{Console, Printed};
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
+use super::folders::FolderArgs;
 use super::machine::{MachineArgs, undescribed_remark};
 use super::outputs::Outputs;
 use super::painted::difference;
@@ -64,6 +65,8 @@ pub(super) struct DiffArgs {
     /// Also write an HTML report with the changes of both versions to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) folders: FolderArgs,
     #[command(flatten)]
     pub(super) machine: MachineArgs,
     #[command(flatten)]
@@ -142,6 +145,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         render_versions(&report, &mut html).map_err(Failure::output)?;
     }
     outputs.finish()?;
+    args.machine.say_unread(&machines, &registry, console);
     let contours = report.contours.as_ref().map(|it| it.comparison.agreement());
     Ok(match (report.comparison.agreement(), contours) {
         _ if printed == Printed::Unread && !written => exit::CLEAN,

@@ -10,6 +10,7 @@ use super::diff::{DiffArgs, contours, version_of};
 use super::exit;
 use super::failure::{Failure, shown};
 use super::failures::Failures;
+use super::folders::say_left_out;
 use super::machine::undescribed_remark;
 use super::outputs::Outputs;
 use super::painted::difference;
@@ -45,14 +46,15 @@ fn compare(
     (console, failures): (Console, &mut Failures),
 ) -> Result<u8, Failure> {
     let registry = FileRegistry::default();
-    let mut machines = args.machine.machines(&registry);
+    let machines = args.machine.machines(&registry);
+    let mut machines = machines.selecting(args.folders.options());
     let here = PathBuf::from(".");
     let paths = if args.paths.is_empty() {
         std::slice::from_ref(&here)
     } else {
         &args.paths
     };
-    let found = find_programs(paths, |folder| machines.extensions(folder));
+    let mut found = find_programs(paths, |folder| machines.selection(folder));
     let revised = Revision::new(folder_of(&paths[0]), revision)?;
     let changed = ChangedPrograms::since(&revised, &found.inputs, &mut machines, processors());
     let changed = failures.keep(changed?);
@@ -113,6 +115,8 @@ fn compare(
         1 => format!("1 program compared with `{revision}`: {same} switches the same"),
         _ => format!("{count} programs compared with `{revision}`: {same} switch the same"),
     });
+    args.machine.say_unread(&machines, &registry, console);
+    say_left_out(&mut found.left_out, &registry, console);
     Ok(if same == count || printed == Printed::Unread {
         exit::CLEAN
     } else {

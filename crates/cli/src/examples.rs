@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 34] = [
+static EXAMPLES: [Examples; 36] = [
     examples(
         &["run"],
         [
@@ -55,6 +55,8 @@ static EXAMPLES: [Examples; 34] = [
             "frictcomp diff --kinds all mill-old.nc mill.nc",
         ],
     ),
+    examples(&["show"], FILES),
+    examples(&["show", "files"], FILES),
     examples(
         &["lists"],
         [
@@ -218,6 +220,12 @@ static EXAMPLES: [Examples; 34] = [
 const COMMISSION: [&str; 2] = [
     "frictcomp commission plan --axis X,Y --travel X0..300,Y0..200 --feeds 500,1000,2000,5000 -o m",
     "frictcomp commission plan --axis X --travel X0..300 --feeds 500,1000,2000,5000 -o x",
+];
+
+/// The files of a folder.
+const FILES: [&str; 2] = [
+    "frictcomp show files programs",
+    "frictcomp show files --exclude old --format json programs",
 ];
 
 /// Examples of the tool itself.

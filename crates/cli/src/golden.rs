@@ -10,6 +10,7 @@ use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::{Failure, shown};
 use super::failures::Failures;
+use super::folders::{FolderArgs, say_left_out};
 use super::listing::passed_over;
 use super::machine::MachineArgs;
 use super::painted::difference;
@@ -19,7 +20,8 @@ use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     Axes, FileRegistry, GoldenDrift, GoldenFile, GoldenKind, GoldenResults, HostError, Input,
-    LoadedMachine, Machines, Naming, SingleRun, drive_contour, find_programs, run_alone,
+    LeftOutFiles, LoadedMachine, Machines, Naming, SingleRun, drive_contour, find_programs,
+    run_alone,
 };
 use frictcomp_physics::contour::BlockDeviations;
 use frictcomp_report::contour::{AgreedContour, GoldenContour, agreed_contour};
@@ -57,6 +59,8 @@ pub(super) struct GoldenArgs {
     #[command(flatten)]
     severities: SeverityArgs,
     #[command(flatten)]
+    folders: FolderArgs,
+    #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
@@ -69,8 +73,8 @@ struct GoldenRun<'a> {
     registry: FileRegistry,
     agreed: GoldenResults,
     files: Vec<GoldenFile>,
-    /// Remark on files that are not programs.
-    passed_over: String,
+    /// The files that are not taken as programs.
+    left_out: LeftOutFiles,
 }
 
 /// Runs the command.
@@ -85,8 +89,9 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
         args.simulation.refuse_without_contour()?;
     }
     let registry = FileRegistry::default();
-    let mut machines = args.machine.weighed(&args.severities, &registry)?;
-    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+    let machines = args.machine.weighed(&args.severities, &registry)?;
+    let mut machines = machines.selecting(args.folders.options());
+    let found = find_programs(&args.paths, |folder| machines.selection(folder));
     failures.extend(Failures::from(found.failures));
     let agreed = GoldenResults::of(args.kind(), &args.paths);
     let mut files = Vec::new();
@@ -105,7 +110,7 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
         registry,
         agreed,
         files,
-        passed_over: passed_over(found.passed_over),
+        left_out: found.left_out,
     };
     if args.update {
         bench.update(console, failures)
@@ -115,6 +120,14 @@ fn golden(args: &GoldenArgs, console: Console, failures: &mut Failures) -> Resul
 }
 
 impl GoldenRun<'_> {
+    /// Reports the programs that were not looked at, and options that name nothing.
+    fn say_beside(&mut self, console: Console) {
+        say_left_out(&mut self.left_out, &self.registry, console);
+        console.show(&self.left_out.diagnostics(&mut self.machines));
+        let machine = &self.args.machine;
+        machine.say_unread(&self.machines, &self.registry, console);
+    }
+
     fn compare(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();
@@ -144,6 +157,7 @@ impl GoldenRun<'_> {
         if let Printed::Unread = console.print_painted(&output, difference)? {
             return Ok(exit::CLEAN);
         }
+        self.say_beside(console);
         let all = self.args.counted(self.files.len());
         if drifted + missing > 0 {
             let counts = [(drifted, "drifted"), (missing, "missing")];
@@ -154,7 +168,10 @@ impl GoldenRun<'_> {
             return Ok(exit::FOUND);
         }
         if failures.is_empty() {
-            console.remark(&format!("{all} as agreed{}", self.passed_over));
+            console.remark(&format!(
+                "{all} as agreed{}",
+                passed_over(self.left_out.others())
+            ));
         }
         Ok(exit::CLEAN)
     }
@@ -183,8 +200,12 @@ impl GoldenRun<'_> {
             });
             written += updated.written.len();
         }
-        let all = self.args.counted(self.files.len());
-        console.remark(&format!("{written} of {all} written{}", self.passed_over));
+        self.say_beside(console);
+        let (all, beside) = (
+            self.args.counted(self.files.len()),
+            passed_over(self.left_out.others()),
+        );
+        console.remark(&format!("{written} of {all} written{beside}"));
         Ok(exit::CLEAN)
     }
 }

@@ -11,6 +11,7 @@ use super::console::{Console, Printed};
 use super::exit;
 use super::failure::Failure;
 use super::failures::Failures;
+use super::folders::{FolderArgs, say_left_out};
 use super::machine::MachineArgs;
 use super::outputs::Outputs;
 use super::painted::parts;
@@ -35,6 +36,8 @@ pub(super) struct GraphArgs {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     result: ResultArgs<GraphFormat>,
+    #[command(flatten)]
+    folders: FolderArgs,
     #[command(flatten)]
     machine: MachineArgs,
 }
@@ -62,8 +65,9 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
         return Err(failure.with_help("name programs or folders"));
     }
     let registry = FileRegistry::default();
-    let mut machines = args.machine.machines(&registry);
-    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+    let machines = args.machine.machines(&registry);
+    let mut machines = machines.selecting(args.folders.options());
+    let mut found = find_programs(&args.paths, |folder| machines.selection(folder));
     failures.extend(Failures::from(found.failures));
     for input in &found.inputs {
         input.note(&registry);
@@ -87,6 +91,7 @@ fn graph(args: &GraphArgs, console: Console, failures: &mut Failures) -> Result<
         outputs.finish()?;
     }
     console.remark(&shown.total());
+    say_left_out(&mut found.left_out, &registry, console);
     Ok(exit::CLEAN)
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::folders::FolderArgs;
 use frictcomp::machine::Outline;
 use frictcomp::text::shown_path;
 use frictcomp_host::{CONFIG_NAME, HostError, outline_of, write_new};
@@ -24,6 +25,8 @@ pub(super) struct InitArgs {
     /// The start-up list of the machine, such as `hochlauf.lis`
     #[arg(long, value_name = "LIST")]
     startup: Option<PathBuf>,
+    #[command(flatten)]
+    folders: FolderArgs,
 }
 
 /// Runs the command.
@@ -32,7 +35,11 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
     if target.symlink_metadata().is_ok() {
         return Err(HostError::AlreadyThere(target).into());
     }
-    let outline = outline_of(&args.folder, args.startup.as_deref())?;
+    let outline = outline_of(
+        &args.folder,
+        args.startup.as_deref(),
+        &args.folders.options(),
+    )?;
     write_new(&target, &render_configuration(&outline))?;
     Console::talk(&format!(
         "wrote `{}`: {}",

@@ -34,6 +34,7 @@ mod explain;
 mod fail_on;
 mod failure;
 mod failures;
+mod folders;
 mod golden;
 mod graph;
 mod html;
@@ -59,6 +60,7 @@ mod result;
 mod run;
 mod settings;
 mod severities;
+mod show;
 mod simulated;
 mod sole_file;
 mod start;
@@ -115,6 +117,8 @@ enum Command {
     Golden(golden::GoldenArgs),
     Graph(graph::GraphArgs),
     Diff(diff::DiffArgs),
+    #[command(subcommand)]
+    Show(show::ShowCommand),
     Lists(lists::ListsArgs),
     Drive(drive::DriveArgs),
     Current(current::CurrentArgs),
@@ -251,6 +255,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
             Some(revision) => diff_git::run(args, revision, console),
             None => diff::run(args, console),
         },
+        Command::Show(command) => show::run(command, console),
         Command::Lists(args) => lists::run(args, console),
         Command::Drive(args) => drive::run(args, console),
         Command::Current(args) => current::run(args, console),

@@ -302,7 +302,7 @@ fn cost_record(axis: &str, of: &Uncompensated) -> Value {
 }
 
 /// Returns the remark on files that are not programs.
-pub(super) fn passed_over(files: u64) -> String {
+pub(super) fn passed_over(files: usize) -> String {
     match files {
         0 => String::new(),
         1 => "; 1 other file passed over".to_owned(),

@@ -74,6 +74,7 @@ impl MachineArgs {
             outside_policy: outside_policy(self.allow_outside),
             settings: given.collect(),
             codes,
+            ..MachineOptions::default()
         };
         let machines = Machines::new(options, registry);
         match Terminal::watched() {
@@ -82,14 +83,26 @@ impl MachineArgs {
         }
     }
 
-    /// Reports which `--set` names nothing in the programs that were read (R9.74).
-    pub(super) fn say_unread(&self, registry: &FileRegistry, console: Console) {
+    /// Reports which `--set` and `--enable` name nothing in the programs that were read (R9.74).
+    pub(super) fn say_unread(
+        &self,
+        machines: &Machines,
+        registry: &FileRegistry,
+        console: Console,
+    ) {
+        let meant = |near: Option<String>| {
+            near.map_or(String::new(), |it| format!(", did you mean `{it}`?"))
+        };
         let names = self.settings.iter().map(|set| set.name.as_str());
         for variable in unread_variables(names, registry) {
-            let near = variable.near;
-            let meant = near.map_or(String::new(), |near| format!(", did you mean `{near}`?"));
-            let name = variable.name;
-            console.remark(&format!("`--set {name}`: no program reads it{meant}"));
+            let (name, near) = (variable.name, meant(variable.near));
+            console.remark(&format!("`--set {name}`: no program reads it{near}"));
+        }
+        for axis in machines.unused_axes() {
+            let (name, near) = (axis.name, meant(axis.near));
+            console.remark(&format!(
+                "`--enable {name}`: no program has this axis{near}"
+            ));
         }
     }
 }

@@ -298,7 +298,7 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
-    args.machine.say_unread(&registry, console);
+    args.machine.say_unread(&machines, &registry, console);
     if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }

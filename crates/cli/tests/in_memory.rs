@@ -13,8 +13,8 @@ use std::sync::Arc;
 use frictcomp::session::{Limits, Options, SessionOptions};
 use frictcomp_host::decode;
 use frictcomp_host::{
-    Axes, Disk, FileRegistry, HostError, Input, MachineOptions, Machines, Naming, OpenText,
-    SingleRun, find_programs, run_alone,
+    Axes, Disk, FileRegistry, FolderSelection, HostError, Input, MachineOptions, Machines, Naming,
+    OpenText, SingleRun, find_programs, run_alone,
 };
 use frictcomp_report::{TimelineFormat, TimelineOptions, command_line};
 use workspace::root;
@@ -86,7 +86,7 @@ fn programs_in_memory_run_as_on_the_disk() {
     let texts = texts("programs");
     let disk = Disk::in_memory(texts.iter().cloned());
     let folder = [root().join("programs")];
-    let found = find_programs(&folder, |_| None).inputs;
+    let found = find_programs(&folder, |_| FolderSelection::default()).inputs;
     assert!(found.len() > 150, "{}", found.len());
     for input in found {
         let name = input.name(Naming::AsGiven);

@@ -1,6 +1,8 @@
 //! The options of the commands: their effect, and refused values.
 
 mod folder;
+#[path = "options/folders.rs"]
+mod folders;
 #[path = "options/help.rs"]
 mod help;
 mod workspace;
@@ -368,7 +370,7 @@ fn only_axes_that_occur_are_enabled() {
     let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert!(refused(&configured, &["run", "--enable", "W", "a.nc"]).contains("no axis `W`"));
     // No word means all axes, whatever the programs call.
-    for all in ["all", "ALL", "X,all"] {
+    for all in ["all", "ALL", "all,x"] {
         for program in ["a.nc", "call.nc"] {
             let said = refused(&bench, &["check", "--enable", all, program]);
             assert!(said.contains("no program names an axis `"), "{said}");

@@ -39,58 +39,80 @@ impl AxesOfPrograms {
     }
 
     /// Whether any program may have an axis.
-    fn may_hold(&self, name: &str) -> bool {
+    pub(super) fn may_hold(&self, name: &str) -> bool {
         self.ahead.may_hold(name) || self.described.iter().any(|known| known == name)
+    }
+
+    /// Returns an axis that no program has, with those that they have.
+    pub(super) fn unknown(&self, name: &str) -> UnknownName {
+        let described = self.described.iter().map(String::as_str);
+        let named: Vec<&'static str> = self.ahead.names().collect();
+        let known: Vec<&str> = named.into_iter().chain(described).collect();
+        UnknownName::new(name, known.iter().copied())
     }
 }
 
+/// Treatment of axes that are to be assumed where no program has any of them (R9.74).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum UnusedAxes {
+    /// A mistake in writing.
+    #[default]
+    Refused,
+    /// They have no effect.
+    PassedOver,
+}
+
 /// Assumes friction compensation on the axes that the user names, and returns those that the machine
-/// has. An axis that only other programs have does not belong to this machine.
+/// has. An axis that only other programs have does not belong to this machine; one that none has is passed over if
+/// another is used.
 ///
 /// # Errors
-/// A name that no axis can have, or that no program has.
+/// A name that no axis can have, or no name that a program has.
 pub(super) fn assume_axes<'a>(
-    names: &'a [String],
+    (names, unused): (&'a [String], UnusedAxes),
     (machine, reports): (&mut Machine, &mut [AxisReport]),
     programs: Option<&AxesOfPrograms>,
 ) -> Result<Vec<&'a str>, HostError> {
-    let mut assumed = Vec::new();
+    let (mut assumed, mut refused, mut is_elsewhere) = (Vec::new(), None, false);
     for name in names.iter().map(|name| name.trim()) {
         check_name(name)?;
+        let may_be_elsewhere = programs.is_some_and(|programs| programs.may_hold(name));
+        is_elsewhere |= may_be_elsewhere;
         let is_described = machine.axis_set != AxisSet::AsTheyOccur;
-        if !is_described {
-            check_occurs(name, programs)?;
-        }
-        let is_elsewhere = programs.is_some_and(|programs| programs.may_hold(name));
         let is_here = machine.axes.iter().any(|axis| axis.name == name);
-        if is_described && !is_here && is_elsewhere {
+        if is_described && !is_here && may_be_elsewhere {
             continue;
         }
-        enable(machine, name)?;
-        assume(reports, machine, name);
-        assumed.push(name);
+        let occurs = match is_described {
+            true => Ok(()),
+            false => check_occurs(name, programs),
+        };
+        match occurs.and_then(|()| enable(machine, name)) {
+            Ok(()) => {
+                assume(reports, machine, name);
+                assumed.push(name);
+            }
+            Err(error) => refused = refused.or(Some(error)),
+        }
     }
-    Ok(assumed)
+    match refused {
+        Some(error) if assumed.is_empty() && !is_elsewhere && unused == UnusedAxes::Refused => {
+            Err(error)
+        }
+        _ => Ok(assumed),
+    }
 }
 
 /// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
 /// pipes may name axes that cannot be known in advance.
 fn check_occurs(name: &str, programs: Option<&AxesOfPrograms>) -> Result<(), HostError> {
-    let may_occur = match programs {
-        Some(programs) if programs.may_hold(name) => true,
-        Some(programs) => {
-            let described = programs.described.iter().map(String::as_str);
-            let named: Vec<&'static str> = programs.ahead.names().collect();
-            let known: Vec<&str> = named.into_iter().chain(described).collect();
-            let unknown = UnknownName::new(name, known.iter().copied());
-            return Err(HostError::AxisNotNamed(unknown));
+    match programs {
+        Some(programs) if !programs.may_hold(name) => {
+            Err(HostError::AxisNotNamed(programs.unknown(name)))
         }
-        None => may_be_axis(name),
-    };
-    if may_occur {
-        Ok(())
-    } else {
-        Err(HostError::AxisName(name.to_owned()))
+        None if !may_be_axis(name) => Err(HostError::AxisName(name.to_owned())),
+        _ => Ok(()),
     }
 }
 

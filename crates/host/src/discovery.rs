@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::allowed_roots::{AllowedRoots, OutsidePolicy};
-use super::assumed::{AxesOfPrograms, assume_axes};
+use super::assumed::{AxesOfPrograms, UnusedAxes, assume_axes};
 use super::disk::Disk;
 use super::error::HostError;
 use super::file_kind::CONFIG_NAME;
@@ -14,8 +14,9 @@ use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
 use super::paths::relative;
 use super::registry::FileRegistry;
+use super::selection::{FolderOptions, FolderSelection};
 use super::watch::{Watch, Watcher};
-use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity};
+use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
 use frictcomp::lists::Parameter;
 use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
 use frictcomp::text::shown_path;
@@ -43,12 +44,16 @@ pub struct MachineOptions {
     pub startup: Option<PathBuf>,
     /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
     pub enable: Vec<String>,
+    /// Treatment of such axes that no program has.
+    pub unused_axes: UnusedAxes,
     /// Treatment of programs and lists outside the folders.
     pub outside_policy: OutsidePolicy,
     /// Values of variables that only the machine has.
     pub settings: Vec<(String, Setting)>,
     /// Codes that count.
     pub codes: CodeFilter,
+    /// Selection of the files of folders.
+    pub folders: FolderOptions,
 }
 
 /// A machine with the rest of its configuration.
@@ -75,6 +80,8 @@ pub struct LoadedMachine {
     pub lists: (usize, usize),
     /// The extensions of program files.
     pub extensions: Option<Vec<String>>,
+    /// Patterns of files and folders that are not taken, from the folder of the configuration.
+    pub exclude: Vec<String>,
     /// Registry of the files of a run on this machine.
     pub registry: FileRegistry,
     /// The disk that runs on this machine read from.
@@ -112,6 +119,7 @@ impl LoadedMachine {
                 given if given.is_empty() => None,
                 given => Some(given),
             },
+            exclude: configuration.exclude,
             registry: registry.clone(),
             disk: Disk::default(),
             watch: Arc::default(),
@@ -173,6 +181,12 @@ impl Machines {
         self
     }
 
+    /// Sets the selection of the files of folders.
+    pub fn selecting(mut self, folders: FolderOptions) -> Self {
+        self.options.folders = folders;
+        self
+    }
+
     /// Sets a disk other than the system's.
     pub fn on_disk(self, disk: &Disk) -> Self {
         let disk = disk.clone();
@@ -191,7 +205,8 @@ impl Machines {
         let mut loaded = self.plain(config.as_deref())?.clone();
         let options = &self.options;
         let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
-        let assumed = assume_axes(&options.enable, onto, self.ahead.as_ref())?;
+        let names = (options.enable.as_slice(), options.unused_axes);
+        let assumed = assume_axes(names, onto, self.ahead.as_ref())?;
         // What is assumed need not be reported as missing.
         loaded.diagnostics.retain(|said| {
             let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
@@ -283,6 +298,16 @@ impl Machines {
         self.loaded.clear();
     }
 
+    /// Returns the axes to be assumed that no program has (R9.74); empty before the programs are known.
+    pub fn unused_axes(&self) -> Vec<UnknownName> {
+        let Some(ahead) = &self.ahead else {
+            return Vec::new();
+        };
+        let names = self.options.enable.iter().map(|name| name.trim());
+        let unused = names.filter(|name| !ahead.may_hold(name));
+        unused.map(|name| ahead.unknown(name)).collect()
+    }
+
     /// Allows for programs of other runs, which name the usual axes and those that an earlier run left.
     pub fn expect_more(&mut self, left: Vec<String>) {
         if let Some(ahead) = &mut self.ahead {
@@ -290,10 +315,23 @@ impl Machines {
         }
     }
 
-    /// Returns the extensions of programs below a folder, where its configuration names them.
-    pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
+    /// Returns the selection of the programs below a folder.
+    pub fn selection(&mut self, folder: &Path) -> FolderSelection {
+        let options = self.options.folders.clone();
         let config = self.configuration(folder);
-        self.plain(config.as_deref()).ok()?.extensions.clone()
+        // A configuration that cannot be used is reported where a program needs it.
+        let Ok(loaded) = self.plain(config.as_deref()) else {
+            return FolderSelection {
+                options,
+                ..FolderSelection::default()
+            };
+        };
+        let home = loaded.search_path.project.clone();
+        FolderSelection {
+            extensions: loaded.extensions.clone(),
+            options,
+            configured: (home, loaded.exclude.clone()),
+        }
     }
 
     /// Reads the configuration and applies the options that differ from it.

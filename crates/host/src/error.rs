@@ -64,6 +64,14 @@ pub enum HostError {
     /// A folder where a program is expected.
     #[error("`{}` is a folder, not a program", shown_path(.0))]
     FolderAsProgram(PathBuf),
+    /// A picture, settings, an archive where a program is expected.
+    #[error("`{}` is {what}, not an NC program", shown_path(.path))]
+    NoProgram {
+        /// The file as it was named.
+        path: PathBuf,
+        /// What it is, in words.
+        what: &'static str,
+    },
     /// A folder where a list is expected.
     #[error("`{}` is a folder, not a list", shown_path(.0))]
     FolderAsList(PathBuf),
@@ -75,6 +83,9 @@ pub enum HostError {
         /// Reason given by the system.
         reason: String,
     },
+    /// A pattern of files that is malformed.
+    #[error("`{0}` is not a pattern of files")]
+    Pattern(String),
     /// A folder without programs.
     #[error("there is no program below `{}`", shown_path(.folder))]
     NoPrograms {
@@ -275,6 +286,10 @@ impl HostError {
                  `git fetch --unshallow`"
             }
             Self::FolderAsList(_) => "name the file in it",
+            Self::NoProgram { .. } => "name the program itself",
+            Self::Pattern(_) => {
+                "write it as in a `.gitignore`: `old`, `*.bak.nc`, `archive/**/*.nc`"
+            }
             Self::NoFolder(_) => "name the folder of the programs",
             Self::LeadsOut(_) => "put the file itself there, or name its folder",
             Self::NoPrograms { extensions, .. } => {

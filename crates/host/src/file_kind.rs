@@ -6,8 +6,25 @@ use std::path::Path;
 pub const CONFIG_NAME: &str = "frictcomp.toml";
 
 /// Extensions of NC programs, in lower case.
-pub(super) const EXTENSIONS: [&str; 9] =
-    ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
+pub(super) const EXTENSIONS: [&str; 10] = [
+    "nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap", "plc",
+];
+
+/// Extensions of documents, sources, data, settings, pictures and archives, none of which is read in search of programs.
+/// An `.ecy` is encrypted.
+const OTHER_EXTENSIONS: &[&str] = &[
+    "3mf", "7z", "a", "adoc", "asm", "awl", "bash", "bat", "bib", "bmp", "bz2", "c", "cc", "cfg",
+    "class", "cmake", "cmd", "conf", "contour", "cpp", "cs", "css", "csv", "cxx", "db", "diff",
+    "dll", "doc", "docx", "dxf", "ecy", "eni", "esi", "exe", "exp", "gif", "go", "gz", "hpp",
+    "htm", "html", "ico", "iges", "igs", "ini", "ipynb", "jar", "java", "jpeg", "jpg", "js",
+    "json", "jsonl", "jsx", "kt", "less", "lib", "library", "lis", "lock", "log", "lua", "m",
+    "map", "markdown", "md", "mjs", "mp4", "ndjson", "o", "obj", "ods", "odt", "org", "patch",
+    "pdf", "php", "pickle", "pl", "plcproj", "png", "ppt", "pptx", "project", "ps1", "py", "pyc",
+    "pyi", "r", "rar", "rb", "rej", "rs", "rst", "rtf", "s", "sarif", "scl", "scss", "sh", "sln",
+    "snap", "so", "sql", "sqlite", "st", "step", "stl", "stp", "svdx", "svg", "swift", "tar",
+    "tcdut", "tcgvl", "tcpou", "tex", "tgz", "timeline", "toml", "ts", "tsproj", "tsv", "tsx",
+    "vb", "whl", "xml", "xlsx", "zip",
+];
 
 /// A kind of file that users write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +71,13 @@ pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
 /// Whether a file is one that users write: a program, a list or a configuration, judged by its name.
 pub fn is_source(path: &Path, extensions: Option<&[String]>) -> bool {
     FileKind::of(path).is_some() || is_program(path, extensions)
+}
+
+/// Whether a file is plainly something else than a program, judged by its name: that of a document, a source, data, or
+/// what a system or an editor leaves beside a file.
+pub(super) fn is_known_otherwise(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.starts_with("._") || name.starts_with(".#") || has_extension(path, OTHER_EXTENSIONS)
 }
 
 /// Whether a file is a list of the control, judged by its name.

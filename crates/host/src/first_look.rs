@@ -16,6 +16,7 @@ use super::list_files::{ListsOnDisk, read_list};
 use super::paths::normal;
 use super::paths::relative;
 use super::read::read_text;
+use super::selection::{FolderOptions, FolderSelection};
 use super::walk::find_programs;
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::ListKind;
@@ -30,7 +31,11 @@ const DEPTH: usize = 4;
 ///
 /// # Errors
 /// The folder does not exist, contains several start-up lists, or the given list is not a start-up list.
-pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, HostError> {
+pub fn outline_of(
+    folder: &Path,
+    startup: Option<&Path>,
+    options: &FolderOptions,
+) -> Result<Outline, HostError> {
     if !folder.is_dir() {
         return Err(HostError::NoFolder(folder.to_owned()));
     }
@@ -39,7 +44,7 @@ pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, Host
         None => find_startup(folder)?,
     };
     let Some(path) = startup else {
-        return Ok(Outline::of_programs(programs(folder)));
+        return Ok(Outline::of_programs(programs(folder, options)));
     };
     check_startup(&path)?;
     Ok(Outline::Startup(shown_path(&seen_from(folder, &path)?)))
@@ -116,8 +121,12 @@ fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, HostError> {
 }
 
 /// Returns the texts of the programs below a folder. Programs that cannot be read are skipped.
-fn programs(folder: &Path) -> impl Iterator<Item = String> {
-    let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
+fn programs(folder: &Path, options: &FolderOptions) -> impl Iterator<Item = String> {
+    let selection = FolderSelection {
+        options: options.clone(),
+        ..FolderSelection::default()
+    };
+    let inputs = find_programs(&[folder.to_owned()], |_| selection.clone()).inputs;
     inputs.into_iter().filter_map(|input| match input {
         Input::File(path) => read_text(&path).ok(),
         Input::Open(open) => Some(open.text.to_string()),

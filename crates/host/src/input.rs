@@ -12,7 +12,7 @@ use super::open_text::OpenText;
 use super::read::{read_text, read_whole};
 use super::registry::{FileRegistry, PROGRAM};
 use crate::decode::decode;
-use frictcomp::syntax::FlowScan;
+use frictcomp::syntax::{FlowScan, HEAD, no_program};
 use frictcomp::text::{LineSource, SourceFile, shown_path};
 
 /// The name of standard input in records and diagnostics.
@@ -63,6 +63,12 @@ struct Waiting<'a, R> {
     before: &'a dyn Fn(),
 }
 
+impl<'a, R> Waiting<'a, R> {
+    fn new(reader: R, before: &'a dyn Fn()) -> Self {
+        Self { reader, before }
+    }
+}
+
 impl<R: Read> Read for Waiting<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         (self.before)();
@@ -99,7 +105,7 @@ impl Input {
     /// Checks whether the program can be run, to the extent that this is known before.
     ///
     /// # Errors
-    /// It does not exist, cannot be read, or is a folder.
+    /// It does not exist, cannot be read, is a folder, or plainly no program.
     pub fn probe(&self) -> Result<(), HostError> {
         let Self::File(path) = self else {
             return Ok(());
@@ -108,10 +114,16 @@ impl Input {
         if metadata.is_dir() {
             return Err(HostError::FolderAsProgram(path.clone()));
         }
-        if metadata.is_file() {
-            File::open(path).map_err(|error| HostError::read(path, error))?;
+        if !metadata.is_file() {
+            return Ok(());
         }
-        Ok(())
+        let read = |error| HostError::read(path, error);
+        let mut head = Vec::with_capacity(HEAD);
+        let file = File::open(path).map_err(read)?;
+        file.take(HEAD as u64)
+            .read_to_end(&mut head)
+            .map_err(read)?;
+        refuse_other_files(path, &decode(head))
     }
 
     /// Notes the program among the files that are read.
@@ -134,16 +146,27 @@ impl Input {
         before_waiting: &'a dyn Fn(),
     ) -> Result<Opened<'a>, HostError> {
         match self {
-            Self::File(path) => open_file(path, self.name(naming), before_waiting)
-                .map_err(|error| HostError::read(path, error)),
-            Self::Open(open) => Ok(open_text(open, self.name(naming))),
-            Self::Stdin => Ok(match standard_input() {
-                // A file redirected with `<` must not change while it is read, like one that is named.
-                Some((file, metadata)) => {
-                    arriving(FixedLengthReader::new(file, &metadata), before_waiting)
+            Self::File(path) => {
+                let read = |error| HostError::read(path, error);
+                let file = File::open(path).map_err(read)?;
+                let metadata = file.metadata().map_err(read)?;
+                if metadata.is_file() || metadata.is_dir() {
+                    return open_file((file, &metadata), self.name(naming)).map_err(read);
                 }
-                None => arriving(io::stdin().lock(), before_waiting),
-            }),
+                arriving(path, Waiting::new(file, before_waiting))
+            }
+            Self::Open(open) => Ok(open_text(open, self.name(naming))),
+            Self::Stdin => {
+                let name = Path::new(STDIN);
+                match standard_input() {
+                    // A file redirected with `<` must not change while it is read, like one that is named.
+                    Some((file, metadata)) => {
+                        let file = FixedLengthReader::new(file, &metadata);
+                        arriving(name, Waiting::new(file, before_waiting))
+                    }
+                    None => arriving(name, Waiting::new(io::stdin().lock(), before_waiting)),
+                }
+            }
         }
     }
 }
@@ -187,20 +210,11 @@ fn input_file() -> io::Result<File> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-fn open_file<'a>(
-    path: &Path,
-    name: String,
-    before_waiting: &'a dyn Fn(),
-) -> io::Result<Opened<'a>> {
-    let file = File::open(path)?;
-    let metadata = file.metadata()?;
+fn open_file<'a>((file, metadata): (File, &Metadata), name: String) -> io::Result<Opened<'a>> {
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    if !metadata.is_file() {
-        return Ok(arriving(file, before_waiting));
-    }
-    let mut lines = LineReader::of_length(FixedLengthReader::new(file, &metadata), metadata.len());
+    let mut lines = LineReader::of_length(FixedLengthReader::new(file, metadata), metadata.len());
     if !lines.is_wide() && !lines.scan()?.needs_whole_text() {
         return Ok(Opened::Lines(lines.boxed()));
     }
@@ -231,9 +245,28 @@ impl AsRef<[u8]> for Shared {
     }
 }
 
-/// Returns lines that are passed on as they arrive.
-fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
-    Opened::Lines(LineReader::new(Box::new(Waiting { reader, before }) as Box<dyn Read>).narrow())
+/// Returns lines that are passed on as they arrive, of a program that the user names.
+fn arriving<'a, R: Read + 'a>(
+    path: &Path,
+    reader: Waiting<'a, R>,
+) -> Result<Opened<'a>, HostError> {
+    let mut lines = LineReader::new(Box::new(reader) as Box<dyn Read>);
+    lines
+        .narrow()
+        .map_err(|error| HostError::read(path, error))?;
+    refuse_other_files(path, lines.ahead())?;
+    Ok(Opened::Lines(lines))
+}
+
+/// Reports a file whose head shows that it is no program (R18.6).
+fn refuse_other_files(path: &Path, head: &str) -> Result<(), HostError> {
+    match no_program(head) {
+        Some(what) => Err(HostError::NoProgram {
+            path: path.to_owned(),
+            what,
+        }),
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]

@@ -103,15 +103,16 @@ impl<R: Read> LineReader<R> {
         wide(&self.buffer[self.unread.clone()]).is_some()
     }
 
-    /// Turns a text that cannot be passed on as it arrives into an error.
-    pub(super) fn narrow(mut self) -> Self {
+    /// Checks that a text can be passed on as it arrives.
+    ///
+    /// # Errors
+    /// It is UTF-16.
+    pub(super) fn narrow(&self) -> io::Result<()> {
         if self.is_wide() {
             let reason = "it is UTF-16, which is not read from a pipe; save it as UTF-8";
-            self.failure = Some(io::Error::other(reason));
-            self.unread = 0..0;
-            self.at_end = true;
+            return Err(io::Error::other(reason));
         }
-        self
+        Ok(())
     }
 
     /// Returns the reader at its current position.

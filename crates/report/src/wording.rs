@@ -47,6 +47,9 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"
                 .to_owned()
         }
+        Advice::TakeIgnored => {
+            "take such programs with `--no-ignore`, or exclude it".to_owned()
+        }
         Advice::ShowOutside => "`--allow-outside` shows it".to_owned(),
         Advice::GiveNetwork => {
             "export the network information of the master and give it with `--eni FILE`".to_owned()

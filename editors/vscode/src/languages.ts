@@ -6,7 +6,7 @@ import * as path from "node:path";
 
 const PROGRAM_LANGUAGES = ["isg-cnc", "frictcomp-nc"];
 const LIST_LANGUAGES = ["isg-list", "frictcomp-list"];
-const PROGRAM_ENDINGS = [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"];
+const PROGRAM_ENDINGS = [".nc", ".cnc", ".cyc", ".sub", ".plc"];
 const CONFIGURATION = "frictcomp.toml";
 /** Texts of a user: files and unsaved texts. Versions from git would report every problem twice. */
 const SCHEMES = ["file", "untitled"];

@@ -125,7 +125,7 @@ impl Interpreter {
 }
 
 impl State {
-    /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
+    /// FC310 at the last executed block; a program without any block is reported as such (R18.6).
     pub(in crate::interpreter) fn missing_end(&self) -> Option<Diagnostic> {
         let place = self.last.as_ref()?.place();
         let message = "the program ends here without M30 or M02";

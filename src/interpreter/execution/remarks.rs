@@ -24,7 +24,7 @@ impl Interpreter {
                     let reached = openings.said.iter();
                     said.extend(reached.filter(|it| it.place.first_line <= until).cloned());
                 }
-                _ => {}
+                _ => said.extend(unit.index.no_block()),
             }
             gather(unit.index.source.name(), &unit.index.lost, until, &mut said);
         }

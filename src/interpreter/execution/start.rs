@@ -64,6 +64,7 @@ impl Interpreter {
         if self.is_refused() {
             return self.refuse(observer);
         }
+        self.lost.extend(self.programs.index(0).no_block());
         match self.programs.index(0).main {
             Some(section) => self.enter(0, section),
             None => self.lost.extend(self.programs.index(0).no_main_program()),

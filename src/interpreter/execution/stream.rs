@@ -11,7 +11,9 @@ use std::sync::Arc;
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::call_sites::holds_program_end;
 use crate::interpreter::programs::finder::Finder;
-use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
+use crate::interpreter::programs::index::{
+    Index, LabelName, ProgramId, never_run, no_block, not_a_program,
+};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::event::{EndedBy, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -20,7 +22,7 @@ use crate::interpreter::run::step::{ControlStep, NextBlock};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
-use crate::syntax::{BlockReader, ControlBlock, RawBlock, Stretch};
+use crate::syntax::{BlockReader, ControlBlock, RawBlock, Stretch, no_program};
 use crate::text::{LineSource, SourceFile};
 
 /// Progress of the program.
@@ -84,6 +86,15 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         let file: Arc<str> = file.into();
+        if let Some(what) = no_program(lines.ahead()) {
+            return match self.announce(None, observer) {
+                ControlFlow::Break(()) => RunOutcome::Paused,
+                ControlFlow::Continue(()) => {
+                    let said = one(not_a_program(&file, what));
+                    self.ended(EndedBy::Error, &said, observer)
+                }
+            };
+        }
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.scratch.block);
         let mut stage = ProgramStage::Before;
@@ -111,6 +122,7 @@ impl Interpreter {
                 }
                 if let ProgramStage::Announced = stage {
                     stage = ProgramStage::Running;
+                    self.lost.push(no_block(&file));
                     if let Some(outcome) = self.begin_lines(&file, finder, observer) {
                         return outcome;
                     }
@@ -187,11 +199,14 @@ impl Interpreter {
     /// All lines were read: a program without any block begins and ends here.
     fn after_lines(
         &mut self,
-        file: &str,
+        file: &Arc<str>,
         progress: &StreamProgress,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
+        if let ProgramStage::Before | ProgramStage::Announced = progress.stage {
+            self.lost.push(no_block(file));
+        }
         match self.begin_at(progress.stage, file, finder, observer) {
             Some(outcome) => outcome,
             None => self.end_of_lines(progress.stage, &progress.notes, observer),

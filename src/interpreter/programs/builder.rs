@@ -3,13 +3,15 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
-use super::index::{EntryIndex, Index, IndexEntry, LabelName, Links, ProgramSection};
+use super::index::{
+    EntryIndex, Index, IndexEntry, LabelName, Links, ProgramSection, not_a_program,
+};
 use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::syntax::{
     BlockReader, ControlBlock, FastPath, Fault, LostRemarks, Part, Stretch, control_part,
-    is_statement,
+    is_statement, no_program,
 };
 use crate::text::{Place, SourceFile, Span, TextLines};
 
@@ -111,6 +113,12 @@ impl Builder {
     fn build(mut self) -> Index {
         let text = self.index.source.shared_text();
         let first = self.index.source.lines().first();
+        // The rest of a program that is read line by line begins somewhere in it.
+        if let Some(what) = no_program(&text).filter(|_| first == 1) {
+            let said = not_a_program(self.index.source.name(), what);
+            self.index.refused.push(said);
+            return self.index;
+        }
         let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
         let mut block = Block::default();
         self.section(None, None, false);

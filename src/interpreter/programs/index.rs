@@ -4,6 +4,7 @@
 //! are executed again.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -149,6 +150,15 @@ impl Index {
         Some(said.with_help("begin the main program with `%NAME`"))
     }
 
+    /// FC103 where the program that a run executes has no block (R18.6).
+    pub(in crate::interpreter) fn no_block(&self) -> Option<Diagnostic> {
+        let is_empty = match self.main {
+            Some(main) => self.sections.get(main).is_some_and(|it| it.start == it.end),
+            None => self.entries.is_empty() && self.locals.is_empty(),
+        };
+        (is_empty && self.refused.is_empty()).then(|| no_block(self.source.name()))
+    }
+
     /// FC324 for every main program with blocks except the one that runs, with its first block. A lone `%` may end
     /// a file.
     pub(in crate::interpreter) fn other_mains(
@@ -291,6 +301,22 @@ impl Index {
         let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
         Some(BlockReader::new(lines, entry.line, FastPath::On))
     }
+}
+
+/// FC103: a file whose program has no block.
+pub(in crate::interpreter) fn no_block(file: &Arc<str>) -> Diagnostic {
+    let place = Place::head_of(file);
+    let message = "the program has no block: the control executes nothing and keeps every state";
+    Diagnostic::new(Code::Fc103, place, message)
+        .with_help("check whether it was saved and copied as a whole")
+}
+
+/// FC104: a file that is something else.
+pub(in crate::interpreter) fn not_a_program(file: &Arc<str>, what: &str) -> Diagnostic {
+    let place = Place::head_of(file);
+    let message = format!("this file is {what}, not an NC program; nothing of it was run");
+    Diagnostic::new(Code::Fc104, place, message)
+        .with_help("name the program itself, or keep the file out of the folder")
 }
 
 /// FC324: a main program, by its name in its `%` line, after the one that its file runs.

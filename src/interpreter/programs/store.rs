@@ -10,9 +10,9 @@ use super::unit::{Parsed, SourceUnit};
 use super::wanted::WantedCall;
 use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::work_budget::{ITEM, WorkBudget};
-use crate::syntax::Fault;
 use crate::syntax::ast::CallScope;
-use crate::text::Place;
+use crate::syntax::{Fault, no_program};
+use crate::text::{Place, SourceFile};
 
 /// Limit of the names that a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;
@@ -209,7 +209,7 @@ impl ProgramStore {
         } else {
             let source = match self.missing.get(&key) {
                 Some(why) => Err(why.clone()),
-                None => finder.find(name, caller.file),
+                None => finder.find(name, caller.file).and_then(program),
             };
             let source = match source {
                 Ok(source) => source,
@@ -240,7 +240,7 @@ impl ProgramStore {
                     "a program that is called begins with `%NAME` or has no `%` line at all",
                 ),
             )),
-            // An empty file does nothing (R2.8).
+            // A file without a block does nothing, and is reported as such (R18.6).
             None => Ok(None),
         }
     }
@@ -271,6 +271,14 @@ impl ProgramStore {
         self.compared += compared;
         effort.charge(compared);
         Box::new(fault)
+    }
+}
+
+/// A file that was found, unless it is something else than a program (R18.6).
+fn program(source: SourceFile) -> Result<SourceFile, NoProgram> {
+    match no_program(source.text()) {
+        Some(what) => Err(NoProgram::Unusable(format!("is {what}, not an NC program"))),
+        None => Ok(source),
     }
 }
 

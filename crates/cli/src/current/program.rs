@@ -114,7 +114,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     if let Some(list) = lists.next() {
         say_sign(list);
     }
-    args.machine.say_unread(&registry, console);
+    args.machine.say_unread(&machines, &registry, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }

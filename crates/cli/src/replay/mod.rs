@@ -113,7 +113,7 @@ pub(super) fn run(args: &ReplayArgs, console: Console) -> Result<u8, Failure> {
         ResultFormat::Json => format!("{:#}\n", shown::document(&replayed)),
     })?;
     outputs.finish()?;
-    args.machine.say_unread(&registry, console);
+    args.machine.say_unread(&machines, &registry, console);
     Ok(if replayed.agrees() {
         exit::CLEAN
     } else {

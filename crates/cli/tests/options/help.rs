@@ -30,6 +30,8 @@ fn every_help_ends_with_two_examples_that_work() {
         "golden",
         "graph",
         "diff",
+        "show",
+        "show files",
         "lists",
         "drive",
         "current",

@@ -44,7 +44,8 @@ pub(super) fn settings(outgoing: &mut Outgoing<ServerRequest>) -> Request {
 
 /// Requests notices of changed lists, configurations and programs.
 pub(super) fn news_of_files(outgoing: &mut Outgoing<ServerRequest>) -> Request {
-    let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
+    let endings =
+        "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
     let programs = format!("**/*.{{{endings}}}");
     let patterns = [programs, format!("**/{CONFIG_NAME}")];
     let watchers = patterns.map(|pattern| FileSystemWatcher {

@@ -136,7 +136,7 @@ fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, 
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
-    let found = find_programs(&[folder], |folder| machines.extensions(folder));
+    let found = find_programs(&[folder], |folder| machines.selection(folder));
     let inputs = found.inputs.into_iter().map(|input| match &input {
         Input::File(path) => match disk.text(path) {
             Some(text) => Input::Open(OpenText {

@@ -247,8 +247,8 @@ const PROGRAM_LANGUAGES: [&str; 2] = ["isg-cnc", "frictcomp-nc"];
 /// Languages of lists in editors.
 const LIST_LANGUAGES: [&str; 2] = ["isg-list", "frictcomp-list"];
 
-/// Endings that ISG's extension gives to programs and `check` does not look for in folders.
-const FURTHER_ENDINGS: [&str; 2] = ["ecy", "plc"];
+/// The ending of encrypted cycles, which ISG's extension gives the language of programs (R18.5).
+const ENCRYPTED: &str = "ecy";
 
 /// Returns the kind of a text by its name or its language (R12.14).
 fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
@@ -260,8 +260,9 @@ fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
         Kind::Configuration
     } else if has_ending(&["lis"]) || LIST_LANGUAGES.contains(&language) {
         Kind::List
+    } else if has_ending(&[ENCRYPTED]) {
+        Kind::Other
     } else if is_program(path, None)
-        || has_ending(&FURTHER_ENDINGS)
         || PROGRAM_LANGUAGES.contains(&language)
         || further.iter().any(|it| it == language)
     {
@@ -304,7 +305,7 @@ mod tests {
         // R12.2, R12.14
         for (uri, language, path, kind) in [
             ("file:///p/A.MPF", "plaintext", "/p/A.MPF", Kind::Program),
-            ("file:///p/a.ecy", "", "/p/a.ecy", Kind::Program),
+            ("file:///p/a.ecy", "isg-cnc", "/p/a.ecy", Kind::Other),
             ("file:///p/a.plc", "", "/p/a.plc", Kind::Program),
             ("file:///p/part", "gcode", "/p/part", Kind::Program),
             ("file:///p/Cargo.toml", "toml", "/p/Cargo.toml", Kind::Other),

@@ -132,7 +132,7 @@ impl ProjectCalls {
         let registry = FileRegistry::default();
         let mut machines = Machines::new(MachineOptions::default(), &registry).on_disk(disk);
         let paths = [folder.clone()];
-        let inputs = find_programs(&paths, |folder| machines.extensions(folder)).inputs;
+        let inputs = find_programs(&paths, |folder| machines.selection(folder)).inputs;
         // A program that cannot be read calls nothing; its check reports the error.
         let (graph, _) = CallGraph::of(&inputs, &mut machines, processors());
         let project = Arc::new(Project {

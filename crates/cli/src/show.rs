@@ -1,0 +1,125 @@
+//! `frictcomp show`: what is there.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use serde_json::{Value, json};
+
+use super::console::{Console, Printed};
+use super::exit;
+use super::failure::{Failure, shown};
+use super::failures::Failures;
+use super::folders::FolderArgs;
+use super::listing::passed_over;
+use super::machine::MachineArgs;
+use super::outputs::Outputs;
+use super::result::{ResultArgs, ResultFormat};
+use frictcomp::text::shown_path;
+use frictcomp::timeline::SCHEMA;
+use frictcomp_host::{FileRegistry, FoundPrograms, Input, LeftOutFile, Naming, find_programs};
+use frictcomp_report::counted;
+
+/// Show what is there
+#[derive(Debug, Subcommand)]
+pub(super) enum ShowCommand {
+    Files(FilesArgs),
+}
+
+/// Show which files are taken as programs, which are not, and why
+///
+/// Nothing is executed. A program that is not taken by itself may still be called by one that is.
+#[derive(Debug, Args)]
+pub(super) struct FilesArgs {
+    /// Programs and folders of programs
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// List the files that are no programs, too
+    #[arg(long)]
+    all: bool,
+    #[command(flatten)]
+    result: ResultArgs,
+    #[command(flatten)]
+    folders: FolderArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(command: &ShowCommand, console: Console) -> Result<u8, Failure> {
+    let ShowCommand::Files(args) = command;
+    Failures::of(console, |failures| files(args, console, failures))
+}
+
+fn files(args: &FilesArgs, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+    let registry = FileRegistry::default();
+    let machines = args.machine.machines(&registry);
+    let mut machines = machines.selecting(args.folders.options());
+    let mut found = find_programs(&args.paths, |folder| machines.selection(folder));
+    failures.extend(Failures::from(std::mem::take(&mut found.failures)));
+    for input in &found.inputs {
+        input.note(&registry);
+    }
+    let mut outputs = Outputs::new(&registry, console);
+    let mut target = outputs.result(args.result.output.as_deref())?;
+    outputs.check()?;
+    let printed = match args.result.format {
+        ResultFormat::Text => target.text(&args.text(&found))?,
+        ResultFormat::Json => target.text(&format!("{:#}\n", args.json(&found)))?,
+    };
+    if printed == Printed::Read {
+        outputs.finish()?;
+    }
+    let taken = counted(found.inputs.len(), "program");
+    let beside = passed_over(found.left_out.others());
+    console.remark(&match found.left_out.in_words() {
+        Some(kinds) => format!("{taken}; not taken: {kinds}{beside}"),
+        None => format!("{taken}{beside}"),
+    });
+    Ok(exit::CLEAN)
+}
+
+impl FilesArgs {
+    fn left_out<'a>(&self, found: &'a FoundPrograms) -> impl Iterator<Item = &'a LeftOutFile> {
+        let all = self.all;
+        let files = found.left_out.files.iter();
+        files.filter(move |file| all || file.is_listed())
+    }
+
+    fn text(&self, found: &FoundPrograms) -> String {
+        let mut out = String::new();
+        for input in &found.inputs {
+            let _ = writeln!(out, "{}", taken_name(input));
+        }
+        for file in self.left_out(found) {
+            let _ = writeln!(out, "{}: not taken, {}", shown(&file.path), file.reason());
+        }
+        out
+    }
+
+    fn json(&self, found: &FoundPrograms) -> Value {
+        let taken = found.inputs.iter();
+        let taken =
+            taken.map(|input| json!({ "file": input.name(Naming::AsGiven), "taken": true }));
+        let left_out = self.left_out(found).map(|file| {
+            json!({
+                "file": shown_path(&file.path),
+                "taken": false,
+                "why": file.why.as_str(),
+                "switches": file.switch.as_ref().map(|place| place.first_line),
+            })
+        });
+        json!({
+            "schema": SCHEMA,
+            "files": taken.chain(left_out).collect::<Vec<_>>(),
+            "others": found.left_out.others(),
+        })
+    }
+}
+
+fn taken_name(input: &Input) -> String {
+    match input {
+        Input::File(path) => shown(path),
+        _ => input.name(Naming::AsGiven),
+    }
+}

@@ -1,6 +1,9 @@
 //! Compares programs whose conditions only the machine knows with runs for every answer: a state that any of them
 //! reaches is never missing, and if the conditions are plain and asked once, no other state is named.
 
+#[path = "both_sides/plc.rs"]
+mod plc;
+
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::num::NonZero;

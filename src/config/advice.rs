@@ -42,7 +42,7 @@ pub fn example(key: &str) -> Option<&'static str> {
 }
 
 /// One row per key.
-const EXAMPLES: [(&str, &str); 25] = [
+const EXAMPLES: [(&str, &str); 27] = [
     ("machine", "write `[machine]`, in single brackets"),
     (
         "axis",
@@ -74,6 +74,8 @@ const EXAMPLES: [(&str, &str); 25] = [
         "write `type = \"T\"` for linear, `\"R\"` for rotary, `\"S\"` for a spindle",
     ),
     ("number", "write `number = 1`"),
+    ("stable", "write `stable = [\"V.E.MATERIAL\"]`"),
+    ("own", "write `own = [\"V.E.PARTS\"]`"),
     ("frict_comp", "write `frict_comp = true`"),
     ("enable", "write `enable = true`"),
     ("axis_list", "write `axis_list = \"lists/axis_x.lis\"`"),

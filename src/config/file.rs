@@ -29,6 +29,8 @@ pub(crate) struct ConfigFile {
     pub(crate) variables: Vec<(String, ConfiguredVariable)>,
     /// Variables of the machine that keep their values while a program runs.
     pub(crate) stable: Vec<String>,
+    /// `V.E.` variables that only programs write.
+    pub(crate) own: Vec<String>,
     /// `[lint]`.
     pub(crate) levels: Levels,
     /// The extensions of programs in `[check]`, in lower case and without a dot.
@@ -62,8 +64,8 @@ pub(super) const ROOT: Shape = Shape {
     ]),
 };
 
-/// The key of `[variables]` that is not a variable.
-const STABLE: &str = "stable";
+/// Keys of `[variables]` that are not variables: lists of names, with the family of their variables.
+const NAMES: [(&str, &str); 2] = [("stable", "V."), ("own", "V.E.")];
 
 pub(super) const VARIABLES: Shape = Shape {
     name: "[variables]",
@@ -91,7 +93,8 @@ impl ConfigFile {
         Ok(Self {
             machine: MachineTable::read(&root)?,
             variables: variables(&root)?,
-            stable: stable(&root)?,
+            stable: names(&root, NAMES[0])?,
+            own: names(&root, NAMES[1])?,
             levels: levels(&root)?,
             extensions: extensions(&root)?,
             exclude: exclude(&root)?,
@@ -145,24 +148,26 @@ fn exclude(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     Ok(given.into_iter().map(|given| given.value).collect())
 }
 
-/// Reads the variables of the machine that keep their values while a program runs (R14.1).
-fn stable(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
+/// Reads the variables of the machine that keep their values while a program runs (R14.1), or that only programs
+/// write (R2.99).
+fn names(root: &Section<'_>, (key, family): (&str, &str)) -> Result<Vec<String>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {
         return Ok(Vec::new());
     };
     let name = |given: Given<String>| {
         let is_one = given
             .value
-            .get(..2)
-            .is_some_and(|it| it.eq_ignore_ascii_case("V."));
+            .get(..family.len())
+            .is_some_and(|it| it.eq_ignore_ascii_case(family));
         if is_one {
             return Ok(given.value);
         }
         let message = format!("`{}` is not a variable of the machine", given.value);
-        Err(ConfigError::at(&given, message)
-            .with_help("write `stable = [\"V.E.PART\"]`, the names without a value"))
+        Err(ConfigError::at(&given, message).with_help(format!(
+            "write `{key} = [\"V.E.PART\"]`, the names without a value"
+        )))
     };
-    variables.strings(STABLE)?.into_iter().map(name).collect()
+    variables.strings(key)?.into_iter().map(name).collect()
 }
 
 fn variables(root: &Section<'_>) -> Result<Vec<(String, ConfiguredVariable)>, ConfigError> {
@@ -170,7 +175,8 @@ fn variables(root: &Section<'_>) -> Result<Vec<(String, ConfiguredVariable)>, Co
         return Ok(Vec::new());
     };
     let mut found = Vec::new();
-    for name in variables.names().filter(|name| name.value != STABLE) {
+    let is_list = |name: &str| NAMES.iter().any(|(key, _)| *key == name);
+    for name in variables.names().filter(|name| !is_list(name.value)) {
         let variable = match variables.number(name.value) {
             Some(Given {
                 value:

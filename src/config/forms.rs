@@ -286,11 +286,18 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
         free: Some(Form::NumberOrText),
         ..table(
             &VARIABLES,
-            &[key(
-                "stable",
-                Form::Texts,
-                "variables that keep their value while a program runs",
-            )],
+            &[
+                key(
+                    "stable",
+                    Form::Texts,
+                    "variables that keep their value while a program runs",
+                ),
+                key(
+                    "own",
+                    Form::Texts,
+                    "V.E. variables that only programs write",
+                ),
+            ],
         )
     },
     TableForm {

@@ -1,7 +1,7 @@
 //! Motion in a channel list: the unit of F, the state at the start of a program, and the main
 //! spindle (TF5200 Channel parameters, `prog_start.*` and `spindel[].*`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +52,8 @@ pub struct ChannelSettings {
     /// The names of the main spindle in addition to `S`: P-CHAN-00053 and the name of the spindle with the number of
     /// P-CHAN-00051.
     pub main_spindle: Vec<String>,
+    /// The M and H functions that the PLC does not acknowledge, P-CHAN-00041 and P-CHAN-00027: letter and number.
+    pub unacknowledged: BTreeSet<(u8, u32)>,
 }
 
 /// The acceleration profile, P-CHAN-00071.
@@ -96,6 +98,9 @@ const GROUPS: [(u32, &[u32]); 11] = [
     (32, &[140, 141]),
 ];
 
+/// Kinds of synchronisation without an acknowledgement by the PLC: no output, or output only.
+const UNACKNOWLEDGED: [&str; 5] = ["NO_SYNCH", "MOS", "MOS_TS", "MEP_MOS", "MET_MOS"];
+
 /// Values as given by a channel list.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelDraft {
@@ -106,6 +111,7 @@ pub struct ChannelDraft {
     slope: Option<Given<SlopeProfile>>,
     spindle_number: Option<Given<u32>>,
     spindle_name: Option<Given<String>>,
+    acknowledged: BTreeMap<(u8, u32), bool>,
 }
 
 impl ChannelDraft {
@@ -137,6 +143,8 @@ impl ChannelDraft {
                     None => diagnostics.push(odd(entry, "`0` for mm or `1` for inch")),
                 }
             }
+            ("m_synch[]", &[function]) => self.synchronise((b'M', function), entry),
+            ("h_synch[]", &[function]) => self.synchronise((b'H', function), entry),
             ("prog_start.slope.profile", []) => {
                 let given = number(entry, diagnostics);
                 let profile = given
@@ -161,6 +169,15 @@ impl ChannelDraft {
             }
             _ => {}
         }
+    }
+
+    /// The kind of synchronisation of a function, by its name or as a bit code.
+    fn synchronise(&mut self, function: (u8, u32), entry: &Entry) {
+        let text = entry.text().value.trim_matches('"').to_ascii_uppercase();
+        let digits = text.strip_prefix("0X").map_or((&*text, 10), |it| (it, 16));
+        let number = u32::from_str_radix(digits.0, digits.1).ok();
+        let is_silent = UNACKNOWLEDGED.contains(&&*text) || number.is_some_and(|it| it < 2);
+        self.acknowledged.insert(function, !is_silent);
     }
 
     fn function(&mut self, group: u32, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
@@ -196,6 +213,7 @@ impl ChannelDraft {
         self.slope = other.slope.or(self.slope.take());
         self.spindle_number = other.spindle_number.or(self.spindle_number.take());
         self.spindle_name = other.spindle_name.or(self.spindle_name.take());
+        self.acknowledged.extend(other.acknowledged);
     }
 
     /// Returns the effective settings; `spindles` are the names of the spindles with their axis numbers.
@@ -226,6 +244,10 @@ impl ChannelDraft {
                 .filter(|name| !name.is_empty())
                 .map(str::to_owned)
                 .collect(),
+            unacknowledged: {
+                let silent = self.acknowledged.iter().filter(|(_, is_it)| !**is_it);
+                silent.map(|(function, _)| *function).collect()
+            },
         }
     }
 

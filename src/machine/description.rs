@@ -49,6 +49,8 @@ pub struct Machine {
     pub skip: Option<SkipLevels>,
     /// The variables of the machine that keep their values while a program runs (R14.1).
     pub stable: Vec<String>,
+    /// The `V.E.` variables that only programs write (R2.99).
+    pub own: Vec<String>,
     /// Settings of motion from the channel list.
     pub channel: ChannelSettings,
     /// Selected readings of the open questions.

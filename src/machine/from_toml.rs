@@ -32,6 +32,7 @@ impl Configuration {
         let startup = file.machine.startup.clone();
         let is_whole = startup.is_none() && file.axes.len() < MAX_AXES;
         configuration.machine.stable = file.stable;
+        configuration.machine.own = file.own;
         configuration.machine.readings = file.readings;
         configuration.machine.one_more_axis = file.one_more_axis.filter(|_| is_whole);
         configuration.take_machine(file.machine)?;

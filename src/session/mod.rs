@@ -439,7 +439,7 @@ impl Session {
         // What the user gave is given again; what the programs wrote is not.
         carried.variables.retain(|name, value| {
             let given = self.given.get(name);
-            name.starts_with("V.S.") || given != Some(value)
+            self.interpreter.only_programs_write(name) || given != Some(value)
         });
         SavedState {
             schema: STATE_SCHEMA,

@@ -240,6 +240,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#WAIT", Values, "PM/207421579"),
     ("#WAIT FOR", Nothing, EDITOR),
     ("#WAIT INDP", Nothing, EDITOR),
+    ("#WAIT MC_STATUS", Nothing, "ISG/1139940235"),
     ("#WCS TO MCS", Values, "PM/208525707"),
 ];
 
@@ -262,7 +263,7 @@ fn row_of(name: &str) -> Option<(&'static str, Touches)> {
 
 /// Words that follow the name of a `#` command or its bracket, `#MSG SAVE EXCLUSIVE […]`,
 /// `#SET AX […] FAST` (vscode-isg-cnc; PM, chapters of the commands).
-const FURTHER_WORDS: [&str; 54] = [
+const FURTHER_WORDS: [&str; 55] = [
     "ABS",
     "ACK",
     "ACT",
@@ -313,6 +314,7 @@ const FURTHER_WORDS: [&str; 54] = [
     "START",
     "STOP",
     "SYN",
+    "SYN_ACK",
     "TOOL",
     "TYPE",
     "WAIT",

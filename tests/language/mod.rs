@@ -7,6 +7,7 @@ mod known_words;
 mod not_understood;
 mod parts;
 mod places;
+mod plc;
 mod programs;
 mod skipping;
 mod text;

@@ -123,6 +123,14 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     if !harmless.is_empty() {
         let _ = writeln!(output, "harmless       {}", harmless.join(", "));
     }
+    for (title, names) in [
+        ("stable        ", &machine.stable),
+        ("own           ", &machine.own),
+    ] {
+        if !names.is_empty() {
+            let _ = writeln!(output, "{title} {}", names.join(", "));
+        }
+    }
     let columns = ["axis", "type", "at start", "P-AXIS-00522", "value list"];
     let mut table = columns.into_iter().fold(Table::default(), Table::left);
     let comp = machine.compensation();

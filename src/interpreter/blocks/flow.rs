@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::diagnostic::Code;
+use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
 use crate::interpreter::run::condition::ConditionKind;
@@ -19,7 +20,7 @@ use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::plain::Truth;
-use crate::interpreter::values::value::Value;
+use crate::interpreter::values::value::{Value, same_case};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, BlockReference, Flow, Item, Operand};
 use crate::text::Span;
@@ -45,13 +46,21 @@ impl Interpreter {
         if !at.block.jumps {
             return Ok(None);
         }
-        let value = self.value(*condition, at)?;
-        if let Value::Unknown(cause) = &value {
-            if self.part_at_jump(*condition, cause, at) {
+        let (value, doubt) = if self.jumps_back(at) {
+            let value = self.loop_value(*condition, at)?;
+            let doubt = Doubt::of(&value);
+            (value, doubt)
+        } else {
+            self.asked_value(*condition, at)?
+        };
+        if let Some(doubt) = doubt {
+            if self.part_at_jump(*condition, &doubt, at) {
                 return Ok(Some(false));
             }
-            self.leave_jump(cause, span, at);
-            return Ok(Some(false));
+            if let Doubt::Unknown(cause) = &doubt {
+                self.leave_jump(cause, span, at);
+                return Ok(Some(false));
+            }
         }
         let truth = value.truth();
         truth.map(Some).ok_or_else(|| no_condition(span))
@@ -95,16 +104,18 @@ impl Interpreter {
                 _ => Some(after),
             },
             Flow::Switch(target, operand) => {
-                let value = self.value(*operand, at)?;
+                let (value, doubt) = self.asked_value(*operand, at)?;
                 if let Some(target) = target {
                     let place = self.target_place(target.place, at)?;
                     self.warn_own(&place, target.span, at);
-                    self.write(place, value.clone());
+                    self.set_by(place, value.clone(), at);
+                }
+                if let Some(doubt) = &doubt
+                    && self.part_at_cases(*operand, doubt, span, at)
+                {
+                    return Ok(None);
                 }
                 if let Value::Unknown(cause) = &value {
-                    if self.part_at_cases(*operand, cause, span, at) {
-                        return Ok(None);
-                    }
                     self.skip_unknown(entry..links.end, cause, span, at)
                 } else {
                     self.state.control.seek(Seeking::Case(value));
@@ -135,7 +146,7 @@ impl Interpreter {
                 let start = self.value(*start, at)?;
                 let place = self.target_place(counter.place, at)?;
                 self.warn_own(&place, counter.span, at);
-                self.write(place, start.clone());
+                self.set_by(place, start.clone(), at);
                 let count = Count {
                     counter: start,
                     end: *end,
@@ -168,17 +179,17 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
-        let value = self.value(condition, at)?;
-        Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => {
-                let whole = self.current_block();
-                let mut goals = [whole.start + 1, next].map(Goal::block);
-                goals[1].seeking = (next != whole.end).then_some(Seeking::Condition);
-                if self.part_at(condition, cause, (ConditionKind::Branch, span), goals, at) {
-                    return Ok(None);
-                }
-                self.skip_unknown(whole, cause, span, at)
+        let (value, doubt) = self.asked_value(condition, at)?;
+        if let Some(doubt) = &doubt {
+            let whole = self.current_block();
+            let mut goals = [whole.start + 1, next].map(Goal::block);
+            goals[1].seeking = (next != whole.end).then_some(Seeking::Condition);
+            if self.part_at(condition, doubt, (ConditionKind::Branch, span), goals, at) {
+                return Ok(None);
             }
+        }
+        Ok(match (&value, value.truth()) {
+            (Value::Unknown(cause), _) => self.skip_unknown(self.current_block(), cause, span, at),
             (_, Some(true)) => None,
             (_, Some(false)) => {
                 self.state.control.seek(Seeking::Condition);
@@ -195,11 +206,12 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
-        let value = self.value(condition, at)?;
+        let value = self.loop_value(condition, at)?;
         Ok(match (&value, value.truth()) {
             (Value::Unknown(cause), _) => {
                 let goals = [region.start + 1, region.end + 1].map(Goal::block);
-                if self.part_at(condition, cause, (ConditionKind::Loop, span), goals, at) {
+                let doubt = Doubt::Unknown(cause.clone());
+                if self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at) {
                     return Ok(None);
                 }
                 self.skip_unknown(region, cause, span, at)
@@ -217,14 +229,15 @@ impl Interpreter {
         region: Range<EntryIndex>,
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
-        let value = self.value(condition, at)?;
+        let value = self.loop_value(condition, at)?;
         if let Value::Unknown(cause) = &value {
             let span = flow_span(at.block);
+            let doubt = Doubt::Unknown(cause.clone());
             let mut goals = [region.start, region.end + 1].map(Goal::block);
             if repeats == Truth::Fails {
                 goals.reverse();
             }
-            if self.part_at(condition, cause, (ConditionKind::Loop, span), goals, at) {
+            if self.part_at(condition, &doubt, (ConditionKind::Loop, span), goals, at) {
                 return Ok(None);
             }
             return Ok(self.skip_unknown(region, cause, span, at));
@@ -242,8 +255,8 @@ impl Interpreter {
         at: &BlockContext<'_>,
     ) -> Result<Option<ControlStep>, Box<Fault>> {
         let counter = &count.counter;
-        let end = self.value(count.end, at)?;
-        let step = self.value(count.step, at)?;
+        let end = self.loop_value(count.end, at)?;
+        let step = self.loop_value(count.step, at)?;
         let region_end = self.state.control.frames.running().map_or(opener, |frame| {
             self.programs.index(frame.unit).links(opener).end
         });
@@ -303,8 +316,8 @@ impl Interpreter {
             fault
         };
         let operand = Operand::Expression(counter.place);
-        let value = self.value(operand, &head).map_err(shown)?;
-        let width = self.value(step, &head).map_err(shown)?;
+        let value = self.loop_value(operand, &head).map_err(shown)?;
+        let width = self.loop_value(step, &head).map_err(shown)?;
         let sum = match (value.number(), width.number()) {
             (Some(value), Some(width)) => finite(value + width, span)?,
             _ => match (value, width) {
@@ -312,7 +325,7 @@ impl Interpreter {
             },
         };
         let place = self.target_place(counter.place, &head).map_err(shown)?;
-        self.write(place, sum.clone());
+        self.set_by(place, sum.clone(), &head);
         let count = Count {
             counter: sum,
             end,
@@ -439,7 +452,7 @@ impl Interpreter {
         if self.scratch.unread.get() {
             return;
         }
-        let value = unknown_value(cause);
+        let value = unknown_value(cause, at.file);
         let message = format!(
             "{what} depends on {value}; the dry run continues after it, and where both ways meet what differs is unknown"
         );
@@ -453,14 +466,6 @@ impl ControlState {
         if let Some(frame) = self.frames.running_mut() {
             frame.seeking = Some(seeking);
         }
-    }
-}
-
-/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
-fn same_case(wanted: &Value, value: &Value) -> bool {
-    match (wanted, value) {
-        (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
-        (wanted, value) => wanted == value,
     }
 }
 

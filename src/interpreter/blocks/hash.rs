@@ -8,6 +8,7 @@ use crate::interpreter::coordinates::geometry::foreign_command;
 use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::effects::machine_data::{WriteTarget, enables, is_machine_data, written};
+use crate::interpreter::effects::plc::lets_plc_act;
 use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
@@ -17,6 +18,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
 use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
 use crate::readings::{Alternative, Question};
 use crate::syntax::ast::Hash;
@@ -37,7 +39,17 @@ impl Interpreter {
         if !goes_on(&hash.name) {
             self.scratch.rests.set(true);
         }
+        self.scratch.plc_acts |= lets_plc_act(&hash.name);
         match hash.name.as_str() {
+            "#WAIT FOR" => self.wait_for(hash, at, outcome)?,
+            "#INIT" if initialises_all(rest) => {
+                self.pass_over("#INIT", hash.span, at);
+                self.state
+                    .track
+                    .write_anything(&mut self.state.control.memory);
+                self.state.control.memory.initialise(at.as_setter());
+                self.scratch.wrote = true;
+            }
             "#VAR" => return self.declare(&hash.declarations, at),
             "#DELETE" => return self.delete(hash, at),
             "#TIME" => {
@@ -93,7 +105,15 @@ impl Interpreter {
                 self.pace_command(name, rest, at);
                 for target in &hash.written {
                     let place = self.target_place(target.place, at)?;
-                    self.write(place, Value::Unknown(name.into()));
+                    match place {
+                        AssignedPlace::Variable(whole)
+                            if name == "#INIT" && whole.starts_with("V.E.") =>
+                        {
+                            self.write(AssignedPlace::Variable(whole.clone()), 0.0.into());
+                            self.state.control.memory.zero(&whole, &at.as_setter());
+                        }
+                        place => self.write(place, Value::Unknown(name.into())),
+                    }
                 }
                 let word = match chain::command(name) {
                     Some((words, ..)) => words,
@@ -244,6 +264,12 @@ impl ControlState {
             frame.restores = None;
         }
     }
+}
+
+/// Whether `#INIT` names the whole family `V.E.` (PM/207988747).
+fn initialises_all(rest: &str) -> bool {
+    rest.split(',')
+        .any(|name| name.trim().eq_ignore_ascii_case("V.E."))
 }
 
 /// Whether the axes certainly keep moving through a command.

@@ -62,6 +62,7 @@ impl Interpreter {
         match self.configured(word) {
             Configured::None => return false,
             Configured::Program(name) => {
+                self.scratch.plc_acts |= word.letter == b'M';
                 let wanted = WantedCall::program(CallScope::Global, name, at.in_block(span));
                 outcome.calls.push(wanted);
             }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::effects::plc::has_function;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -147,6 +148,7 @@ impl Interpreter {
                 span,
             } => {
                 let (name, keyword) = (axis.of(at.text), keyword.of(at.text));
+                self.scratch.plc_acts |= has_function(span.of(at.text));
                 let bracket = AxisBracket {
                     name,
                     keyword,
@@ -252,7 +254,7 @@ impl Interpreter {
             Some(Value::Text(code)) => Arc::clone(code),
             Some(Value::Unknown(cause)) => {
                 let cause = Arc::clone(cause);
-                return Err(self.lost_macro(span, name, &cause));
+                return Err(self.lost_macro(span, name, &cause, at));
             }
             Some(Value::Number(_)) | None => {
                 let fault = Fault::new(Code::Fc207, span, format!("macro `{name}` is not defined"));

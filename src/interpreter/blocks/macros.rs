@@ -54,9 +54,10 @@ impl Interpreter {
         span: Span,
         name: &str,
         cause: &Arc<str>,
+        at: &BlockContext<'_>,
     ) -> Box<Fault> {
         self.havoc_by_call(cause);
-        let what = unknown_value(cause);
+        let what = unknown_value(cause, at.file);
         let message = format!(
             "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
         );

@@ -18,4 +18,5 @@ pub(super) mod sequence;
 pub(super) mod skipping;
 pub(super) mod travel;
 pub(super) mod trying;
+pub(super) mod waiting;
 pub(super) mod words;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind};
+use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::unit::Parsed;
 use crate::interpreter::run::block_context::{BlockContext, ShownBlockLines};
@@ -20,7 +21,7 @@ use crate::interpreter::values::plain::{
     Asking, Truth, Writer, conclusions, is_one_comparison, reads, text_of, variable,
 };
 use crate::interpreter::values::target::RegionTarget;
-use crate::interpreter::values::value::Value;
+use crate::interpreter::values::value::{Value, same_case};
 use crate::readings::Question as Open;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BlockReference, Flow, Item, Operand};
@@ -31,7 +32,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn part_at(
         &mut self,
         condition: Operand,
-        cause: &Arc<str>,
+        doubt: &Doubt,
         (kind, span): (ConditionKind, Span),
         goals: [Goal; 2],
         at: &BlockContext<'_>,
@@ -70,8 +71,12 @@ impl Interpreter {
                 place
             },
             texts: vec![text.into()],
-            cause: cause.clone(),
-            reads: reads(at.block, at.text, expression, &self.stable),
+            cause: doubt.cause().clone(),
+            reads: reads(at.block, at.text, expression, &self.externals),
+            kept: doubt.kept_answer(|value| match value.truth() {
+                Some(true) => 0,
+                _ => 1,
+            }),
         };
         self.part(question, vec![yes, no], at)
     }
@@ -129,6 +134,7 @@ impl Interpreter {
             texts: vec![span.of(at.text).trim().into()],
             cause: cause.clone(),
             reads: None,
+            kept: None,
         };
         self.part(question, goals.into(), at)
     }
@@ -137,7 +143,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn part_at_jump(
         &mut self,
         condition: Operand,
-        cause: &Arc<str>,
+        doubt: &Doubt,
         at: &BlockContext<'_>,
     ) -> bool {
         let Some((to, span)) = self.only_jump(at) else {
@@ -145,7 +151,13 @@ impl Interpreter {
         };
         let next = self.state.control.frames.running().map_or(0, |it| it.next);
         let goals = [to, next].map(Goal::block);
-        self.part_at(condition, cause, (ConditionKind::Branch, span), goals, at)
+        self.part_at(condition, doubt, (ConditionKind::Branch, span), goals, at)
+    }
+
+    /// Whether the one jump of a block goes back, so that its condition is that of a loop.
+    pub(in crate::interpreter) fn jumps_back(&mut self, at: &BlockContext<'_>) -> bool {
+        let next = self.state.control.frames.running().map_or(0, |it| it.next);
+        self.only_jump(at).is_some_and(|(to, _)| to < next)
     }
 
     /// The run parts where a probe answers, or does not (R2.91).
@@ -160,6 +172,7 @@ impl Interpreter {
             texts: vec!["the probe answers".into()],
             cause: PROBE.into(),
             reads: None,
+            kept: None,
         };
         self.part(question, [to, next].map(Goal::block).into(), at)
     }
@@ -194,7 +207,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn part_at_cases(
         &mut self,
         operand: Operand,
-        cause: &Arc<str>,
+        doubt: &Doubt,
         span: Span,
         at: &BlockContext<'_>,
     ) -> bool {
@@ -207,9 +220,13 @@ impl Interpreter {
         let (subject, place) = text_of(at.block, at.text, expression);
         let mut goals = Vec::with_capacity(cases.len() + 1);
         let mut texts: Vec<Arc<str>> = Vec::with_capacity(cases.len());
-        let mut asking = reads(at.block, at.text, expression, &self.stable);
+        let mut asking = reads(at.block, at.text, expression, &self.externals);
         let subject_of = variable(at.block, at.text, expression);
         let subject_of = subject_of.filter(|target| self.may_conclude(target));
+        let kept = doubt.kept_answer(|value| {
+            let case = cases.iter().position(|(_, case)| same_case(case, value));
+            case.unwrap_or(cases.len())
+        });
         for (entry, value) in cases {
             texts.push(format!("{subject} == {}", shown(&value)).into());
             let values: Vec<_> = subject_of.iter().cloned().zip([value.clone()]).collect();
@@ -229,8 +246,9 @@ impl Interpreter {
             kind: ConditionKind::Case,
             span: if place.end > place.start { place } else { span },
             texts,
-            cause: cause.clone(),
+            cause: doubt.cause().clone(),
             reads: asking,
+            kept,
         };
         self.part(question, goals, at)
     }
@@ -334,6 +352,7 @@ impl Interpreter {
                 reads: Vec::new(),
                 meaning: cause.to_string(),
             }),
+            kept: None,
         };
         let goals = [after, entry].map(Goal::block);
         if !self.part(question, goals.into(), &at) {

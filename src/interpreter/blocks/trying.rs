@@ -139,7 +139,7 @@ impl Interpreter {
         self.departing.truncate(departing);
         let mut said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
         for said in said.iter_mut().filter(|said| !said.code.is_about_text()) {
-            let value = unknown_value(cause);
+            let value = unknown_value(cause, at.file);
             let message = &mut said.message;
             *message = format!("{message}; whether the block is executed depends on {value}");
         }

@@ -333,6 +333,7 @@ impl Interpreter {
             (b'F', _) => outcome.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
+                self.scratch.plc_acts = true;
                 // It may be M30 or M17.
                 for exit in [Exit::End, Exit::Return] {
                     let _ = self.note_jump(&exit, &"M".into());
@@ -341,6 +342,7 @@ impl Interpreter {
             (b'M' | b'T' | b'D', number) => {
                 // A function may wait for its acknowledgement.
                 self.scratch.rests.set(true);
+                self.scratch.plc_acts |= letter == b'M' && self.may_acknowledge(letter, number);
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.control.modal.pace.m(number);
                 }
@@ -352,7 +354,11 @@ impl Interpreter {
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
             (b'P', _) if self.scratch.dwells => self.dwell_parameter(number),
-            (b'H' | b'N', _) => {}
+            (b'H', _) => {
+                let function = number.and_then(rounded);
+                self.scratch.plc_acts |= self.may_acknowledge(letter, function);
+            }
+            (b'N', _) => {}
             (b'O', _) if is_program_number(at.block) => self.pass_over("O", span, at),
             _ if !is_letter(letter) => self.unread_word(span, at),
             _ => self.lack_axis(&char::from(letter).to_string(), span, at),
@@ -384,6 +390,7 @@ impl Interpreter {
             (Some(group), _) => self.state.control.modal.set(group, number),
             (None, 4) => {
                 outcome.axis_words = AxisWords::Other;
+                self.scratch.plc_acts = true;
                 self.scratch.dwells = true;
             }
             (None, 20..=23) => self.state.control.modal.mirror(number),

@@ -137,7 +137,7 @@ impl Interpreter {
         span: Span,
         at: &BlockContext<'_>,
     ) {
-        let value = unknown_value(cause);
+        let value = unknown_value(cause, at.file);
         let message = format!(
             "{what} depends on {value}; {then}, and everything that a program could change becomes unknown"
         );

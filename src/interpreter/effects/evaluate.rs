@@ -15,6 +15,7 @@ use crate::interpreter::values::expression::{Evaluator, ExpressionScope, Macros,
 use crate::interpreter::values::functions::numeric;
 use crate::interpreter::values::target::{AssignedPlace, RegionTarget};
 use crate::interpreter::values::value::Value;
+use crate::interpreter::values::variable::canonical;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Expression, Node, Operand, Owner};
 use crate::text::Span;
@@ -108,6 +109,8 @@ impl Interpreter {
                 given,
                 unread: &self.scratch.unread,
                 waits: &self.scratch.rests,
+                relied: &self.scratch.relied,
+                held: self.scratch.held,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
@@ -288,7 +291,11 @@ impl Interpreter {
         let value = value?;
         let place = self.target_place(assignment.target.place, at)?;
         self.warn_own(&place, assignment.target.span, at);
-        self.write(place, value);
+        let counts = self.counts_given(assignment, &place, at);
+        self.set_by(place, value, at);
+        if let Some(name) = counts {
+            self.state.control.memory.release(&name);
+        }
         Ok(())
     }
 
@@ -334,6 +341,38 @@ impl Interpreter {
             AssignedPlace::Parameters(cause) => self.state.control.memory.havoc_parameters(&cause),
             AssignedPlace::Nowhere => {}
         }
+    }
+
+    /// Writes a value that a block sets.
+    pub(in crate::interpreter) fn set_by(
+        &mut self,
+        place: AssignedPlace,
+        value: Value,
+        at: &BlockContext<'_>,
+    ) {
+        let shared = match &place {
+            AssignedPlace::Variable(name) if name.starts_with("V.E.") => Some(name.clone()),
+            _ => None,
+        };
+        self.write(place, value);
+        if let Some(name) = shared {
+            self.state.control.memory.hold(&name, at.as_setter());
+        }
+    }
+
+    /// A variable with a value from the user that the program counts on from there: the user's value was its
+    /// first one, and is not what the PLC writes.
+    fn counts_given(
+        &self,
+        assignment: Assignment,
+        place: &AssignedPlace,
+        at: &BlockContext<'_>,
+    ) -> Option<String> {
+        let AssignedPlace::Variable(name) = place else {
+            return None;
+        };
+        let is_given = name.starts_with("V.E.") && self.state.control.memory.given(name).is_some();
+        (is_given && reads_itself(assignment, name, at)).then(|| name.clone())
     }
 
     /// The number that an operand is, if it is known; FC312 for a string (R2.37).
@@ -422,6 +461,17 @@ fn given_parameter(name: &str) -> Option<u32> {
 
 fn compensation_kind(name: &str) -> Option<Kind> {
     name.parse().ok().filter(|kind| *kind != Kind::Backlash)
+}
+
+/// Whether the value of an assignment is computed from the variable that it writes.
+fn reads_itself(assignment: Assignment, name: &str, at: &BlockContext<'_>) -> bool {
+    let Operand::Expression(value) = assignment.value else {
+        return false;
+    };
+    let range = value.start as usize..value.end as usize;
+    let spans = at.block.spans.get(range).unwrap_or_default();
+    let mut texts = spans.iter().map(|span| span.of(at.text));
+    texts.any(|text| canonical(text) == name)
 }
 
 /// Whether an assignment counts: `P1 = P1 + 1`.

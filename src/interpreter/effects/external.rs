@@ -14,6 +14,7 @@ impl Interpreter {
     /// Makes unknown what a program that only the machine has does not keep.
     pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
         let keeps = self.machine.programs.keeps(name);
+        self.scratch.plc_acts = true;
         if !keeps.compensation {
             if let Some(undecided) = &mut self.scratch.undecided {
                 undecided

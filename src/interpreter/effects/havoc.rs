@@ -70,6 +70,7 @@ impl Interpreter {
     /// Every parameter and variable becomes unknown.
     pub(in crate::interpreter) fn havoc_memory(&mut self, cause: &Arc<str>) {
         self.journal.begin_anew();
+        self.scratch.plc_acts = true;
         self.scratch.wrote = true;
         self.state
             .track

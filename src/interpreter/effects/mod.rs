@@ -8,4 +8,5 @@ pub(super) mod exchange;
 pub(super) mod external;
 pub(super) mod havoc;
 pub(super) mod machine_data;
+pub(super) mod plc;
 pub(super) mod roots;

@@ -6,6 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::undecided::MentionedUnknowns;
+use crate::interpreter::values::cause::name_of;
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -52,7 +53,7 @@ impl MentionedUnknowns {
         cause: &str,
         at: &BlockContext<'_>,
     ) -> Diagnostic {
-        let is_shown = at.text.contains(cause) || at.block.skip.is_some();
+        let is_shown = at.text.contains(name_of(cause)) || at.block.skip.is_some();
         let origin = self.origin(cause).filter(|_| !is_shown);
         match origin {
             Some(origin) if (&origin.file, origin.first_line) != (at.file, at.line) => {

@@ -36,6 +36,8 @@ impl Interpreter {
     /// A restart of the control (R1.29): every kind returns to its start-up state, unless the machine
     /// is read as keeping what was switched.
     pub fn restart(&mut self) {
+        self.state.control.memory.restart();
+        self.journal.begin_anew();
         if !self.machine.readings.takes_second(Question::Restart) {
             self.set_compensation(self.machine.compensation());
         }

@@ -123,6 +123,9 @@ impl Interpreter {
         self.look_at_motion(outcome.axis_words, at);
         self.havoc_ways(at, finder);
         let calls = self.take_calls(&mut outcome, at, finder);
+        if self.scratch.plc_acts {
+            self.let_plc_act();
+        }
         let refused = self.scratch.diagnostics.iter().any(stops);
         let stopped = undecided.is_none()
             && self.options.stop == StopPolicy::FirstError

@@ -80,6 +80,7 @@ impl Interpreter {
         } else {
             (by, met) = self.meet_ended(by);
         }
+        self.let_plc_act();
         notes.to_mut().extend(self.met.drain(..));
         notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
         notes.to_mut().extend(self.take_held());

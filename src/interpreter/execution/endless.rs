@@ -74,8 +74,20 @@ impl Interpreter {
         at: &BlockContext<'_>,
         finder: &mut dyn Finder,
     ) -> ControlStep {
-        let why = self.note_pass(target);
-        if self.state.is_left_meanwhile() {
+        let mut why = self.note_pass(target);
+        let is_left = self.state.is_left_meanwhile();
+        // The program may wait for what the PLC writes (R2.99).
+        if self.state.control.memory.holds_any() {
+            if matches!(why, Some(Enough::Repeated)) {
+                self.let_plc_act();
+                why = None;
+                self.state.forget_passes();
+            } else if is_left {
+                let names = self.state.names_of_exits();
+                self.let_plc_write(|name| names.iter().any(|it| it == name));
+            }
+        }
+        if is_left {
             return self.follow_loop(target, Repeats::Known, finder);
         }
         let left = why.and_then(|why| {
@@ -263,7 +275,7 @@ impl Interpreter {
                 cause: out.cause.clone(),
             }),
         }
-        let decides = unknown_value(&out.cause);
+        let decides = unknown_value(&out.cause, at.file);
         let passes = match known.passes {
             1 => "one pass".to_owned(),
             passes => format!("{passes} passes"),
@@ -313,12 +325,38 @@ impl State {
 
     /// Whether other ways have left the innermost loop.
     fn is_left_meanwhile(&self) -> bool {
-        let Some(known) = self.track.loops.last() else {
-            return false;
-        };
+        self.left_meanwhile().next().is_some()
+    }
+
+    /// The other ways that have left the innermost loop.
+    fn left_meanwhile(&self) -> impl Iterator<Item = &Path> {
+        let since = self
+            .track
+            .loops
+            .last()
+            .map_or(u64::MAX, |known| known.since);
         let ended = self.ended.iter().map(|ended| &ended.path);
-        let mut others = self.pending.iter().chain(ended);
-        others.any(|path| path.parted >= known.since)
+        let others = self.pending.iter().chain(ended);
+        others.filter(move |path| path.parted >= since)
+    }
+
+    /// The variables that must change on ways that have left the innermost loop.
+    fn names_of_exits(&self) -> Vec<String> {
+        let conditions = self
+            .left_meanwhile()
+            .flat_map(|path| path.track.reach.conditions());
+        let conditions = conditions.filter_map(|it| self.conditions.get(it as usize));
+        let kept = conditions.filter_map(|condition| condition.kept.as_ref());
+        let names = kept.flat_map(|kept| kept.name.split(" or "));
+        names.map(str::to_owned).collect()
+    }
+
+    /// The innermost loop begins anew: the passes so far prove nothing.
+    fn forget_passes(&mut self) {
+        if let Some(known) = self.track.loops.last_mut() {
+            known.mark = None;
+            known.endless = None;
+        }
     }
 
     /// Whether the state is that of an earlier pass; if there is none, it is kept for comparison.

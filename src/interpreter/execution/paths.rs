@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use super::endless::watches;
 use crate::comp::{AxisIndex, Kind};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::run::block_scratch::BlockScratch;
 use crate::interpreter::run::condition::{Condition, ConditionKind};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::Path;
-use crate::interpreter::run::possible_state::ways_of;
+use crate::interpreter::run::possible_state::{change_since, ways_of};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::way_condition::limit_to;
 use crate::interpreter::run::way_set::WaySet;
@@ -241,27 +241,44 @@ fn differ_in_words(mine: &ControlState, theirs: &ControlState) -> bool {
 
 fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
     let cause = &condition.cause;
+    let shown = shown.join(", ");
+    if let Some(kept) = &condition.kept {
+        let file = &condition.place.file;
+        let message = format!(
+            "this condition has another answer only if {}; both ways are followed, and where they meet what \
+             differs is unknown: {shown}",
+            change_since(kept).in_words((file, condition.place.start().line), file)
+        );
+        let mut said = Diagnostic::new(Code::Fc901, condition.place.clone(), message);
+        said.lower(Severity::Info);
+        return said.with_help(how_to_set(cause));
+    }
     let asks = match condition.kind {
         ConditionKind::Skip(_) => format!(
             "whether the control executes the blocks of {cause} depends on a switch of the machine"
         ),
         ConditionKind::Probe => format!(
             "whether this jump is taken depends on {}",
-            unknown_value(cause)
+            unknown_value(cause, &condition.place.file)
         ),
         ConditionKind::Call(_) => {
-            format!("what this call leaves depends on {}", unknown_value(cause))
+            format!(
+                "what this call leaves depends on {}",
+                unknown_value(cause, &condition.place.file)
+            )
         }
         ConditionKind::Branch
         | ConditionKind::Case
         | ConditionKind::Loop
         | ConditionKind::Search => {
-            format!("this condition depends on {}", unknown_value(cause))
+            format!(
+                "this condition depends on {}",
+                unknown_value(cause, &condition.place.file)
+            )
         }
     };
     let message = format!(
-        "{asks}; every way is followed, and where they meet what differs is unknown: {}",
-        shown.join(", ")
+        "{asks}; every way is followed, and where they meet what differs is unknown: {shown}"
     );
     Diagnostic::new(Code::Fc901, condition.place.clone(), message).with_help(how_to_set(cause))
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::programs::unit::Parsed;
+use crate::interpreter::values::externals::SetAt;
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Fault, RawBlock, Remark};
 use crate::text::{MAX_WHOLE, Place, Span};
@@ -107,6 +108,14 @@ impl LineSpan {
 }
 
 impl<'a> BlockContext<'a> {
+    /// The block as one that sets a variable.
+    pub(in crate::interpreter) fn as_setter(&self) -> SetAt {
+        SetAt {
+            file: self.file.clone(),
+            line: self.line,
+        }
+    }
+
     /// A block of the main program, or one that is inspected, not executed.
     #[inline]
     pub(in crate::interpreter) fn of_raw(

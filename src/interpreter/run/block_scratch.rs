@@ -14,6 +14,7 @@ use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
 use crate::interpreter::coordinates::moving::{MovedAxis, MovingRow};
 use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::values::externals::HeldValues;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
@@ -102,6 +103,11 @@ pub(in crate::interpreter) struct BlockScratch {
     /// Motion of the block, where motions are taken.
     pub(in crate::interpreter) motion: Option<Motion>,
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
+    /// The variables that its expressions read and that the PLC may write, where their value is known (R2.99).
+    pub(in crate::interpreter) relied: RefCell<Vec<String>>,
+    pub(in crate::interpreter) held: HeldValues,
+    /// Whether the PLC acts by design in the block.
+    pub(in crate::interpreter) plc_acts: bool,
     /// The states of compensation that its expressions read.
     pub(in crate::interpreter) asked: RefCell<Vec<(AxisIndex, Kind)>>,
     /// Whether a text of the block had no known meaning; what depends on it is not reported again
@@ -177,6 +183,7 @@ impl BlockScratch {
         self.lone = None;
         self.geometry = None;
         self.dwells = false;
+        self.plc_acts = false;
         self.motion = None;
         self.notes.get_mut().clear();
         self.aside.asked.clear();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::comp::Kind;
+use crate::interpreter::values::externals::SetAt;
 use crate::text::Place;
 
 /// Answers of one condition, which have a bit each.
@@ -42,6 +43,17 @@ pub(in crate::interpreter) struct Clash {
     pub(in crate::interpreter) answers: [u64; 2],
 }
 
+/// The answers that hold while a variable of the machine keeps the value that the program set (R2.99).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct KeptAnswer {
+    /// The variable, or several.
+    pub(in crate::interpreter) name: Arc<str>,
+    /// The block that set it.
+    pub(in crate::interpreter) set: SetAt,
+    /// The answers, a bit each.
+    pub(in crate::interpreter) sides: u64,
+}
+
 /// A condition that only the machine knows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Condition {
@@ -59,6 +71,9 @@ pub(in crate::interpreter) struct Condition {
     /// The answers to earlier conditions that contradict answers to it, unless a value changes in between.
     #[serde(default)]
     pub(in crate::interpreter) clashes: Vec<Clash>,
+    /// The answers that what the program wrote gives, unless the machine changes it in between.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(in crate::interpreter) kept: Option<KeptAnswer>,
 }
 
 impl Condition {
@@ -71,6 +86,13 @@ impl Condition {
             earlier.is_some()
         });
         copy
+    }
+
+    /// Whether some answers hold unless the machine changes what the program wrote.
+    pub(in crate::interpreter) fn keeps(&self, sides: u64) -> bool {
+        self.kept
+            .as_ref()
+            .is_some_and(|kept| sides & !kept.sides == 0)
     }
 
     /// Whether each of its answers has a bit.

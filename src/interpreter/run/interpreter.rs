@@ -22,9 +22,9 @@ use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::ProgramStore;
+use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::variable::set_name;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::readings::QuestionSet;
@@ -62,8 +62,8 @@ pub struct Interpreter {
     pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
     pub(in crate::interpreter) names: BTreeMap<String, AxisIndex>,
-    /// The variables of the machine that keep their values while a program runs (R14.1).
-    pub(in crate::interpreter) stable: BTreeSet<String>,
+    /// The variables of the machine of which the configuration says who writes them (R14.1, R2.99).
+    pub(in crate::interpreter) externals: Arc<ExternalNames>,
     /// Whether any axis requires a compensation (P-AXIS-00465).
     pub(in crate::interpreter) any_required: bool,
     pub(in crate::interpreter) programs: ProgramStore,
@@ -133,7 +133,10 @@ impl Interpreter {
         self.shown = ShownWays {
             version: self.version,
             possible: shown(state, &track.reach, conditions),
-            branch: (!track.reach.is_always()).then(|| ways_of(&track.reach, conditions)),
+            branch: {
+                let ways = (!track.reach.is_always()).then(|| ways_of(&track.reach, conditions));
+                ways.filter(|ways| !ways.is_empty())
+            },
         };
     }
 
@@ -184,7 +187,7 @@ impl Interpreter {
     pub(in crate::interpreter) fn with_state(
         machine: Arc<Machine>,
         options: Options,
-        state: State,
+        mut state: State,
     ) -> Self {
         let mut letters = [None; 26];
         let mut names = BTreeMap::new();
@@ -199,8 +202,12 @@ impl Interpreter {
                 }
             }
         }
+        let externals = Arc::new(ExternalNames::new(&machine.stable, &machine.own));
+        for control in state.controls_mut() {
+            control.memory.describe_externals(&externals);
+        }
         Self {
-            stable: machine.stable.iter().map(|name| set_name(name)).collect(),
+            externals,
             any_required: machine.axes.iter().any(|axis| !axis.monitored().is_empty()),
             machine,
             options,
@@ -238,7 +245,8 @@ impl Interpreter {
     /// their use from here on.
     pub(crate) fn find(&mut self, found: &FoundVariables) {
         self.state.control.memory.find(found);
-        self.used = Some(RefCell::new(VariableUse::new(self.machine.parameters)));
+        let used = VariableUse::new(self.machine.parameters, &self.externals);
+        self.used = Some(RefCell::new(used));
     }
 
     /// The use of variables that outlive programs by the programs since.
@@ -313,9 +321,15 @@ impl Interpreter {
         &self.state.control.modal
     }
 
-    /// The `V.S.` variables, which outlive programs (R2.34).
+    /// The variables that outlive programs and that only programs write: `V.S.`, and `V.E.` where the configuration
+    /// says so (R2.34, R2.99).
     pub fn shared_variables(&self) -> BTreeMap<String, Value> {
         self.state.control.memory.shared()
+    }
+
+    /// Whether a variable outlives programs, and only they write it.
+    pub(crate) fn only_programs_write(&self, name: &str) -> bool {
+        name.starts_with("V.S.") || self.externals.is_own(name)
     }
 
     /// The values that the running program sees, by name: the own parameters of its call, the

@@ -15,6 +15,7 @@ use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::externals::SetAt;
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::target::{AssignedPlace as Written, RegionTarget};
 use crate::interpreter::values::value::Value;
@@ -66,9 +67,17 @@ pub(in crate::interpreter) struct Marked {
 /// Values that follow from conditions, with what was known before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<AssumedRow>", from = "Vec<AssumedRow>")]
-pub(in crate::interpreter) struct AssumedValues(BTreeMap<RegionTarget, Option<Value>>);
+pub(in crate::interpreter) struct AssumedValues(BTreeMap<RegionTarget, ValueBefore>);
 
-type AssumedRow = (RegionTarget, Option<Value>);
+type AssumedRow = (RegionTarget, ValueBefore);
+
+/// What was known of a value before a condition.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ValueBefore {
+    value: Option<Value>,
+    /// The block that had set it, where the PLC had not acted since (R2.99).
+    set: Option<SetAt>,
+}
 
 impl From<Vec<AssumedRow>> for AssumedValues {
     fn from(rows: Vec<AssumedRow>) -> Self {
@@ -94,10 +103,16 @@ impl AssumedValues {
             RegionTarget::Parameter(Owner::Program, index) => {
                 let before = memory.parameter(*index);
                 memory.set_parameter(*index, value);
-                before
+                ValueBefore {
+                    value: before,
+                    set: None,
+                }
             }
             RegionTarget::Variable(name) => {
-                let before = memory.variable(name);
+                let before = ValueBefore {
+                    value: memory.variable(name),
+                    set: memory.release(name),
+                };
                 memory.set_variable(name, value);
                 before
             }
@@ -113,26 +128,40 @@ impl AssumedValues {
         self.undo_but(&BTreeSet::new(), memory);
     }
 
+    /// Withdraws those about variables that the PLC may write.
+    pub(in crate::interpreter) fn undo_external(
+        &mut self,
+        is_it: impl Fn(&str) -> bool,
+        memory: &mut Memory,
+    ) {
+        let stays = |target: &&RegionTarget| !matches!(target, RegionTarget::Variable(name) if is_it(name) && memory.may_change(name));
+        let kept = self.0.keys().filter(stays).cloned().collect();
+        self.undo_but(&kept, memory);
+    }
+
     fn undo_but(&mut self, kept: &BTreeSet<RegionTarget>, memory: &mut Memory) {
         let (stay, go) = std::mem::take(&mut self.0)
             .into_iter()
             .partition(|(target, _)| kept.contains(target));
         self.0 = stay;
-        let go: BTreeMap<RegionTarget, Option<Value>> = go;
+        let go: BTreeMap<RegionTarget, ValueBefore> = go;
         for (target, before) in go {
-            match (target, before) {
+            match (target, before.value) {
                 (RegionTarget::Parameter(_, index), Some(value)) => {
                     memory.set_parameter(index, value);
                 }
                 (RegionTarget::Parameter(_, index), None) => memory.delete_parameter(index),
-                (RegionTarget::Variable(name), Some(value)) => memory.set_variable(&name, value),
+                (RegionTarget::Variable(name), Some(value)) => {
+                    memory.set_variable(&name, value);
+                    memory.hold_again(&name, before.set);
+                }
                 (RegionTarget::Variable(name), None) => memory.delete(&name),
                 (RegionTarget::Elements(_) | RegionTarget::Parameters, _) => {}
             }
         }
     }
 
-    fn is_empty(&self) -> bool {
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
@@ -279,7 +308,7 @@ impl Path {
     pub(in crate::interpreter) fn undo_differing(&mut self, other: &mut Self) {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
-            let common = |(target, before): (&RegionTarget, &Option<Value>)| {
+            let common = |(target, before): (&RegionTarget, &ValueBefore)| {
                 let same = theirs.0.get(target) == Some(before);
                 let now = [&self.control.memory, &other.control.memory];
                 let now = now.map(|memory| value_of(memory, target));

@@ -6,7 +6,7 @@ use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
 use super::clash::clash;
-use super::condition::{Condition, ConditionKind};
+use super::condition::{Condition, ConditionKind, KeptAnswer};
 use super::possible::{PossibleKinds, Split};
 use super::way_condition::{
     BlockCondition, MAX_NAMED, WayChange, WayCondition, after_if, all_need_change, needs_change,
@@ -230,7 +230,8 @@ fn named(state: State, ways: &WaySet, conditions: &[Condition]) -> PossibleState
     }
 }
 
-/// The ways with the texts of their conditions.
+/// The ways with the texts of their conditions; none where one of them only needs values to stay as the program
+/// set them: it is taken for granted, and the others are exceptions (R2.99).
 pub(in crate::interpreter) fn ways_of(
     ways: &WaySet,
     conditions: &[Condition],
@@ -241,6 +242,9 @@ pub(in crate::interpreter) fn ways_of(
     for way in in_order {
         let asked = way.iter().filter_map(|answer| {
             let condition = conditions.get(answer.condition as usize)?;
+            if condition.keeps(answer.sides) {
+                return None;
+            }
             let changed = change_of(answer, way, conditions);
             Some(condition_of(condition, *answer, changed))
         });
@@ -251,6 +255,9 @@ pub(in crate::interpreter) fn ways_of(
                 named.push(condition);
             }
         }
+        if named.is_empty() {
+            return Vec::new();
+        }
         if !all.contains(&named) {
             all.push(named);
         }
@@ -259,7 +266,20 @@ pub(in crate::interpreter) fn ways_of(
     all
 }
 
+/// The change without which a condition has only the answer that the program set.
+pub(in crate::interpreter) fn change_since(kept: &KeptAnswer) -> WayChange {
+    WayChange {
+        name: kept.name.clone(),
+        file: kept.set.file.clone(),
+        line: kept.set.line,
+    }
+}
+
 fn change_of(answer: &WayAnswer, way: &Way, conditions: &[Condition]) -> Option<WayChange> {
+    let kept = conditions.get(answer.condition as usize)?.kept.as_ref();
+    if let Some(kept) = kept.filter(|kept| answer.sides & kept.sides == 0) {
+        return Some(change_since(kept));
+    }
     let found = clash(answer, way, conditions)?;
     let earlier = &conditions.get(found.earlier as usize)?.place;
     Some(WayChange {

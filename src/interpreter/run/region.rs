@@ -48,6 +48,8 @@ pub(in crate::interpreter) enum RegionEffect {
     Macro(String),
     /// A word gets another program by `#FILE NAME`.
     FileName(String),
+    /// The PLC acts by design (R2.99).
+    Plc,
     /// Everything, through a call of an unknown program.
     All,
     /// Everything that any local subprogram of the file does, through a call of an unknown one.

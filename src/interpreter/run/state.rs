@@ -55,6 +55,16 @@ pub(in crate::interpreter) struct State {
 }
 
 impl State {
+    /// The states of the control on all ways.
+    pub(in crate::interpreter) fn controls_mut(
+        &mut self,
+    ) -> impl Iterator<Item = &mut ControlState> {
+        let ended = self.ended.iter_mut().map(|ended| &mut ended.path);
+        let others = self.pending.iter_mut().chain(ended);
+        let others = others.map(|path| &mut path.control);
+        std::iter::once(&mut self.control).chain(others)
+    }
+
     /// Whether a word that is reported once occurs for the first time in the program.
     pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
         let words = &mut self.once;

@@ -123,10 +123,14 @@ impl FoundStates<'_> {
         }
     }
 
-    /// Whether it is on all ways.
+    /// Whether it is on all ways, except where a value changes that the program set.
     pub(crate) fn is_always(self, axis: AxisIndex, kind: Kind) -> bool {
         let untouched = self.untouched.0.get(&(axis, kind));
-        self.reach.is_always() && untouched.is_none_or(WaySet::is_always)
+        self.are_all(self.reach) && untouched.is_none_or(|ways| self.are_all(ways))
+    }
+
+    fn are_all(self, ways: &WaySet) -> bool {
+        ways.is_always() || !ways.is_never() && ways_of(ways, self.conditions).is_empty()
     }
 
     /// All ways that lead to the block.
@@ -158,7 +162,7 @@ impl FoundStates<'_> {
         let ways = self.untouched.of((axis, kind), self.reach);
         if ways.is_never() {
             UntouchedOn::Never
-        } else if ways.is_always() {
+        } else if self.are_all(&ways) {
             UntouchedOn::Always
         } else {
             UntouchedOn::If(if_ways(&ways_of(&ways, self.conditions), file))

@@ -124,7 +124,7 @@ pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
 /// Adds to a message the ways on which it applies (R14.5). One that is not an error and applies only if a
 /// value of the machine changes in between is information only (R14.1).
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
-    if said.code.is_about_text() {
+    if said.code.is_about_text() || ways.is_empty() {
         return;
     }
     let words = if_ways(ways, &said.place.file);
@@ -188,7 +188,7 @@ fn way_in_words(way: &[WayCondition], file: &str) -> String {
 
 impl WayChange {
     /// `V.E.A changes between lines 1 and 9`.
-    fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
+    pub(in crate::interpreter) fn in_words(&self, (of, line): (&str, u32), file: &str) -> String {
         let Self {
             name, line: since, ..
         } = self;

@@ -7,7 +7,7 @@ use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::clash::{ImpliedValues, RememberedCondition, is_compared};
-use crate::interpreter::run::condition::{Condition, ConditionKind, MAX_ANSWERS};
+use crate::interpreter::run::condition::{Condition, ConditionKind, KeptAnswer, MAX_ANSWERS};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::Branches;
 use crate::interpreter::run::path::{AskedCondition, BranchSide};
@@ -43,6 +43,8 @@ pub(in crate::interpreter) struct MachineQuestion {
     pub(in crate::interpreter) cause: Arc<str>,
     /// Values that it reads, where that is plain.
     pub(in crate::interpreter) reads: Option<Asking>,
+    /// The answer that what the program set gives.
+    pub(in crate::interpreter) kept: Option<KeptAnswer>,
 }
 
 impl MachineQuestion {
@@ -144,17 +146,21 @@ impl Interpreter {
     pub(in crate::interpreter) fn part(
         &mut self,
         question: MachineQuestion,
-        goals: Vec<Goal>,
+        mut goals: Vec<Goal>,
         at: &BlockContext<'_>,
     ) -> bool {
         if self.scratch.unread.get() {
             return false;
         }
         if self.options.branches == Branches::Passed {
-            return self.take_chosen(question, goals, at);
+            return question.kept.is_none() && self.take_chosen(question, goals, at);
         }
         if !self.may_part(goals.len(), at) {
             return false;
+        }
+        if let Some(kept) = &question.kept {
+            let own = goals.get_mut(kept.sides.trailing_zeros() as usize);
+            own.into_iter().for_each(|goal| goal.values.clear());
         }
         if question.kind == ConditionKind::Loop {
             self.state.note_open_loop();
@@ -238,7 +244,9 @@ impl Interpreter {
             round: 0,
             time: 0,
             clashes: Vec::new(),
+            kept: None,
         });
+        self.keep_answer(condition, question.kept.as_ref());
         let track = &mut self.state.track;
         track.asked.retain(|asked| asked.condition != condition);
         if let Some(key) = key {
@@ -255,6 +263,22 @@ impl Interpreter {
             self.compare(condition, &question, answers);
         }
         condition
+    }
+
+    /// Notes the answer that what the program set gives. Other ways may name the same condition as it was asked
+    /// before.
+    fn keep_answer(&mut self, condition: u32, kept: Option<&KeptAnswer>) {
+        let State {
+            conditions,
+            pending,
+            ended,
+            ..
+        } = &mut self.state;
+        let is_alone = pending.is_empty() && ended.is_empty();
+        if let Some(known) = conditions.get_mut(condition as usize) {
+            let is_it = known.time == 0 || is_alone || known.kept.as_ref() == kept;
+            known.kept = kept.filter(|_| is_it).cloned();
+        }
     }
 
     /// Finds the answers that contradict earlier ones, unless the machine changes a value in between.

@@ -42,7 +42,7 @@ impl Interpreter {
                 JumpTarget::Return | JumpTarget::Far => "the program may be left here, which",
                 JumpTarget::Block(_) => "a jump may leave this control block, which",
             };
-            let value = unknown_value(&way.cause);
+            let value = unknown_value(&way.cause, at.file);
             let message = format!(
                 "{what} depends on {value}; the dry run continues, and where both ways meet what differs is unknown"
             );

@@ -44,6 +44,7 @@ impl Interpreter {
             round: 0,
             time: 0,
             clashes: Vec::new(),
+            kept: None,
         });
         let reach = &self.state.track.reach;
         let mut sides = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));

@@ -15,6 +15,7 @@ use crate::interpreter::coordinates::moving::{self, Moves};
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::effects::machine_data::is_machine_data;
+use crate::interpreter::effects::plc::{has_function, lets_plc_act};
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, WantedCall};
@@ -25,6 +26,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::lone_part::{LonePart, has_parts};
 use crate::interpreter::run::region::{Exit, Region, RegionEffect};
 use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::plain::subscript;
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::interpreter::values::variable::{canonical, with_subscripts};
@@ -227,6 +229,9 @@ impl MayEffects<'_> {
         } else if name.starts_with('S') {
             self.effect(RegionEffect::Spindle);
         }
+        if has_function(body) {
+            self.effect(RegionEffect::Plc);
+        }
         if let Some(what) = simplified::of_bracket(keyword, body) {
             self.effect(RegionEffect::Simplified(what));
         }
@@ -332,6 +337,9 @@ impl MayEffects<'_> {
             let axes = self.run.axes_in(rest);
             self.effect(RegionEffect::Followers(axes));
         }
+        if lets_plc_act(&hash.name) {
+            self.effect(RegionEffect::Plc);
+        }
         self.effect(RegionEffect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
             Some(Touches::Motion | Touches::Plane) => self.effect(RegionEffect::Positions),
@@ -428,6 +436,11 @@ impl MayEffects<'_> {
                 self.exit(Exit::Return);
             }
             _ => {}
+        }
+        if let Address::Letter(letter) = word.address
+            && self.run.lets_plc_act_at(letter, number)
+        {
+            self.effect(RegionEffect::Plc);
         }
         match word.address {
             Address::Letter(b'G') => self.g(number),
@@ -582,13 +595,4 @@ impl Interpreter {
         }
         may_effects.region
     }
-}
-
-/// A subscript that is a plain number.
-fn subscript(node: &Node) -> String {
-    let number = match node {
-        Node::Number(number) => rounded(*number),
-        _ => None,
-    };
-    number.unwrap_or(i64::MAX).to_string()
 }

@@ -241,6 +241,7 @@ impl Interpreter {
                 self.state.control.memory.havoc_elements(name, cause);
                 self.scratch.wrote = true;
             }
+            RegionEffect::Plc => self.let_plc_act(),
             RegionEffect::All => self.havoc_all(cause),
             RegionEffect::AnyLocal(span) => self.look_through_locals(*span, unit, cause),
         }

@@ -103,6 +103,7 @@ impl Interpreter {
             round: 0,
             time: 0,
             clashes: Vec::new(),
+            kept: None,
         });
         let reach = &self.state.track.reach;
         let sides: Vec<WaySet> = answers(condition, 2)

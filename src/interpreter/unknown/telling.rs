@@ -45,7 +45,7 @@ impl Interpreter {
             ),
             _ => format!(
                 "this control block depends on {}; whatever it could change is unknown from here on",
-                unknown_value(cause)
+                unknown_value(cause, at.file)
             ),
         };
         let fault = Fault::new(Code::Fc901, span, message).with_help(how_to_set(cause));

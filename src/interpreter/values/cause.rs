@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::externals::SetVariable;
 use crate::diagnostic::Advice;
 use crate::syntax::is_command;
 
@@ -29,9 +30,11 @@ pub(in crate::interpreter) fn program(name: &str) -> Arc<str> {
     format!("{PROGRAM}{name}").into()
 }
 
-/// A value that is not known offline, with the reason.
-pub(in crate::interpreter) fn unknown_value(name: &str) -> String {
-    if decided_level(name).is_some() {
+/// A value that is not known offline, with the reason, as seen from a file.
+pub(in crate::interpreter) fn unknown_value(name: &str, file: &str) -> String {
+    if let Some(set) = SetVariable::of(name) {
+        set.seen_from(file)
+    } else if decided_level(name).is_some() {
         format!("{name}, a switch of the machine")
     } else if name == PROBE {
         format!("{name}, which only the machine knows")
@@ -76,5 +79,10 @@ pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
     if !is_settable(name) {
         return format!("FC210, FC207 or FC902 shows where `{name}` first occurs").into();
     }
-    Advice::SetVariable(name.to_owned())
+    Advice::SetVariable(name_of(name).to_owned())
+}
+
+/// The name by which a user knows a value that is not known offline.
+pub(in crate::interpreter) fn name_of(cause: &str) -> &str {
+    SetVariable::of(cause).map_or(cause, |set| set.name)
 }

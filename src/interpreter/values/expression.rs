@@ -7,10 +7,12 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::externals::{HeldValues, SetVariable};
 use super::found::VariableUse;
 use super::functions::{binary, call, fault, numeric, wrong_type};
 use super::memory::Memory;
 use super::names::parts;
+use super::parameter_key::ParameterKey;
 use super::reads::Reads;
 use super::target::{AssignedPlace, RegionTarget};
 use super::value::{Slot, Value, rounded};
@@ -44,6 +46,9 @@ pub(in crate::interpreter) struct ExpressionScope<'a> {
     pub(in crate::interpreter) unread: &'a Cell<bool>,
     /// Set where a variable is read for which the control waits until the axes rest.
     pub(in crate::interpreter) waits: &'a Cell<bool>,
+    /// The variables read whose value is known and which the PLC may write.
+    pub(in crate::interpreter) relied: &'a RefCell<Vec<String>>,
+    pub(in crate::interpreter) held: HeldValues,
 }
 
 /// Source of the own parameters of a program, `@P1` ….
@@ -146,7 +151,7 @@ impl Evaluator<'_> {
                 Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
                 Node::IndexedParameter { owner, subscripts } => {
-                    Self::parameter_key(owner, usize::from(subscripts), span, stack)
+                    ParameterKey::pop(owner, usize::from(subscripts), span, stack)
                         .and_then(|key| self.keyed_parameter(&key, span))
                 }
                 Node::Variable { subscripts: 0 } => {
@@ -317,44 +322,6 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Pops the number and the subscripts of a parameter.
-    fn parameter_key(
-        owner: Owner,
-        subscripts: usize,
-        span: Span,
-        stack: &mut Vec<Slot>,
-    ) -> Result<ParameterKey, Box<Fault>> {
-        let from = stack.len().saturating_sub(subscripts + 1);
-        let mut numbers = Vec::with_capacity(subscripts + 1);
-        let mut unknown = None;
-        for slot in stack.drain(from..) {
-            let value = slot?;
-            if let Some(number) = numeric(&value, span)? {
-                numbers.push(rounded(number).unwrap_or(i64::MAX));
-            } else {
-                numbers.push(i64::MAX);
-                unknown = unknown.or(Some((numbers.len() == 1, value)));
-            }
-        }
-        let index = numbers.first().copied().unwrap_or_default();
-        let index = u32::try_from(index).unwrap_or(u32::MAX);
-        let array = format!("P{index}");
-        if let Some((no_index, cause)) = unknown {
-            let array = (!no_index).then_some(array);
-            return Ok(ParameterKey::Unknown(array, cause));
-        }
-        if subscripts == 0 {
-            return Ok(ParameterKey::Plain(owner, index));
-        }
-        let mut name = array;
-        for number in &numbers[1..] {
-            name.push('[');
-            name.push_str(&number.to_string());
-            name.push(']');
-        }
-        Ok(ParameterKey::Element(name))
-    }
-
     /// The full name of a variable whose subscripts are on the stack.
     fn variable_key(
         &self,
@@ -414,7 +381,7 @@ impl Evaluator<'_> {
         }
         self.note_read(name);
         if let Some(value) = self.scope.memory.variable(name) {
-            return Ok(value);
+            return Ok(self.relied_on(name, value, span));
         }
         if let Some(value) = self.scope.memory.given(name) {
             return Ok(value.clone());
@@ -430,6 +397,26 @@ impl Evaluator<'_> {
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
             Value::Unknown(written.into())
         }))
+    }
+
+    /// A value of a variable that the PLC may write, too (R2.99).
+    fn relied_on(&self, name: &str, value: Value, span: Span) -> Value {
+        let memory = self.scope.memory;
+        if let Value::Unknown(cause) = &value {
+            if SetVariable::of(cause).is_some() {
+                let written = as_written(span.of(self.text));
+                (self.scope.unknown)(&written, self.shown.unwrap_or(span));
+            }
+            return value;
+        }
+        if !memory.may_change(name) {
+            return value;
+        }
+        self.scope.relied.borrow_mut().push(name.to_owned());
+        match self.scope.held {
+            HeldValues::Doubted if memory.set_at(name).is_some() => Value::Unknown(name.into()),
+            HeldValues::Taken | HeldValues::Doubted => value,
+        }
     }
 
     /// The number of elements of an array: of its first dimension, or of the requested one.
@@ -490,7 +477,7 @@ impl Evaluator<'_> {
                 Ok(AssignedPlace::Parameters(text))
             }
             Node::IndexedParameter { owner, subscripts } => {
-                Self::parameter_key(owner, usize::from(subscripts), span, stack).map(
+                ParameterKey::pop(owner, usize::from(subscripts), span, stack).map(
                     |key| match key {
                         ParameterKey::Plain(owner, index) => AssignedPlace::Parameter(owner, index),
                         ParameterKey::Element(name) => AssignedPlace::Variable(name),
@@ -548,13 +535,6 @@ impl Evaluator<'_> {
         };
         stack.drain(bottom..).skip(skip).map(size).collect()
     }
-}
-
-enum ParameterKey {
-    Plain(Owner, u32),
-    Element(String),
-    /// The number or a subscript is not known; the array where its name is.
-    Unknown(Option<String>, Value),
 }
 
 enum VariableKey {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::externals::ExternalNames;
 use super::names::parts;
 use super::target::AssignedPlace;
 use super::value::Value;
@@ -81,12 +82,17 @@ pub(crate) struct VariableUse {
     /// The values that it may have written.
     pub(crate) written: FoundVariables,
     parameters: Parameters,
+    externals: Arc<ExternalNames>,
 }
 
 impl VariableUse {
-    pub(in crate::interpreter) fn new(parameters: Parameters) -> Self {
+    pub(in crate::interpreter) fn new(
+        parameters: Parameters,
+        externals: &Arc<ExternalNames>,
+    ) -> Self {
         Self {
             parameters,
+            externals: Arc::clone(externals),
             ..Self::default()
         }
     }
@@ -137,12 +143,16 @@ impl VariableUse {
         let element: Arc<str> = base.into();
         let is_whole = subscripts.is_empty();
         let value = is_whole.then(|| value.clone());
+        if self.externals.is_own(base) {
+            // What no program has written before is 0.
+            self.written.write(base, Value::Number(0.0));
+        }
         self.written
             .write(base, value.unwrap_or(Value::Unknown(element)));
     }
 
     fn outlives(&self, base: &str) -> bool {
         let is_parameter = base.starts_with('P') && self.parameters == Parameters::Kept;
-        base.starts_with("V.S.") || is_parameter
+        base.starts_with("V.S.") || is_parameter || self.externals.is_own(base)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::carried::Carried;
+use super::externals::{ExternalVariables, SetAt};
 use super::found::FoundVariables;
 use super::names::{
     Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
@@ -21,23 +21,25 @@ use crate::syntax::ast::Owner;
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Memory {
-    parameters: ParameterValues,
+    pub(super) parameters: ParameterValues,
     /// Set when an unknown parameter was written: the value that decides which.
-    lost: Option<Arc<str>>,
+    pub(super) lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
-    variables: VariableNames,
+    pub(super) variables: VariableNames,
     /// Values given by the user for parameters and variables that no program wrote.
-    given: PersistentMap<String, Value>,
+    pub(super) given: PersistentMap<String, Value>,
     /// Set when any of those that programs write may have been written: the text that caused it.
     unknown_names: Option<Arc<str>>,
     /// The names that outlive programs, may exist, and were not certainly written since.
-    found: BTreeSet<String>,
+    pub(super) found: BTreeSet<String>,
     /// Whether a `V.S.` variable that no known program writes may still exist.
     may_find: bool,
+    /// `V.E.` variables that the PLC writes, too (R2.99).
+    pub(super) externals: ExternalVariables,
     /// `V.L.` of each call level.
     locals: Vec<VariableNames>,
     /// The code of each macro, or the cause why it is unknown.
-    macros: PersistentMap<String, Value>,
+    pub(super) macros: PersistentMap<String, Value>,
     /// Rises with every change of the macros.
     macro_version: u64,
     /// The weight of macros.
@@ -92,19 +94,28 @@ impl Memory {
         if name.starts_with("V.L.") {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
-        let unknown = self.unknown_names.as_ref().filter(|_| is_written(name));
+        let unknown = self.unknown_names.as_ref();
+        let unknown = unknown.filter(|_| self.is_written(name));
         let written = self.variables.value(name);
         written.or_else(|| match unknown {
             Some(cause) => Some(Value::Unknown(cause.clone())),
-            None => self
-                .may_find(name)
-                .then(|| Value::Unknown(parts(name).0.into())),
+            None if self.may_find(name) => Some(Value::Unknown(parts(name).0.into())),
+            None => {
+                let is_zero = self.externals.is_zero(name) && self.given.get(name).is_none();
+                is_zero.then_some(Value::Number(0.0))
+            }
         })
+    }
+
+    /// Whether only programs write the variable of a name.
+    fn is_written(&self, name: &str) -> bool {
+        is_written(name) || self.externals.names.is_own(name)
     }
 
     /// Whether a name that nothing is known about may exist.
     fn may_find(&self, name: &str) -> bool {
-        self.may_find && name.starts_with("V.S.") && self.given.get(name).is_none()
+        let is_kept = name.starts_with("V.S.") || self.externals.names.is_own(name);
+        self.may_find && is_kept && self.given.get(name).is_none()
     }
 
     /// Sets what the program finds in variables that outlive programs. Values from the user take precedence.
@@ -154,11 +165,10 @@ impl Memory {
     /// A value from the user (R2.36). Values that programs write take precedence.
     pub(in crate::interpreter) fn give(&mut self, name: &str, value: Value) {
         let name = set_name(name);
-        if is_written(&name) {
-            self.given.insert(name, value);
-        } else {
-            self.set_variable(&name, value);
+        if !self.is_written(&name) {
+            self.set_variable(&name, value.clone());
         }
+        self.given.insert(name, value);
     }
 
     /// The value that the user gave.
@@ -169,6 +179,7 @@ impl Memory {
     pub(in crate::interpreter) fn set_variable(&mut self, name: &str, value: Value) {
         if !name.starts_with("V.L.") {
             self.found.remove(name);
+            self.externals.release(name);
             self.variables.set(name, value);
             return;
         }
@@ -264,6 +275,7 @@ impl Memory {
     pub(in crate::interpreter) fn delete(&mut self, name: &str) {
         if !name.starts_with("V.L.") {
             self.found.remove(name);
+            self.externals.release(name);
             self.variables.delete(name);
             return;
         }
@@ -302,7 +314,9 @@ impl Memory {
         self.unknown_names = Some(cause.clone());
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         for names in levels {
-            let written = names.names.keys().filter(|name| is_written(name));
+            let externals = &self.externals.names;
+            let is_written = |name: &&String| is_written(name) || externals.is_own(name);
+            let written = names.names.keys().filter(is_written);
             for name in written.cloned().collect::<Vec<String>>() {
                 names.names.slot(name, NamedVariable::default).havoc(cause);
             }
@@ -314,6 +328,11 @@ impl Memory {
     pub(in crate::interpreter) fn miss(&mut self, cause: &Arc<str>) {
         self.lost.get_or_insert_with(|| cause.clone());
         self.unknown_names.get_or_insert_with(|| cause.clone());
+    }
+
+    /// Releases a variable that is held. Returns the block that had set it.
+    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<SetAt> {
+        self.externals.release(name)
     }
 
     pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
@@ -328,6 +347,7 @@ impl Memory {
         other: &Self,
     ) -> Option<Vec<RegionTarget>> {
         let same = self.lost == other.lost
+            && self.externals == other.externals
             && self.unknown_names == other.unknown_names
             && self.locals.len() == other.locals.len()
             && self.macro_version == other.macro_version;
@@ -364,6 +384,7 @@ impl Memory {
             unknown_names,
             found,
             may_find,
+            externals,
             locals,
             macros,
             macro_version,
@@ -387,6 +408,7 @@ impl Memory {
         self.found.extend(found.iter().cloned());
         self.may_find |= may_find;
         differing += self.variables.join(variables, cause);
+        self.externals.join(externals);
         while self.locals.len() < locals.len() {
             self.locals.push(VariableNames::default());
         }
@@ -404,13 +426,21 @@ impl Memory {
         differing + names.len()
     }
 
-    /// The variables that are read not only by the program and that differ in another memory.
+    /// The variables that are read not only by the program and that differ in another memory, beyond what the PLC
+    /// may have changed.
     pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
         let names = self.variables.names.differing(&other.variables.names);
+        let is_lost = |memory: &Self, name: &str| {
+            let value = memory.variables.value(name);
+            matches!(value, Some(Value::Unknown(_))) && memory.externals.names.may_change(name)
+        };
         let is_read = |name: &String| {
             name.starts_with("V.") && !(name.starts_with("V.P.") || name.starts_with("V.CYC."))
         };
-        names.into_iter().filter(is_read).collect()
+        let names = names.into_iter().filter(is_read);
+        names
+            .filter(|name| !is_lost(self, name) && !is_lost(other, name))
+            .collect()
     }
 
     /// Values of the program that are not known any more.
@@ -446,7 +476,7 @@ impl Memory {
         self.hold_macro(name.trim(), Value::Text(unescaped(code).into()));
     }
 
-    fn hold_macro(&mut self, name: &str, code: Value) {
+    pub(super) fn hold_macro(&mut self, name: &str, code: Value) {
         self.macro_version = self.macro_version.wrapping_add(1);
         self.weight.add(weight(name, &code));
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
@@ -506,59 +536,10 @@ impl Memory {
         self.macro_version
     }
 
-    /// Returns the values that a program start leaves (R9.32).
-    pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
-        let mut carried = Carried::default();
-        for (name, code) in self.macros.iter() {
-            match code {
-                Value::Text(code) => {
-                    carried.macros.insert(name.clone(), code.to_string());
-                }
-                Value::Unknown(cause) => {
-                    carried.lost_macros.insert(name.clone(), cause.clone());
-                }
-                Value::Number(_) => {}
-            }
-        }
-        if parameters == Parameters::Kept {
-            let parameters = self.parameters.iter();
-            carried.parameters = parameters.map(|(at, value)| (at, value.clone())).collect();
-            carried.lost_parameters.clone_from(&self.lost);
-        }
-        let names = self.variables.names.iter();
-        for (name, variable) in names.filter(|(name, _)| is_kept(name, parameters)) {
-            variable.carry(name, &mut carried);
-        }
-        carried
-    }
-
-    /// Takes over what an earlier session left.
-    pub(in crate::interpreter) fn take_over(&mut self, carried: Carried) {
-        for (name, shape) in carried.arrays {
-            self.declare_array(&name, shape.dimensions, shape.default);
-        }
-        for (name, cause) in &carried.lost {
-            self.variables.havoc_elements(name, cause);
-        }
-        for (name, value) in carried.variables {
-            self.set_variable(&name, value);
-        }
-        self.lost = carried.lost_parameters;
-        for (index, value) in carried.parameters {
-            self.set_parameter(index, value);
-        }
-        for (name, code) in carried.macros {
-            self.hold_macro(&name, Value::Text(code.into()));
-        }
-        for (name, cause) in carried.lost_macros {
-            self.hold_macro(&name, Value::Unknown(cause));
-        }
-    }
-
     /// The `V.S.` variables, which outlive programs.
     pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
         let mut held = self.variables.held();
-        held.retain(|name, _| name.starts_with("V.S."));
+        held.retain(|name, _| name.starts_with("V.S.") || self.externals.names.is_own(name));
         held
     }
 
@@ -580,7 +561,7 @@ pub(in crate::interpreter) fn unescaped(code: &str) -> String {
 }
 
 /// Whether a program start leaves a variable or array.
-fn is_kept(name: &str, parameters: Parameters) -> bool {
+pub(super) fn is_kept(name: &str, parameters: Parameters) -> bool {
     !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
 }
 

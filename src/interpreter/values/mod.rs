@@ -3,10 +3,14 @@
 pub(super) mod carried;
 pub(super) mod cause;
 pub(super) mod expression;
+pub(super) mod externals;
 pub(super) mod found;
 pub(super) mod functions;
+pub(super) mod handover;
+pub(super) mod held;
 pub(super) mod memory;
 pub(super) mod names;
+pub(super) mod parameter_key;
 pub(super) mod parameter_values;
 pub(super) mod persistent;
 pub(super) mod plain;

@@ -1,11 +1,10 @@
 //! Conclusions from plain conditions about the values that they read (R14.1).
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 
+use super::externals::ExternalNames;
 use super::target::RegionTarget;
-use super::value::Value;
+use super::value::{Value, rounded};
 use super::variable::canonical;
 use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Owner};
 use crate::text::Span;
@@ -212,9 +211,9 @@ pub(in crate::interpreter) enum Writer {
 }
 
 impl Writer {
-    fn of(name: &str) -> Self {
+    fn of(name: &str, externals: &ExternalNames) -> Self {
         let is_of = |families: &[&str]| families.iter().any(|family| name.starts_with(family));
-        if is_of(&["V.P.", "V.L.", "V.S."]) {
+        if is_of(&["V.P.", "V.L.", "V.S."]) || externals.is_stable(name) {
             Self::Nothing
         } else if is_of(&["V.E."]) {
             Self::Machine
@@ -236,7 +235,7 @@ pub(in crate::interpreter) fn reads(
     block: &Block,
     text: &str,
     expression: Expression,
-    stable: &BTreeSet<String>,
+    externals: &ExternalNames,
 ) -> Option<Asking> {
     let mut found = Vec::new();
     let mut meaning = String::new();
@@ -256,8 +255,7 @@ pub(in crate::interpreter) fn reads(
         meaning = format!("{meaning} {read:?}");
         writer = writer.max(match &read {
             RegionTarget::Parameter(Owner::Program | Owner::Call, _) => Writer::Nothing,
-            RegionTarget::Variable(name) if stable.contains(name) => Writer::Nothing,
-            RegionTarget::Variable(name) => Writer::of(name),
+            RegionTarget::Variable(name) => Writer::of(name, externals),
             RegionTarget::Elements(_) | RegionTarget::Parameters => return None,
         });
         found.push(read);
@@ -267,6 +265,36 @@ pub(in crate::interpreter) fn reads(
         reads: found,
         meaning,
     })
+}
+
+/// Whether an expression reads, or may read, a value that the machine writes while the program waits.
+pub(in crate::interpreter) fn is_written_by_machine(
+    block: &Block,
+    text: &str,
+    expression: Expression,
+    externals: &ExternalNames,
+) -> bool {
+    let range = expression.start as usize..expression.end as usize;
+    let nodes = block.nodes.get(range.clone()).unwrap_or_default();
+    let spans = block.spans.get(range).unwrap_or_default();
+    nodes.iter().zip(spans).any(|(node, span)| match node {
+        Node::Variable { .. } => {
+            let name = canonical(span.of(text));
+            let is_cycle = name.starts_with("V.CYC.");
+            !is_cycle && Writer::of(&name, externals) != Writer::Nothing
+        }
+        Node::Text | Node::Unread => true,
+        _ => false,
+    })
+}
+
+/// A subscript that is a plain number.
+pub(in crate::interpreter) fn subscript(node: &Node) -> String {
+    let number = match node {
+        Node::Number(number) => rounded(*number),
+        _ => None,
+    };
+    number.unwrap_or(i64::MAX).to_string()
 }
 
 /// Whether a function of numbers always gives equal results for equal numbers.

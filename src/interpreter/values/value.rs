@@ -63,6 +63,14 @@ impl From<&crate::machine::Setting> for Value {
     }
 }
 
+/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
+pub(in crate::interpreter) fn same_case(wanted: &Value, value: &Value) -> bool {
+    match (wanted, value) {
+        (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
+        (wanted, value) => wanted == value,
+    }
+}
+
 /// A number that is a whole number, 0 or more.
 #[inline]
 pub(in crate::interpreter) fn exact(number: f64) -> Option<u32> {

@@ -78,7 +78,7 @@ impl BlockLowering<'_> {
 
     fn command(&mut self, name: String, touches: Touches, rest: Span, span: Span) {
         let arguments = match name.as_str() {
-            "#TIME" | "#DELETE" => self.expressions_in(rest),
+            "#TIME" | "#DELETE" | "#WAIT FOR" => self.expressions_in(rest),
             _ => Vec::new(),
         };
         let declarations = if name == "#VAR" {

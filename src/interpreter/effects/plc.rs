@@ -1,0 +1,200 @@
+//! Variables that the program shares with the PLC (R2.99).
+//!
+//! The PLC may write `V.E.` variables at any time. Until a block in which it acts by design, what the program wrote
+//! answers conditions, and the other answer needs the variable to change in between. From that block on only the
+//! machine knows the variable.
+
+use std::sync::Arc;
+
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::condition::KeptAnswer;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::state::State;
+use crate::interpreter::values::externals::{HeldValues, SetAt};
+use crate::interpreter::values::target::RegionTarget;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::Operand;
+
+/// A value that the program set and that decides a condition.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct KeptValue {
+    /// The variable, or several.
+    pub(in crate::interpreter) name: Arc<str>,
+    /// The block that set it.
+    pub(in crate::interpreter) set: SetAt,
+    /// The value of the condition.
+    pub(in crate::interpreter) value: Value,
+}
+
+/// Reason why a condition has more than one answer.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) enum Doubt {
+    /// A value that only the machine knows.
+    Unknown(Arc<str>),
+    /// A value that the program set and that the PLC may change.
+    Kept(KeptValue),
+}
+
+impl Doubt {
+    /// The doubt about a value that is not known.
+    pub(in crate::interpreter) fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Unknown(cause) => Some(Self::Unknown(cause.clone())),
+            Value::Number(_) | Value::Text(_) => None,
+        }
+    }
+
+    /// The value that decides.
+    pub(in crate::interpreter) fn cause(&self) -> &Arc<str> {
+        match self {
+            Self::Unknown(cause) => cause,
+            Self::Kept(kept) => &kept.name,
+        }
+    }
+
+    /// The answer that the program set, by its place among the answers.
+    pub(in crate::interpreter) fn kept_answer(
+        &self,
+        place: impl FnOnce(&Value) -> usize,
+    ) -> Option<KeptAnswer> {
+        let Self::Kept(kept) = self else {
+            return None;
+        };
+        Some(KeptAnswer {
+            name: kept.name.clone(),
+            set: kept.set.clone(),
+            sides: 1_u64.checked_shl(u32::try_from(place(&kept.value)).ok()?)?,
+        })
+    }
+}
+
+/// Whether the PLC acts by design at a `#` command: a dwell, a wait, an acknowledgement.
+pub(in crate::interpreter) fn lets_plc_act(command: &str) -> bool {
+    let mut words = command.split(' ');
+    match words.next() {
+        Some("#TIME" | "#WAIT") => true,
+        Some("#FLUSH") => words.any(|word| word == "WAIT"),
+        Some("#MSG") => words.any(|word| matches!(word, "ACK" | "SYN_ACK")),
+        // Late M functions are acknowledged here (tf5200_m_and_h_func/286004619).
+        Some("#EXPL") => true,
+        _ => false,
+    }
+}
+
+/// Whether the bracket of an axis or a spindle has an M or H function, `S[M3 REV1000]`.
+pub(in crate::interpreter) fn has_function(bracket: &str) -> bool {
+    let mut words = bracket.split(|it: char| !it.is_ascii_alphanumeric());
+    words.any(|word| {
+        let number = word.strip_prefix(['M', 'H', 'm', 'h']);
+        number.is_some_and(|it| !it.is_empty() && it.bytes().all(|it| it.is_ascii_digit()))
+    })
+}
+
+impl Interpreter {
+    /// Whether the PLC may have to acknowledge an M or H function: all of which no list says that it does not,
+    /// P-CHAN-00041, P-CHAN-00027.
+    pub(in crate::interpreter) fn may_acknowledge(&self, letter: u8, number: Option<i64>) -> bool {
+        let number = number.and_then(|number| u32::try_from(number).ok());
+        let Some(number) = number.filter(|_| self.state.control.memory.holds_any()) else {
+            return true;
+        };
+        let silent = &self.machine.channel.unacknowledged;
+        let is_silent = silent.contains(&(letter, number)) && !(letter == b'M' && number < 2);
+        // A program may set the kind of synchronisation (tf5200_m_and_h_func/285949579).
+        let set = format!("V.G.{}_FCT[{number}].SYNCH", char::from(letter));
+        !is_silent || self.state.control.memory.variable(&set).is_some()
+    }
+
+    /// Whether the PLC acts by design at a word that may be executed: an M or H function but an end, a dwell.
+    pub(in crate::interpreter) fn lets_plc_act_at(&self, letter: u8, number: Option<i64>) -> bool {
+        match letter {
+            b'M' if matches!(number, Some(2 | 17 | 29 | 30)) => false,
+            b'M' | b'H' => self.may_acknowledge(letter, number),
+            b'G' => number.is_none_or(|number| number == 4),
+            _ => false,
+        }
+    }
+
+    /// The PLC acts by design: every value that the program shares with it may be another one.
+    #[inline]
+    pub(in crate::interpreter) fn let_plc_act(&mut self) {
+        let State { control, track, .. } = &self.state;
+        if control.memory.holds_any() || !track.assumed.is_empty() {
+            self.let_plc_write(|_| true);
+            self.state.control.memory.end_initialisation();
+        }
+    }
+
+    /// The PLC may write variables.
+    #[cold]
+    pub(in crate::interpreter) fn let_plc_write(&mut self, is_it: impl Fn(&str) -> bool) {
+        let State { control, track, .. } = &mut self.state;
+        track.assumed.undo_external(&is_it, &mut control.memory);
+        let changed = control.memory.let_change(is_it);
+        let is_changed = |target: &RegionTarget| matches!(target, RegionTarget::Variable(name) if changed.contains(name));
+        if !changed.is_empty() {
+            track.readings.havoc(is_changed);
+        }
+    }
+
+    /// The value of a condition, and what the program set that decides it.
+    pub(in crate::interpreter) fn asked_value(
+        &mut self,
+        condition: Operand,
+        at: &BlockContext<'_>,
+    ) -> Result<(Value, Option<Doubt>), Box<Fault>> {
+        let (value, mut relied) = self.value_with_reads(condition, at)?;
+        if let Some(doubt) = Doubt::of(&value) {
+            return Ok((value, Some(doubt)));
+        }
+        relied.retain(|name| self.state.control.memory.set_at(name).is_some());
+        relied.sort_unstable();
+        relied.dedup();
+        let set = relied
+            .iter()
+            .filter_map(|name| self.state.control.memory.set_at(name));
+        let Some(set) = set.min().cloned() else {
+            return Ok((value, None));
+        };
+        let said = self.scratch.diagnostics.len();
+        self.scratch.held = HeldValues::Doubted;
+        let doubted = self.value(condition, at);
+        self.scratch.held = HeldValues::Taken;
+        self.scratch.diagnostics.truncate(said);
+        let is_open = matches!(doubted, Ok(Value::Unknown(_)));
+        let kept = is_open.then(|| {
+            Doubt::Kept(KeptValue {
+                name: relied.join(" or ").into(),
+                set,
+                value: value.clone(),
+            })
+        });
+        Ok((value, kept))
+    }
+
+    /// The value of the condition of a loop: the PLC may write the variables that it asks for.
+    pub(in crate::interpreter) fn loop_value(
+        &mut self,
+        condition: Operand,
+        at: &BlockContext<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        let (value, relied) = self.value_with_reads(condition, at)?;
+        if relied.is_empty() {
+            return Ok(value);
+        }
+        self.state.control.memory.hold_initial(&relied);
+        self.let_plc_write(|name| relied.iter().any(|it| it == name));
+        self.value(condition, at)
+    }
+
+    fn value_with_reads(
+        &mut self,
+        operand: Operand,
+        at: &BlockContext<'_>,
+    ) -> Result<(Value, Vec<String>), Box<Fault>> {
+        self.scratch.relied.get_mut().clear();
+        let value = self.value(operand, at)?;
+        Ok((value, self.scratch.relied.take()))
+    }
+}

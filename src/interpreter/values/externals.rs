@@ -1,0 +1,217 @@
+//! Variables of the machine that programs write, `V.E.` (R2.99).
+//!
+//! The PLC and the user interface write them while a program runs. A value that the program sets is held until a
+//! block in which the PLC acts by design; after that only the machine knows the variable.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::persistent::PersistentMap;
+use super::value::Value;
+use super::variable::set_name;
+
+/// The family of the variables that programs share with the PLC.
+const FAMILY: &str = "V.E.";
+
+/// The variables of the machine of which the configuration says who writes them, with all elements and fields.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ExternalNames {
+    /// Variables that keep their values while a program runs (R14.1).
+    stable: BTreeSet<String>,
+    /// Variables that only programs write (R2.99).
+    own: BTreeSet<String>,
+}
+
+impl ExternalNames {
+    pub(in crate::interpreter) fn new(stable: &[String], own: &[String]) -> Self {
+        let names = |given: &[String]| given.iter().map(|name| set_name(name)).collect();
+        Self {
+            stable: names(stable),
+            own: names(own),
+        }
+    }
+
+    /// Whether only programs write a variable.
+    pub(in crate::interpreter) fn is_own(&self, name: &str) -> bool {
+        is_named(&self.own, name)
+    }
+
+    /// Whether a variable keeps its value while a program runs, unless the program writes it.
+    pub(in crate::interpreter) fn is_stable(&self, name: &str) -> bool {
+        is_named(&self.stable, name) || self.is_own(name)
+    }
+
+    /// Whether the PLC may write a variable while a program runs.
+    pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
+        name.starts_with(FAMILY) && !self.is_stable(name)
+    }
+
+    /// The variables that only programs write.
+    pub(in crate::interpreter) fn own(&self) -> impl Iterator<Item = &String> {
+        self.own.iter()
+    }
+}
+
+/// Use of the values that the program set in `V.E.` variables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::interpreter) enum HeldValues {
+    /// They count.
+    #[default]
+    Taken,
+    /// They may have changed.
+    Doubted,
+}
+
+/// Facts about `V.E.` variables beside their values.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ExternalVariables {
+    pub(in crate::interpreter) names: Arc<ExternalNames>,
+    /// The variables that still have the value that the program set, and the blocks that did.
+    pub(super) held: PersistentMap<String, SetAt>,
+    /// The block that set every other one to 0.
+    pub(super) initialised: Option<SetAt>,
+}
+
+impl ExternalVariables {
+    /// Whether any variable is held.
+    #[inline]
+    pub(in crate::interpreter) fn are_held(&self) -> bool {
+        !self.held.is_empty() || self.initialised.is_some()
+    }
+
+    /// Another value takes the place of a held one. Returns the block that had set it.
+    #[inline]
+    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<SetAt> {
+        if self.held.is_empty() {
+            return None;
+        }
+        self.held.remove(name)
+    }
+
+    /// Whether a variable without a value is 0: only programs write it and none has since the start of the
+    /// control, or `#INIT V.E.` has set it.
+    pub(super) fn is_zero(&self, name: &str) -> bool {
+        self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
+    }
+
+    /// Two ways meet: a variable is held if it is on both. Of two blocks that set it, the first is named.
+    pub(super) fn join(&mut self, other: &Self) {
+        for name in self.held.differing(&other.held) {
+            let both = self.held.get(&name).zip(other.held.get(&name));
+            match both.map(|(mine, theirs)| mine.min(theirs).clone()) {
+                Some(first) => drop(self.held.insert(name, first)),
+                None => drop(self.held.remove(&name)),
+            }
+        }
+        if self.initialised != other.initialised {
+            self.initialised = None;
+        }
+    }
+}
+
+/// Whether names hold a variable, or the array or structure that it belongs to.
+fn is_named(names: &BTreeSet<String>, name: &str) -> bool {
+    if names.is_empty() {
+        return false;
+    }
+    let ends = name.match_indices(['.', '[']).map(|(end, _)| end);
+    ends.chain([name.len()])
+        .any(|end| names.contains(&name[..end]))
+}
+
+/// The block that set a variable.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(in crate::interpreter) struct SetAt {
+    pub(in crate::interpreter) file: Arc<str>,
+    /// Its line, from 1.
+    pub(in crate::interpreter) line: u32,
+}
+
+/// A variable that the program set and the PLC may have changed, as the cause of an unknown value:
+/// `V.E.REQ, which part.nc:3 set to 1`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) struct SetVariable<'a> {
+    pub(in crate::interpreter) name: &'a str,
+    value: &'a str,
+    file: &'a str,
+    line: &'a str,
+}
+
+impl<'a> SetVariable<'a> {
+    /// The cause of the value of a variable after the PLC has acted.
+    pub(in crate::interpreter) fn cause(name: &str, value: &Value, at: &SetAt) -> Arc<str> {
+        let SetAt { file, line } = at;
+        let text = match value {
+            Value::Number(number) => number.to_string(),
+            Value::Text(text) => format!("\"{text}\""),
+            Value::Unknown(_) => return name.into(),
+        };
+        format!("{name}, which {file}:{line} set to {text}").into()
+    }
+
+    /// Takes a cause apart; `None` for any other.
+    pub(in crate::interpreter) fn of(cause: &'a str) -> Option<Self> {
+        let (name, rest) = cause.split_once(", which ")?;
+        let (place, value) = rest.split_once(" set to ")?;
+        let (file, line) = place.rsplit_once(':')?;
+        Some(Self {
+            name,
+            value,
+            file,
+            line,
+        })
+    }
+
+    /// Its words as seen from a file.
+    pub(in crate::interpreter) fn seen_from(self, file: &str) -> String {
+        let Self {
+            name, value, line, ..
+        } = self;
+        let place = if self.file == file {
+            format!("line {line}")
+        } else {
+            format!("{}:{line}", self.file)
+        };
+        format!("`{name}`, which {place} set to {value} and the PLC may have changed")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_stands_for_its_elements_and_fields() {
+        // R2.99
+        let names = ExternalNames::new(&["v.e.MATERIAL".to_owned()], &["V.E.LIST".to_owned()]);
+        for own in ["V.E.LIST", "V.E.LIST[2]", "V.E.LIST[2].X", "V.E.LIST.N"] {
+            assert!(names.is_own(own) && !names.may_change(own), "{own}");
+        }
+        assert!(!names.is_own("V.E.LISTS") && names.may_change("V.E.LISTS"));
+        assert!(names.is_stable("V.E.MATERIAL") && !names.is_own("V.E.MATERIAL"));
+        assert!(!names.may_change("V.P.A"));
+    }
+
+    #[test]
+    fn a_cause_names_the_block_that_set_the_variable() {
+        // R2.99
+        let at = SetAt {
+            file: "a (1).nc".into(),
+            line: 3,
+        };
+        let cause = SetVariable::cause(
+            "V.E.N[2]",
+            &Value::Text("A, which b.nc:2 set to B".into()),
+            &at,
+        );
+        let found = SetVariable::of(&cause).expect("one");
+        assert_eq!(found.name, "V.E.N[2]");
+        let words = found.seen_from("b.nc");
+        assert!(
+            words.contains("which a (1).nc:3 set to \"A, which b.nc:2 set to B\""),
+            "{words}"
+        );
+    }
+}

@@ -1,0 +1,117 @@
+//! Values that the program sets in variables of the machine, until the PLC acts (R2.99).
+
+use std::sync::Arc;
+
+use super::externals::{ExternalNames, SetAt, SetVariable};
+use super::memory::Memory;
+use super::value::Value;
+
+impl Memory {
+    /// Takes over what the configuration says of the writers of `V.E.` variables.
+    pub(in crate::interpreter) fn describe_externals(&mut self, names: &Arc<ExternalNames>) {
+        self.externals.names = Arc::clone(names);
+    }
+
+    /// Whether the PLC may write a variable, and no value from the user says what it writes.
+    pub(in crate::interpreter) fn may_change(&self, name: &str) -> bool {
+        self.externals.names.may_change(name) && self.given.get(name).is_none()
+    }
+
+    /// The program has set a variable, which keeps its value until the PLC acts.
+    pub(in crate::interpreter) fn hold(&mut self, name: &str, at: SetAt) {
+        if self.known(name).is_some() && self.externals.names.may_change(name) {
+            self.externals.held.insert(name.to_owned(), at);
+        }
+    }
+
+    /// Returns the block that set a variable, while it has that value.
+    pub(in crate::interpreter) fn set_at(&self, name: &str) -> Option<&SetAt> {
+        let externals = &self.externals;
+        let is_initial = || self.variables.value(name).is_none();
+        let initialised = externals.initialised.as_ref();
+        let initialised = initialised.filter(|_| externals.names.may_change(name) && is_initial());
+        externals.held.get(name).or(initialised)
+    }
+
+    /// The PLC may write variables. Returns those of them that were held.
+    pub(in crate::interpreter) fn let_change(
+        &mut self,
+        is_it: impl Fn(&str) -> bool,
+    ) -> Vec<String> {
+        let held = self.externals.held.iter().filter(|(name, _)| is_it(name));
+        let held: Vec<(String, SetAt)> =
+            held.map(|(name, at)| (name.clone(), at.clone())).collect();
+        for (name, at) in &held {
+            self.externals.held.remove(name);
+            if let Some(known) = self.known(name) {
+                let given = self.given.get(name).cloned();
+                let unknown = || Value::Unknown(SetVariable::cause(name, &known, at));
+                self.variables.set(name, given.unwrap_or_else(unknown));
+            }
+        }
+        held.into_iter().map(|(name, _)| name).collect()
+    }
+
+    /// Whether any variable is held.
+    #[inline]
+    pub(in crate::interpreter) fn holds_any(&self) -> bool {
+        self.externals.are_held()
+    }
+
+    /// The value that was held before another one took its place is held again.
+    pub(in crate::interpreter) fn hold_again(&mut self, name: &str, at: Option<SetAt>) {
+        if let Some(at) = at {
+            self.externals.held.insert(name.to_owned(), at);
+        }
+    }
+
+    /// Variables that `#INIT V.E.` set are held one by one.
+    pub(in crate::interpreter) fn hold_initial(&mut self, names: &[String]) {
+        for name in names {
+            if let Some(at) = self.externals.initialised.clone()
+                && self.variables.value(name).is_none()
+            {
+                self.variables.set(name, Value::Number(0.0));
+                self.hold(name, at);
+            }
+        }
+    }
+
+    /// The PLC may write every variable that `#INIT V.E.` set.
+    pub(in crate::interpreter) fn end_initialisation(&mut self) {
+        self.externals.initialised = None;
+    }
+
+    /// Sets a variable, with its elements and fields, to 0.
+    pub(in crate::interpreter) fn zero(&mut self, whole: &str, at: &SetAt) {
+        let is_part = |name: &str| {
+            let rest = name.strip_prefix(whole);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        let names = self.variables.held().into_keys();
+        let parts = names.filter(|name| is_part(name) && name != whole);
+        for name in parts.chain([whole.to_owned()]).collect::<Vec<_>>() {
+            self.set_variable(&name, Value::Number(0.0));
+            self.hold(&name, at.clone());
+        }
+    }
+
+    /// Sets every `V.E.` variable to 0 (PM/207988747).
+    pub(in crate::interpreter) fn initialise(&mut self, at: SetAt) {
+        let names = self.variables.names.keys();
+        let names: Vec<String> = names.filter(|it| it.starts_with("V.E.")).cloned().collect();
+        for name in names {
+            self.delete(&name);
+        }
+        let own: Vec<String> = self.externals.names.own().cloned().collect();
+        for name in own {
+            self.set_variable(&name, Value::Number(0.0));
+        }
+        self.externals.initialised = Some(at);
+    }
+
+    fn known(&self, name: &str) -> Option<Value> {
+        let value = self.variables.value(name);
+        value.filter(|it| !matches!(it, Value::Unknown(_)))
+    }
+}

@@ -122,6 +122,148 @@ fn the_first_call_that_is_nested_too_deeply_ends_the_run() {
     assert_eq!(on.blocks, 5000);
 }
 
+/// Programs whose ways multiply, small as they are.
+fn many_ways() -> Vec<(&'static str, String)> {
+    let lines = |count: usize, line: &dyn Fn(usize) -> String| -> String {
+        (0..count).map(|number| line(number) + "\n").collect()
+    };
+    let nest = |count: usize, open: &dyn Fn(usize) -> String, inner: &str, close: &str| {
+        let opened = lines(count, open);
+        format!("{opened}{inner}\n{}M30", format!("{close}\n").repeat(count))
+    };
+    let calls = |count: usize, call: &dyn Fn(usize) -> String| {
+        let programs = lines(count, &|n| format!("%L S{n}\n{}\nM17", call(n)));
+        format!("{programs}%L S{count}\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL S0\nM30")
+    };
+    let while_q = |_: usize| "$WHILE V.E.Q".to_owned();
+    vec![
+        ("ten loops", nest(10, &while_q, "X1", "$ENDWHILE")),
+        ("a hundred loops", nest(100, &while_q, "X1", "$ENDWHILE")),
+        (
+            "loops with conditions",
+            nest(
+                12,
+                &|n| format!("$FOR P{n}=0,V.E.N1,1\n$IF V.E.A{n}"),
+                "X[COMP OFF FRICT]",
+                "$ENDIF\n$ENDFOR",
+            ),
+        ),
+        (
+            "one counter",
+            nest(
+                12,
+                &|n| format!("$FOR P1=0,V.E.N1,1\n$IF V.E.A{n}\nX[COMP OFF FRICT]\n$ENDIF"),
+                "Y[COMP OFF FRICT]",
+                "$ENDFOR",
+            ),
+        ),
+        (
+            "calls on both sides",
+            calls(40, &|n| {
+                format!("$IF V.E.A{n}\nLL S{0}\n$ELSE\nLL S{0}\n$ENDIF", n + 1)
+            }),
+        ),
+        (
+            "calls in loops",
+            calls(20, &|n| {
+                format!("$WHILE V.E.A{n}\nLL S{}\n$ENDWHILE", n + 1)
+            }),
+        ),
+        (
+            "calls in cases",
+            calls(30, &|n| {
+                let case = format!("LL S{}\n$BREAK", n + 1);
+                format!(
+                    "$SWITCH V.E.A{n}\n$CASE 1\n{case}\n$CASE 2\n{case}\n$DEFAULT\n{case}\n$ENDSWITCH"
+                )
+            }),
+        ),
+        (
+            "repeated until",
+            nest(
+                15,
+                &|n| format!("$REPEAT\n$IF V.E.B{n}\nP{n}=P{n}+1\n$ENDIF"),
+                "X1",
+                "$UNTIL V.E.Q",
+            ),
+        ),
+        (
+            "done while",
+            nest(
+                15,
+                &|n| format!("$DO\n/{} Y[COMP OFF FRICT]", n % 10 + 1),
+                "X1",
+                "$ENDDO V.E.Q",
+            ),
+        ),
+        (
+            "jumps back",
+            lines(60, &|n| format!("N{n} X[COMP OFF FRICT]"))
+                + &lines(60, &|n| format!("$IF V.E.A{n} $GOTO N{n}"))
+                + "M30",
+        ),
+        (
+            "jumps forward",
+            lines(2000, &|n| format!("$IF V.E.A{n} $GOTO N9000\nX{n}"))
+                + "N9000 X[COMP OFF FRICT]\nM30",
+        ),
+        (
+            "skip levels in loops",
+            nest(
+                10,
+                &while_q,
+                &lines(10, &|n| format!("/{} P{n}=P{n}+1 X1", n + 1)),
+                "$ENDWHILE",
+            ),
+        ),
+        (
+            "counted loops with conditions",
+            nest(
+                6,
+                &|n| {
+                    format!(
+                        "$FOR P{n}=1,30,1\n$IF V.E.A{n} == P{n}\nX[COMP OFF FRICT]\n$ELSE\nX[COMP ON FRICT]\n$ENDIF"
+                    )
+                },
+                "X1",
+                "$ENDFOR",
+            ),
+        ),
+        (
+            "macros that call",
+            "\"A\"=\"LL S\"\n".to_owned()
+                + &nest(9, &while_q, "\"A\"\n\"A\"", "$ENDWHILE").replace(
+                    "M30",
+                    "M30\n%L S\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nM17",
+                ),
+        ),
+        (
+            "ends in loops",
+            nest(
+                10,
+                &|n| format!("$FOR P{n}=0,50,1\n$IF V.E.A{n}\nM30\n$ENDIF"),
+                "X1",
+                "$ENDFOR",
+            ),
+        ),
+    ]
+}
+
+#[test]
+fn ways_that_multiply_are_widened() {
+    // R9.91, R14.4: a tenth of the budget.
+    let limits = Limits::brief().with_work(1_000_000);
+    for (what, text) in many_ways() {
+        let ran = checked(&text, limits.with_nesting(200));
+        assert_ne!(ran.by, EndedBy::Budget, "{what}: {:?}", ran.said);
+        let errors = ran.said.iter().filter(|(code, _)| code.is_budget());
+        assert_eq!(errors.count(), 0, "{what}: {:?}", ran.said);
+        assert!(ran.blocks < 40_000, "{what}: {}", ran.blocks);
+        let warned = ran.said.contains(&(Code::Fc908, Severity::Warning));
+        assert!(warned || ran.blocks < 15_000, "{what}: {}", ran.blocks);
+    }
+}
+
 /// Programs that keep running, whatever they repeat.
 #[cfg(unix)]
 mod measured {
@@ -220,7 +362,7 @@ mod measured {
     }
 
     /// Returns the processor time of a check, and whether a budget ended it.
-    fn taken(text: &str, units: u64) -> (Duration, EndedBy) {
+    fn taken(text: &str, limits: Limits) -> (Duration, EndedBy) {
         let now = || {
             let now = clock_gettime(ClockId::ThreadCPUTime);
             let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
@@ -228,8 +370,33 @@ mod measured {
             Duration::new(seconds, nanoseconds)
         };
         let before = now();
-        let by = checked(text, Limits::default().with_repeats(units)).by;
+        let by = checked(text, limits).by;
         (now().saturating_sub(before), by)
+    }
+
+    #[test]
+    #[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
+    fn a_unit_of_ways_takes_no_longer() {
+        // R9.91
+        let plain = looped("G1 X1 Y2 F100\nX2 Y3\nX3 Y4\nX1 Y2");
+        let limits = Limits::default().with_nesting(200);
+        let mut dear = Vec::new();
+        for (what, text) in many_ways() {
+            let mut least = f64::MAX;
+            for _ in 0..6 {
+                let (plain, _) = taken(&plain, Limits::default().with_repeats(3 * UNITS));
+                let (took, _) = taken(&text, limits.with_ways(3 * UNITS).with_repeats(3 * UNITS));
+                least = least.min(took.div_duration_f64(plain));
+                if least <= DEARER {
+                    break;
+                }
+            }
+            println!("{what:<30} {least:.2}");
+            if least > DEARER {
+                dear.push(format!("{what}: {least:.1}"));
+            }
+        }
+        assert!(dear.is_empty(), "{dear:?}");
     }
 
     #[test]
@@ -241,8 +408,9 @@ mod measured {
         for (what, text) in programs() {
             let mut least = f64::MAX;
             for _ in 0..6 {
-                let (plain, _) = taken(&plain, UNITS);
-                let (took, by) = taken(&text, UNITS);
+                let limits = Limits::default().with_repeats(UNITS);
+                let (plain, _) = taken(&plain, limits);
+                let (took, by) = taken(&text, limits);
                 assert_eq!(by, EndedBy::Budget, "{what}");
                 least = least.min(took.div_duration_f64(plain));
                 if least <= DEARER {

@@ -215,7 +215,7 @@ impl Observation {
             line: executed.line,
         };
         for said in executed.diagnostics {
-            if said.code == Code::Fc901 || said.code == Code::Fc902 {
+            if matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908) {
                 self.doubt = Some(reason(said, Some(site.clone())));
             }
         }

@@ -111,7 +111,7 @@ impl AxisAudit {
     pub fn depends_on_the_machine(&self) -> bool {
         let code = self.reason.as_ref().and_then(|reason| reason.code);
         self.effect == ProgramEffect::Unknown
-            && matches!(code, None | Some(Code::Fc901 | Code::Fc902))
+            && matches!(code, None | Some(Code::Fc901 | Code::Fc902 | Code::Fc908))
     }
 
     /// Returns the command that brings the axis back to its start-up state.

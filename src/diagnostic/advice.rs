@@ -23,6 +23,8 @@ pub enum Budget {
     Values,
     /// Work beyond the text of the executed blocks.
     Work,
+    /// Ways that only the machine decides.
+    Ways,
     /// CNC cycles of a trace.
     Cycles,
 }
@@ -135,6 +137,7 @@ impl fmt::Display for Advice {
                 Budget::Macros => "allow deeper nesting of macros",
                 Budget::Values => "look for a loop that keeps creating variables, or raise the budget of values",
                 Budget::Work => "look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget of work",
+                Budget::Ways => "give the values and skip levels that decide beforehand, or raise the budget of work",
                 Budget::Cycles => "raise the budget of CNC cycles",
             }),
             Self::Enable(axes) => {

@@ -161,6 +161,7 @@ codes! {
     Fc905 "FC905" Info "messages that are only counted";
     Fc906 "FC906" Info "trace begins later";
     Fc907 "FC907" Info "motion followed in a simpler way";
+    Fc908 "FC908" Warning "too many ways to follow";
     Fc909 "FC909" Warning "wait without an end";
     Fc910 "FC910" Warning "loop or program without an end";
     Fc911 "FC911" Error "budget of call depth";

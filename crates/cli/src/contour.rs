@@ -20,7 +20,7 @@ use frictcomp_host::{
 use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
 use frictcomp_report::contour::{
     ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_text,
-    summary_record,
+    summary_record, why_not_judged,
 };
 use frictcomp_report::fitted;
 use frictcomp_report::html::render_contour;
@@ -119,7 +119,8 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let has_moved = contour.machine_time_s() > 0.0;
     // A row has no place for remarks on the whole program.
     let remarks = match args.result.format {
-        ContourFormat::Csv => contour_remarks(&contour),
+        ContourFormat::Csv if limits.any() => contour_remarks(&contour),
+        ContourFormat::Csv => [why_not_judged(&contour), contour_remarks(&contour)].concat(),
         _ => Vec::new(),
     };
     let exceeded = exceeded(&contour, &limits);

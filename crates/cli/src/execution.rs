@@ -51,13 +51,13 @@ impl ExecutionArgs {
         let limits = Limits::default();
         let limits = Limits {
             blocks: self.max_blocks.unwrap_or(limits.blocks),
-            work: self.max_work,
             values: self.max_values,
             calls: self.max_calls,
             nesting: self.max_nesting,
             macros: self.max_macros,
             ..limits
         };
+        let limits = limits.with_work(self.max_work);
         Options::default()
             .with_stop(stop)
             .with_skip(self.skip)
@@ -70,6 +70,7 @@ impl ExecutionArgs {
         let mut run = self.run(stop);
         if self.max_blocks.is_none() {
             run.limits.repeats = Limits::brief().repeats / times;
+            run.limits.ways /= times;
         }
         run
     }

@@ -122,6 +122,7 @@ const ELSEWHERE: [(&str, &str); 30] = [
         "FC907",
         "said by `current`; crates/physics/tests/motion/feeds.rs has it",
     ),
+    ("FC908", "needs a second of work; tests/brief.rs has it"),
     (
         "FC918",
         "needs a million values; tests/language/budgets.rs has it",

@@ -442,3 +442,93 @@ fn the_page_says_what_the_text_says() {
     assert_eq!(refused, Some(2));
     assert!(bench.read("states.csv").starts_with("t,"));
 }
+
+/// Axes X and Y are enabled.
+fn replayed(program: &str, recording: &str) -> (Option<i32>, Value) {
+    let bench = Bench::new(&[("m.nc", program), ("states.csv", recording)]);
+    let fixed = [
+        "replay",
+        "states.csv",
+        "m.nc",
+        "--enable",
+        "X,Y",
+        "--isolated",
+        "--format",
+        "json",
+    ];
+    let output = bench.call(&fixed);
+    let text = String::from_utf8(output.stdout).expect("text");
+    (output.status.code(), json(&text))
+}
+
+/// Five samples of each line, with the states of X and Y.
+fn samples(lines: &[(u32, [u8; 2])]) -> String {
+    let mut text = String::from("t,line,active_X,active_Y\n");
+    for (at, (line, [x, y])) in lines.iter().flat_map(|line| [line; 5]).enumerate() {
+        let time = f64::from(u32::try_from(at).expect("few samples")) * 0.001;
+        writeln!(text, "{time:.3},{line},{x},{y}").expect("text");
+    }
+    text
+}
+
+const SWITCHED: &str =
+    "%M\nX[COMP OFF FRICT]\nY[COMP ON FRICT]\nG1 X2 F500\nX[COMP ON FRICT]\nG1 X5\nM30\n";
+
+/// R15.20: a sample in a block that switches is compared with the states before and after that block, at
+/// the start and at the end, too.
+#[test]
+fn samples_within_a_block_that_switches_fit_either_side() {
+    let (off, on) = ([0, 1], [1, 1]);
+    for recorded in [
+        vec![(2, off), (3, off), (4, off), (5, on), (6, on), (7, on)],
+        vec![(2, on), (3, off), (4, off), (5, off), (6, on)],
+        vec![(1, on), (2, off), (3, off), (4, off), (5, on)],
+        // It begins in the middle, or ends in the block that switches.
+        vec![(3, off), (4, off), (5, on), (6, on)],
+        vec![(5, off), (6, on), (7, on)],
+        vec![(5, on), (6, on), (7, on)],
+        vec![(2, on), (3, off), (4, off), (5, off)],
+    ] {
+        let (status, found) = replayed(SWITCHED, &samples(&recorded));
+        assert_eq!(status, Some(0), "{recorded:?} {found:#}");
+    }
+    for recorded in [
+        vec![(3, on), (4, on), (5, on), (6, on)],
+        vec![(2, off), (3, off), (4, on), (5, on)],
+        vec![(2, off), (3, off), (4, off), (5, off), (6, off)],
+        vec![(6, off), (7, off)],
+        vec![(2, off), (3, off), (4, off)],
+    ] {
+        let (status, found) = replayed(SWITCHED, &samples(&recorded));
+        assert_eq!(status, Some(1), "{recorded:?} {found:#}");
+    }
+}
+
+/// R15.20: the same in blocks with several commands, in subprograms and in loops.
+#[test]
+fn a_recording_may_begin_in_a_called_program_or_in_a_loop() {
+    let both =
+        "X[COMP OFF FRICT] Y[COMP OFF FRICT]\nG1 X2 F500\nX[COMP ON FRICT] Y[COMP ON FRICT]\nM30\n";
+    let recorded = [(1, [0, 1]), (2, [0, 0]), (3, [1, 0]), (4, [1, 1])];
+    let (status, found) = replayed(both, &samples(&recorded));
+    assert_eq!(status, Some(0), "{found:#}");
+    let called = "%L S\nX[COMP OFF FRICT]\nG1 X2 F500\nM17\n%M\nLL S\nX[COMP ON FRICT]\nLL S\nX[COMP ON FRICT]\nM30\n";
+    let recorded = [
+        (2, [0, 1]),
+        (3, [0, 1]),
+        (7, [1, 1]),
+        (2, [1, 1]),
+        (3, [0, 1]),
+        (9, [0, 1]),
+    ];
+    let (status, found) = replayed(called, &samples(&recorded));
+    assert_eq!(status, Some(0), "{found:#}");
+    let looped =
+        "$FOR P1=1,4,1\nX[COMP OFF FRICT]\nG1 X2 F500\nX[COMP ON FRICT]\nG1 X5\n$ENDFOR\nM30\n";
+    // It begins in the second of four passes.
+    let pass = [(2, [0, 1]), (3, [0, 1]), (4, [1, 1]), (5, [1, 1])];
+    let (status, found) = replayed(looped, &samples(&pass.repeat(3)));
+    assert_eq!(status, Some(0), "{found:#}");
+    let (status, found) = replayed(looped, &samples(&pass.repeat(5)));
+    assert_eq!(status, Some(1), "{found:#}");
+}

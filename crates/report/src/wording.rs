@@ -92,6 +92,9 @@ fn raise(budget: Budget) -> &'static str {
         Budget::Work => {
             "look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget with `--max-work`"
         }
+        Budget::Ways => {
+            "decide these conditions beforehand with `--set` and `--skip`, or raise the budget with `--max-work`"
+        }
         Budget::Cycles => "raise the budget with `--max-cycles`",
     }
 }

@@ -101,6 +101,7 @@ impl Interpreter {
         !self.scratch.wrote
             && self.scratch.unsaid.is_none()
             && self.state.effort.level() <= self.options.limits.work
+            && self.state.effort.ways() <= self.options.limits.ways
     }
 
     /// Executes a block and informs the observer. `Continue` where the next block follows.

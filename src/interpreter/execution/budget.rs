@@ -19,10 +19,14 @@ impl Interpreter {
         is_over.then(|| too_many_repeats(self.state.blocks, at))
     }
 
-    /// FC919 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
+    /// FC919, FC908 or FC918 when the block exceeded a budget. Whatever else it could have changed is then unknown:
     /// the run did not reach its end.
     pub(in crate::interpreter) fn used_up(&mut self, at: &BlockContext<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.scratch.wrote);
+        if self.is_past_regions() {
+            self.havoc_all(&"the budget of work".into());
+            return Some(too_many_regions(at));
+        }
         if self.state.effort.level() > self.options.limits.work && self.is_exhausted() {
             self.havoc_all(&"the budget of work".into());
             return Some(self.too_much_work(at));
@@ -102,6 +106,16 @@ fn cut_off(message: String, at: &BlockContext<'_>) -> Diagnostic {
     let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
         .with_help(Advice::RaiseBudget(Budget::Blocks));
     at.diagnostic(fault).raised(Severity::Error)
+}
+
+/// FC908 where even what the ways could change takes too long to find.
+#[cold]
+fn too_many_regions(at: &BlockContext<'_>) -> Diagnostic {
+    let message = "what the blocks from here on could change takes too much work to find; the dry run ends here, \
+                   and everything that a program can change is unknown";
+    let fault = Fault::new(Code::Fc908, Span::new(0, at.text.len()), message)
+        .with_help(Advice::RaiseBudget(Budget::Ways));
+    at.diagnostic(fault)
 }
 
 /// FC918.

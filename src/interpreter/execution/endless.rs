@@ -25,7 +25,6 @@ use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::target::RegionTarget;
-use crate::interpreter::values::work_budget::ITEM;
 
 /// Greatest number of passes after which a repeated state is recognised.
 const LONGEST_PERIOD: u64 = 8;
@@ -166,8 +165,7 @@ impl Interpreter {
             frame.next = target;
         }
         let (control, track) = (&self.state.control, &self.state.track);
-        let cost = ITEM * 8 + self.machine.axes.len() * 4;
-        self.state.effort.charge(cost);
+        self.charge_copies(control, &track.reach);
         Path {
             control: control.clone(),
             track: RunTrack {

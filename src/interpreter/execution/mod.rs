@@ -18,3 +18,4 @@ pub(super) mod snapshot;
 pub(super) mod start;
 pub(super) mod stream;
 pub(super) mod trust;
+pub(super) mod widening;

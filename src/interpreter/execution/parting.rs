@@ -27,6 +27,7 @@ impl Interpreter {
             if ways.is_never() {
                 continue;
             }
+            self.charge_copies(&base.control, &base.track.reach);
             self.enter_path(base.clone());
             self.state.track.reach = ways;
             let (to, is_back) = (side.to, side.to < here);

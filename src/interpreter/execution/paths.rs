@@ -94,9 +94,11 @@ impl Interpreter {
         let cause = condition.map_or_else(|| "another way".into(), |found| found.cause.clone());
         mine.undo_differing(&mut other);
         let before = [mine.control.clone(), other.control.clone()];
+        for path in [&mine, &other] {
+            self.charge_copies(&path.control, &path.track.reach);
+        }
         let differing = mine.join(other, &cause);
-        let cost = ITEM * (8 + differing) + self.machine.axes.len() * 4;
-        self.state.effort.charge(cost);
+        self.state.effort.charge_region(ITEM * differing);
         self.enter_path(mine);
         self.scratch.havoc_last_motion();
         self.tell_join(&before, parted);

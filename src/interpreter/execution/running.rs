@@ -22,6 +22,10 @@ impl Interpreter {
             if !self.state.pending.is_empty() && self.choose_path() {
                 self.tell_joined(observer);
             }
+            if self.is_past_ways() {
+                self.widen(finder);
+                self.tell_joined(observer);
+            }
             let Some(frame) = self.state.control.frames.running() else {
                 let ending = self.state.control.ending.take();
                 match self.end_path(ending.unwrap_or(EndedBy::EndOfFile)) {
@@ -84,11 +88,17 @@ impl Interpreter {
             }
             let depth = self.state.control.frames.depth();
             let spent = self.state.effort.spent();
+            let is_on_ways = !self.state.pending.is_empty();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
                 self.state
                     .effort
                     .repeat(parsed.weight, self.scratch.said, spent);
+            } else {
+                self.state.effort.grant_ways();
+            }
+            if is_on_ways {
+                self.charge_block(parsed.weight);
             }
             if let Some(frame) = self.state.control.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;

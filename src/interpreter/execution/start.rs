@@ -120,6 +120,8 @@ impl Interpreter {
         self.state.control.described = None;
         self.state.track = RunTrack::default();
         self.begin_search();
+        self.state.effort.begin_ways();
+        self.state.is_widened = false;
         self.state.pending.clear();
         self.state.ended.clear();
         self.sides.clear();

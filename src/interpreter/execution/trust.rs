@@ -137,6 +137,7 @@ impl<'a> Trust<'a> {
             state.effort.spent(),
             state.effort.level(),
             state.effort.repeated(),
+            state.effort.ways(),
         ];
         let mut counted = counted.iter().chain(state.opaque.values());
         let counted = counted.all(|count| *count < MOST_COUNTED);

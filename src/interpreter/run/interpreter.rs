@@ -169,6 +169,7 @@ impl Interpreter {
             seq: 0,
             blocks: 0,
             effort: WorkBudget::default(),
+            is_widened: false,
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
             occurred,
@@ -443,7 +444,7 @@ impl Interpreter {
 
     /// Whether the budget of work is used up.
     pub(in crate::interpreter) fn is_exhausted(&self) -> bool {
-        self.state.effort.level() > self.work_bound()
+        self.state.effort.level() > self.work_bound() || self.is_past_regions()
     }
 
     /// The macros of the channel list, which no program takes away (TF5200 Programming manual,

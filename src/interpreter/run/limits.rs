@@ -12,6 +12,10 @@ pub struct Limits {
     /// Units of work of blocks that are executed again, in loops and by calls: about a nanosecond each.
     /// Blocks that are executed once need none, however many there are.
     pub repeats: u64,
+    /// Units of work on ways that only the machine decides, and on regions that may or may not be executed: about a
+    /// nanosecond each, for each program. Past it no further way is followed, and whatever the rest could change is
+    /// unknown.
+    pub ways: u64,
     /// Values that are held at a time; a text counts as one more for every 32 bytes.
     pub values: u32,
     /// Depth of subprogram calls.
@@ -25,6 +29,12 @@ pub struct Limits {
 /// Repeated work that takes about two seconds of processor time.
 const BRIEF_REPEATS: u64 = 1_500_000_000;
 
+/// Units of ways for each unit of work: 700 million, by default.
+const WAYS_PER_WORK: u64 = 70;
+
+/// Default of the work beyond the text of the blocks.
+const WORK: u64 = 10_000_000;
+
 impl Limits {
     /// The default limits, and repeated work for about two seconds of a processor (R9.91).
     pub fn brief() -> Self {
@@ -37,9 +47,16 @@ impl Limits {
         self
     }
 
-    /// Sets [`work`](Self::work).
+    /// Sets [`work`](Self::work), and [`ways`](Self::ways) in proportion.
     pub fn with_work(mut self, work: u64) -> Self {
         self.work = work;
+        self.ways = work.saturating_mul(WAYS_PER_WORK);
+        self
+    }
+
+    /// Sets [`ways`](Self::ways).
+    pub fn with_ways(mut self, ways: u64) -> Self {
+        self.ways = ways;
         self
     }
 
@@ -78,7 +95,8 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             blocks: 100_000_000,
-            work: 10_000_000,
+            work: WORK,
+            ways: WORK * WAYS_PER_WORK,
             repeats: u64::MAX,
             values: 1_000_000,
             calls: 50,

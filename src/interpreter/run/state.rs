@@ -35,6 +35,8 @@ pub(in crate::interpreter) struct State {
     /// Executed blocks of the session.
     pub(in crate::interpreter) blocks: u64,
     pub(in crate::interpreter) effort: WorkBudget,
+    /// Whether the program has used up its budget of ways: no further way is followed.
+    pub(in crate::interpreter) is_widened: bool,
     /// Words and commands that were passed over.
     pub(in crate::interpreter) opaque: BTreeMap<String, u64>,
     /// The words of the program that were reported, once each (R2.94).

@@ -61,6 +61,11 @@ impl Untouched {
         self.0.values_mut().for_each(|ways| ways.havoc(condition));
     }
 
+    /// The ways of each kind.
+    pub(in crate::interpreter) fn sets(&self) -> impl Iterator<Item = &WaySet> {
+        self.0.values()
+    }
+
     /// The conditions that ways name.
     pub(in crate::interpreter) fn conditions(&self) -> impl Iterator<Item = u32> {
         self.0.values().flat_map(WaySet::conditions)

@@ -75,6 +75,12 @@ impl WaySet {
         self.0.iter().flatten().map(|answer| answer.condition)
     }
 
+    /// The number of pairs of its answers.
+    pub(in crate::interpreter) fn pairs(&self) -> u64 {
+        let answers: usize = self.0.iter().map(|way| 1 + way.len()).sum();
+        (answers as u64).saturating_mul(answers as u64)
+    }
+
     /// The ways on which both hold; ways that contradict each other are dropped.
     pub(in crate::interpreter) fn and(&self, other: &Self) -> Self {
         if other.is_always() {

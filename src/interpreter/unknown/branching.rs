@@ -19,7 +19,6 @@ use crate::interpreter::run::way_set::{WayAnswer, WaySet};
 use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::target::RegionTarget;
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::work_budget::ITEM;
 use crate::text::Span;
 
 /// Most ways that are open at a time; beyond them a condition is treated by R2.51.
@@ -129,9 +128,8 @@ impl Interpreter {
         }
         let calls = self.state.control.frames.iter();
         let calls = calls.filter(|frame| frame.program() == program).count();
-        let cost = ITEM * 8 + self.machine.axes.len() * 4;
-        self.state.effort.charge(cost.saturating_mul(answers));
-        calls == 1
+        !self.state.is_widened
+            && calls == 1
             && at.macro_depth == 0
             && self.sides.is_empty()
             && (2..=MAX_ANSWERS).contains(&answers)

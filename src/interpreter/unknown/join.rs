@@ -242,7 +242,7 @@ impl Interpreter {
         join_names(&mut self.state.control.named, &standing.named, &cause);
         self.state.control.channel_axes.join(&standing.channel_axes);
         let written = &self.state.track.ways.written.0;
-        self.state.effort.charge(ITEM + written.len());
+        self.state.effort.charge_region(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);
         let later: Vec<RegionTarget> = later.map(|(target, _)| target.clone()).collect();
         if self.state.track.ways.everything > since {
@@ -300,7 +300,7 @@ impl State {
     /// A way that leaves now.
     fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> OpenPath {
         let count = self.control.compensation.len();
-        self.effort.charge(ITEM + count);
+        self.effort.charge_region(ITEM + count);
         OpenPath {
             depth,
             target,

@@ -91,7 +91,7 @@ impl Interpreter {
         let region = self.region(unit, range);
         self.state
             .effort
-            .charge(ITEM * (region.effects.len() + region.calls.len()));
+            .charge_region(ITEM * (region.effects.len() + region.calls.len()));
         self.note_differing(&region);
         for effect in &region.effects {
             self.suffer(effect, unit, cause);
@@ -103,12 +103,12 @@ impl Interpreter {
                 .filter(|written| region.writes(written))
                 .cloned()
                 .collect();
-            self.state.effort.charge(written.len());
+            self.state.effort.charge_region(written.len());
             for target in &known {
                 self.lose(target, cause);
             }
         } else {
-            self.state.effort.charge(region.targets.len());
+            self.state.effort.charge_region(region.targets.len());
             for target in &region.targets {
                 self.lose(target, cause);
             }
@@ -164,9 +164,9 @@ impl Interpreter {
     }
 
     fn suffer_region(&mut self, region: &Region, unit: usize, cause: &Arc<str>) {
-        self.state
-            .effort
-            .charge(ITEM * (region.effects.len() + region.calls.len() + region.targets.len()));
+        self.state.effort.charge_region(
+            ITEM * (region.effects.len() + region.calls.len() + region.targets.len()),
+        );
         self.note_differing(region);
         for effect in &region.effects {
             self.suffer(effect, unit, cause);

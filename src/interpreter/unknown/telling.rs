@@ -265,7 +265,7 @@ impl Interpreter {
     /// blocks and meet after them: a way into a loop or out of it is one past all its passes.
     fn passed_by(&self, unit: usize, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
         let index = self.programs.index(unit);
-        self.state.effort.charge(index.loops.len());
+        self.state.effort.charge_region(index.loops.len());
         let mut around = blocks;
         for &opener in &index.loops {
             let end = index.links(opener).end;

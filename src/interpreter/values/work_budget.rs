@@ -24,6 +24,12 @@ const PER_MESSAGE: u64 = 1500;
 /// Units of repeated work that a unit of other work needs.
 const PER_WORK: u64 = 2;
 
+/// Units of a way that a unit of a region needs: regions are read, ways are only copied and compared.
+pub(in crate::interpreter) const PER_REGION_UNIT: u64 = 40;
+
+/// Units of ways that a block allows when it is executed for the first time.
+const PER_NEW_BLOCK: u64 = 15_000;
+
 /// The work of a session, in units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct WorkBudget {
@@ -32,6 +38,9 @@ pub(in crate::interpreter) struct WorkBudget {
     level: Cell<u64>,
     /// Work of blocks that were executed again.
     repeated: u64,
+    /// Work of the program on ways that only the machine decides, about a nanosecond a unit, beyond the share that
+    /// each new block allows.
+    ways: Cell<u64>,
 }
 
 impl WorkBudget {
@@ -40,6 +49,38 @@ impl WorkBudget {
         let units = u64::try_from(units).unwrap_or(u64::MAX);
         self.spent.set(self.spent.get().saturating_add(units));
         self.level.set(self.level.get().saturating_add(units));
+    }
+
+    /// Counts work of following ways.
+    pub(in crate::interpreter) fn charge_ways(&self, units: u64) {
+        self.ways.set(self.ways.get().saturating_add(units));
+    }
+
+    /// Counts work of reading regions that may or may not be executed.
+    pub(in crate::interpreter) fn charge_region(&self, units: usize) {
+        let units = u64::try_from(units).unwrap_or(u64::MAX);
+        self.spent.set(self.spent.get().saturating_add(units));
+        self.charge_ways(units.saturating_mul(PER_REGION_UNIT));
+    }
+
+    /// The work of following ways and of reading regions.
+    #[inline]
+    pub(in crate::interpreter) fn ways(&self) -> u64 {
+        self.ways.get()
+    }
+
+    /// A program begins.
+    pub(in crate::interpreter) fn begin_ways(&self) {
+        self.ways.set(0);
+    }
+
+    /// Grants the work on ways that a block allows when it is executed for the first time.
+    #[inline]
+    pub(in crate::interpreter) fn grant_ways(&self) {
+        let ways = self.ways.get();
+        if ways > 0 {
+            self.ways.set(ways.saturating_sub(PER_NEW_BLOCK));
+        }
     }
 
     /// Grants the work that an executed block allows.

@@ -87,6 +87,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     outputs.finish()?;
     let (errors, remarks) = currents.diagnostics();
     let mut said = errors.to_vec();
+    said.extend(levelled(currents.undecided(), &loaded));
     said.extend(levelled(remarks, &loaded));
     console.show(&said);
     if cycles == 0 {

@@ -413,3 +413,50 @@ fn versions_that_are_not_judged_are_not_compared() {
     let agreed = bench.read("part.nc.contour");
     assert!(agreed.contains("not judged: "), "{agreed}");
 }
+
+#[test]
+fn a_stretch_that_only_the_machine_decides_is_not_judged() {
+    // R18.11, R14.8: the branch is not driven, and the rapid after it starts anywhere.
+    let start = "G90 G17 G01 X5 Y0 F2000\n";
+    let rest = "G00 X5 Y0\nG01 X6\nM30\n";
+    let cut = "N20 G03 X5 Y0 I-5 J0";
+    for branch in [
+        format!("$IF V.E.A == 1\n{cut}\n$ENDIF\n"),
+        format!("$WHILE V.E.A == 1\n{cut}\n$ENDWHILE\n"),
+        format!("$SWITCH V.E.A\n$CASE 1\n{cut}\n$BREAK\n$ENDSWITCH\n"),
+        format!("$IF V.E.A == 1 $GOTO N30\n{cut}\nN30 "),
+        format!("/{cut}\n"),
+    ] {
+        let bench = bench(&format!("{start}{branch}{rest}"), MACHINE);
+        for limit in ["--fail-above", "--fail-above-due"] {
+            let (status, text, said) = contour(&bench, &[limit, "50"]);
+            assert_eq!(status, Some(1), "{branch}{text}{said}");
+            let reason = text.find("not judged: ");
+            let figures = text.find("while cutting, in µm");
+            assert!(reason.is_some() && reason < figures, "{branch}{text}");
+            assert!(text.contains(" at part.nc:2"), "{branch}{text}");
+        }
+        let (_, _, said) = contour(&bench, &["--format", "csv"]);
+        assert!(said.contains("not judged: "), "{branch}{said}");
+        let found = document(&bench, &[]);
+        assert_eq!(found["verdict"], "not judged", "{branch}");
+        let decided = contour(
+            &bench,
+            &["--fail-above", "50", "--set", "V.E.A=0", "--skip", "none"],
+        );
+        assert_eq!(decided.0, Some(0), "{branch}{}", decided.1);
+    }
+}
+
+#[test]
+fn an_axis_that_is_cut_in_an_unknown_state_is_not_judged() {
+    // R18.11: no motion is left out, and X may be compensated or not.
+    let program = "G90 G17 G01 X5 Y0 F2000\n$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nN20 G03 X5 Y0 I-5 J0\nM30\n";
+    let bench = bench(program, MACHINE);
+    let (status, text, _) = contour(&bench, &["--fail-above", "500"]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(text.contains("the state of X is not known for "), "{text}");
+    assert!(text.contains(" of cutting, from part.nc:5 on"), "{text}");
+    let (status, text, _) = contour(&bench, &["--fail-above", "500", "--set", "V.E.A=1"]);
+    assert_eq!(status, Some(0), "{text}");
+}

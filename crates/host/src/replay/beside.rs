@@ -8,6 +8,9 @@ use super::recorded::{RecordedAxis, RecordedChange};
 /// Number of blocks that may pass between two samples.
 const MAX_BETWEEN: usize = 1000;
 
+/// Number of blocks of the dry run at which a recording may begin that are tried.
+const MAX_BEGINS: usize = 100;
+
 /// A block, identified by its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -124,6 +127,13 @@ impl ReplayedAxis {
     }
 }
 
+/// A sample at an end of the recording.
+#[derive(Debug, Clone, Copy)]
+enum Sample {
+    First,
+    Last,
+}
+
 struct AxisBeside<'a> {
     recorded: &'a RecordedAxis,
     dry_run: &'a AxisCourse,
@@ -132,26 +142,112 @@ struct AxisBeside<'a> {
 }
 
 impl AxisBeside<'_> {
+    /// Returns the first disagreement. Of several blocks of the dry run at which the recording may begin, the one
+    /// with which it agrees longest counts.
     fn compare(&self, matched: &mut Vec<MatchedChange>) -> Option<Disagreement> {
-        if self.dry_run.start != Some(self.recorded.start) {
-            return Some(Disagreement {
-                at: None,
-                t_s: 0.0,
-                recorded: word(Some(self.recorded.start)),
-                dry_run: word(self.dry_run.start),
-                why: "they begin in different states".to_owned(),
-                rests_on: self.measure.of_start.to_vec(),
-                unknown: Vec::new(),
-            });
+        let mut nearest = None;
+        for passed in self.begins() {
+            let mut agreed = Vec::new();
+            let found = self.compare_after(passed, &mut agreed);
+            let is_over = found.is_none();
+            if is_over || nearest.is_none() || agreed.len() > matched.len() {
+                (nearest, *matched) = (Some(found), agreed);
+            }
+            if is_over {
+                break;
+            }
         }
-        let mut from = 0;
-        let most = self.recorded.changes.len().max(self.dry_run.switches.len());
+        nearest.unwrap_or_else(|| Some(self.other_start()))
+    }
+
+    /// Numbers of switches of the dry run that may come before the first sample: none, or those before a block that
+    /// the sample names, with its own or without (R15.20).
+    fn begins(&self) -> Vec<usize> {
+        let steps = (0..self.course.steps.len()).filter(|at| self.is_sampled(*at, Sample::First));
+        let passed = steps.flat_map(|at| [self.passed(at), self.passed(at + 1)]);
+        let mut begins: Vec<usize> = Vec::new();
+        for passed in std::iter::once(0).chain(passed) {
+            let is_new = begins.last() != Some(&passed);
+            if is_new && self.state_after(passed) == Some(self.recorded.start) {
+                begins.push(passed);
+            }
+            if begins.len() >= MAX_BEGINS {
+                break;
+            }
+        }
+        begins
+    }
+
+    /// The number of switches before a step.
+    fn passed(&self, step: usize) -> usize {
+        self.dry_run.switches.partition_point(|it| it.at < step)
+    }
+
+    /// The state of the dry run after some of its switches.
+    fn state_after(&self, passed: usize) -> Option<bool> {
+        match passed.checked_sub(1) {
+            Some(last) => self.dry_run.switches.get(last)?.to,
+            None => self.dry_run.start,
+        }
+    }
+
+    /// Whether a step is the block of the first or the last sample.
+    fn is_sampled(&self, at: usize, sample: Sample) -> bool {
+        let of = |pair: [i64; 2]| match sample {
+            Sample::First => pair[0],
+            Sample::Last => pair[1],
+        };
+        let (Some(step), Some(blocks)) = (self.course.steps.get(at), self.recorded.blocks) else {
+            return false;
+        };
+        let program = i64::from(step.program);
+        let is_of_program = self.recorded.programs.is_none_or(|it| of(it) == program);
+        is_of_program && self.key(step) == Some(of(blocks))
+    }
+
+    fn other_start(&self) -> Disagreement {
+        let steps = 0..self.course.steps.len();
+        let first = steps.clone().find(|at| self.is_sampled(*at, Sample::First));
+        let first = first.filter(|at| self.passed(at + 1) > 0);
+        let passed = first.map_or(0, |at| self.passed(at + 1));
+        let step = first.and_then(|at| self.course.steps.get(at));
+        let of_step = step.map_or(&[][..], |step| &step.rests_on);
+        let of_start = if step.is_none() {
+            self.measure.of_start
+        } else {
+            of_step
+        };
+        Disagreement {
+            at: first.and_then(|at| self.place(at)),
+            t_s: self.recorded.start_s,
+            recorded: word(Some(self.recorded.start)),
+            dry_run: word(self.state_after(passed)),
+            why: "they begin in different states".to_owned(),
+            rests_on: of_start.to_vec(),
+            unknown: Vec::new(),
+        }
+    }
+
+    /// Compares the changes after those that the recording does not contain.
+    fn compare_after(
+        &self,
+        passed: usize,
+        matched: &mut Vec<MatchedChange>,
+    ) -> Option<Disagreement> {
+        let switches = self.dry_run.switches.get(passed..).unwrap_or_default();
+        let mut from = match passed.checked_sub(1) {
+            Some(last) => self.dry_run.switches.get(last)?.at + 1,
+            None => 0,
+        };
+        let most = self.recorded.changes.len().max(switches.len());
         for at in 0..most {
             let change = self.recorded.changes.get(at);
-            let switch = self.dry_run.switches.get(at);
+            let switch = switches.get(at);
             let reason = match (change, switch) {
                 (Some(change), Some(switch)) => self.reason(change, switch),
                 (Some(_), None) => Some("the dry run has no further change".to_owned()),
+                // The last sample may be taken before its block acts.
+                (None, Some(switch)) if self.is_sampled(switch.at, Sample::Last) => None,
                 (None, _) => Some("the recording has no further change".to_owned()),
             };
             if let Some(why) = reason {

@@ -64,6 +64,10 @@ pub struct RecordedAxis {
     pub changes: Vec<RecordedChange>,
     /// The time of the last sample in seconds.
     pub end_s: f64,
+    /// The lines, or block numbers, of the first and the last sample.
+    pub blocks: Option<[i64; 2]>,
+    /// The running numbers of the program at the first and the last sample.
+    pub programs: Option<[i64; 2]>,
 }
 
 /// A recorded change of a state, with values from the sample before it and its own.
@@ -272,16 +276,16 @@ impl RecordingSamples<'_> {
             }
         }
         let is_active = |at: usize| states[at] != 0.0;
+        let whole = |channel: Option<ChannelIndex>, around: [f64; 2]| -> Result<_, TraceError> {
+            let around = channel.map(|it| self.around(it, around)).transpose()?;
+            Ok(around.flatten().map(|values| values.map(as_whole)))
+        };
         let mut changes = Vec::new();
         for at in 1..states.len().min(times.len()) {
             if is_active(at) == is_active(at - 1) {
                 continue;
             }
             let around = [times[at - 1], times[at]];
-            let whole = |channel: Option<ChannelIndex>| -> Result<_, TraceError> {
-                let around = channel.map(|it| self.around(it, around)).transpose()?;
-                Ok(around.flatten().map(|values| values.map(as_whole)))
-            };
             let positions = match axis.position {
                 Some((channel, factor)) => self
                     .around(channel, around)?
@@ -291,17 +295,20 @@ impl RecordingSamples<'_> {
             changes.push(RecordedChange {
                 t_s: times[at],
                 active: is_active(at),
-                blocks: whole(self.found.block)?,
-                programs: whole(self.found.program)?,
+                blocks: whole(self.found.block, around)?,
+                programs: whole(self.found.program, around)?,
                 positions,
             });
         }
+        let ends = [times.first(), times.last()].map(|it| it.copied().unwrap_or_default());
         Ok(RecordedAxis {
             name: axis.name.clone(),
             start: states.first().is_some_and(|it| *it != 0.0),
-            start_s: times.first().copied().unwrap_or_default(),
+            start_s: ends[0],
             changes,
-            end_s: times.last().copied().unwrap_or_default(),
+            end_s: ends[1],
+            blocks: whole(self.found.block, ends)?,
+            programs: whole(self.found.program, ends)?,
         })
     }
 

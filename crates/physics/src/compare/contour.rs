@@ -161,7 +161,7 @@ impl ContourComparison {
         let cuts_nothing = |all: &Vec<_>| all.contains(&ContourObstacle::NothingCut);
         let neither_cuts = self.obstacles.iter().all(cuts_nothing);
         let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
-        both.flat_map(|(which, all)| all.iter().map(move |obstacle| (which, *obstacle)))
+        both.flat_map(|(which, all)| all.iter().map(move |obstacle| (which, obstacle.clone())))
             .filter(move |(_, it)| !(neither_cuts && *it == ContourObstacle::NothingCut))
     }
 

@@ -73,7 +73,9 @@ impl Obstacle {
     pub(super) fn of(said: &Diagnostic) -> Option<Self> {
         match said.code {
             Code::Fc408 => Some(Self::at(said, Reason::Undescribed)),
-            Code::Fc210 | Code::Fc325 | Code::Fc902 => Some(Self::at(said, Reason::Assumed)),
+            Code::Fc210 | Code::Fc325 | Code::Fc902 | Code::Fc908 => {
+                Some(Self::at(said, Reason::Assumed))
+            }
             _ => None,
         }
     }

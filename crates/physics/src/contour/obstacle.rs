@@ -2,18 +2,25 @@
 
 use std::fmt;
 
-use frictcomp::diagnostic::Code;
+use frictcomp::diagnostic::{Code, Diagnostic};
+
+/// Most places that an obstacle names.
+const MAX_PLACES: usize = 3;
 
 /// Obstacle to a verdict on, or a comparison of, the whole contour.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ContourObstacle {
     /// Nothing was driven.
     NotDriven,
     /// No feed move was driven.
     NothingCut,
-    /// The number of feed moves that were left out.
-    LeftOut(u64),
+    /// The number of feed moves that were left out, and the places of the first ones: `part.nc:8`.
+    LeftOut(u64, Vec<String>),
+    /// A stretch that only the machine decides and that is not driven, with its place and its cause (R14.8).
+    Undecided(String, String),
+    /// An axis is cut while its state is not known: its name, the first place, and the seconds.
+    UnknownState(String, String, f64),
     /// It ends before the program does.
     Ended(Code),
     /// Seconds in which positions are not those of the machine.
@@ -29,12 +36,31 @@ impl fmt::Display for ContourObstacle {
             Self::NothingCut => {
                 f.write_str("no feed move is driven, so there is no contour to judge")
             }
-            Self::LeftOut(1) => {
-                f.write_str("1 motion is left out, whose start, end or feed is not known")
+            Self::LeftOut(count, at) => {
+                let motions = match count {
+                    1 => "1 motion is".to_owned(),
+                    count => format!("{count} motions are"),
+                };
+                write!(
+                    f,
+                    "{motions} left out, whose start, end or feed is not known"
+                )?;
+                if at.is_empty() {
+                    return Ok(());
+                }
+                let more = if at.len() as u64 == *count {
+                    ""
+                } else {
+                    " …"
+                };
+                write!(f, ": {}{more}", at.join(", "))
             }
-            Self::LeftOut(count) => write!(
+            Self::Undecided(at, cause) => {
+                write!(f, "{cause}: what follows from it at {at} is not driven")
+            }
+            Self::UnknownState(axis, at, seconds) => write!(
                 f,
-                "{count} motions are left out, whose start, end or feed is not known"
+                "the state of {axis} is not known for {seconds:.3} s of cutting, from {at} on"
             ),
             Self::Ended(code) => write!(f, "it ends before the program does, with {code}"),
             Self::NotOfTheMachine(seconds) => write!(
@@ -48,4 +74,23 @@ impl fmt::Display for ContourObstacle {
             ),
         }
     }
+}
+
+impl ContourObstacle {
+    /// The obstacle of motions that were left out, with the messages on them.
+    pub(super) fn left_out(count: u64, remarks: &[Diagnostic]) -> Self {
+        let of_motion = |said: &&Diagnostic| matches!(said.code, Code::Fc903 | Code::Fc906);
+        let places = remarks.iter().filter(of_motion).map(place_of);
+        Self::LeftOut(count, places.take(MAX_PLACES).collect())
+    }
+
+    /// The obstacle of a message on a stretch that only the machine decides.
+    pub(super) fn undecided(said: &Diagnostic) -> Self {
+        let cause = said.message.split(';').next().unwrap_or_default();
+        Self::Undecided(place_of(said), cause.to_owned())
+    }
+}
+
+fn place_of(said: &Diagnostic) -> String {
+    format!("{}:{}", said.place.file, said.place.start().line)
 }

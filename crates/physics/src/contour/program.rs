@@ -128,6 +128,8 @@ struct Tracer<S> {
     axes: Vec<ContourSummary>,
     cycles: u64,
     not_of_the_machine: u64,
+    /// For each axis the first block that cuts while its state is not known, and the cycles.
+    unknown: Vec<Option<(Arc<Cause>, u64)>>,
     is_unstable: bool,
     sink: S,
 }
@@ -163,6 +165,7 @@ impl<S: ContourSink> ProgramContour<S> {
             feed: FeedReached::default(),
             cycles: 0,
             not_of_the_machine: 0,
+            unknown: vec![None; options.axes.len()],
             is_unstable: false,
             options,
             sink,
@@ -238,10 +241,26 @@ impl<S: ContourSink> ProgramContour<S> {
         let is_beside = |it: &ContourObstacle| {
             matches!(
                 it,
-                ContourObstacle::AssumedLimits(_) | ContourObstacle::NothingCut
+                ContourObstacle::AssumedLimits(_)
+                    | ContourObstacle::NothingCut
+                    | ContourObstacle::UnknownState(..)
             )
         };
         self.left_out() == 0 && self.obstacles().iter().all(is_beside)
+    }
+
+    /// The axes that are cut while their state is not known.
+    fn unknown_states(&self) -> impl Iterator<Item = ContourObstacle> {
+        let tracer = self.tracer();
+        let axes = tracer.options.axes.iter().zip(&tracer.unknown);
+        axes.filter_map(|(axis, unknown)| {
+            let (first, cycles) = unknown.as_ref()?;
+            Some(ContourObstacle::UnknownState(
+                axis.name.clone(),
+                format!("{}:{}", first.file, first.line),
+                seconds(*cycles, tracer.options.planner.cycle_s),
+            ))
+        })
     }
 
     /// Returns the treatment of the transitions between feed moves.
@@ -258,8 +277,12 @@ impl<S: ContourSink> ProgramContour<S> {
             obstacles.push(ContourObstacle::NothingCut);
         }
         if self.left_out_feed() > 0 {
-            obstacles.push(ContourObstacle::LeftOut(self.left_out_feed()));
+            let (_, remarks) = self.diagnostics();
+            obstacles.push(ContourObstacle::left_out(self.left_out_feed(), remarks));
         }
+        let undecided = self.trace.undecided().iter();
+        obstacles.extend(undecided.map(ContourObstacle::undecided));
+        obstacles.extend(self.unknown_states());
         let (errors, remarks) = self.diagnostics();
         let budgets = remarks.iter().filter(|remark| remark.code.is_budget());
         let ends = errors.iter().chain(budgets);
@@ -485,6 +508,13 @@ impl<S: ContourSink> Tracer<S> {
         let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);
         let space_um = distances.map(|distance| distance.space * UM_PER_MM);
         if counts {
+            for (axis, unknown) in self.unknown.iter_mut().enumerate() {
+                let moves = cycle.velocities[axis].abs() > f64::EPSILON;
+                if moves && cycle.cause.friction.get(axis) == Some(&State::Unknown) {
+                    let first = || (Arc::clone(&cycle.cause), 0);
+                    unknown.get_or_insert_with(first).1 += 1;
+                }
+            }
             let all = self.deviations.each_mut().into_iter();
             for (at, deviations) in all.enumerate() {
                 deviations.push([deviation_um[at], space_um[at]], &cycle.cause);

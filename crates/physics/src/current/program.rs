@@ -173,6 +173,11 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.diagnostics()
     }
 
+    /// The first messages on stretches that only the machine decides, which are not in the trace (R14.8).
+    pub fn undecided(&self) -> &[Diagnostic] {
+        self.trace.undecided()
+    }
+
     /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
     /// known.
     pub fn is_cut_short(&self) -> bool {

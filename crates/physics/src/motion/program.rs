@@ -6,7 +6,7 @@ use super::planner::{PlannerOptions, TrajectoryPlanner};
 use super::rounding::Transitions;
 use super::trace::TraceSink;
 use frictcomp::comp::AxisIndex;
-use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::interpreter::EndedBy;
 use frictcomp::machine::Machine;
 use frictcomp::timeline::{Record, Sink};
@@ -60,6 +60,8 @@ pub struct ProgramTrace<S> {
     planner: TrajectoryPlanner,
     sink: S,
     errors: Vec<Diagnostic>,
+    /// Messages on stretches that only the machine decides.
+    undecided: Vec<Diagnostic>,
     is_cut_short: bool,
     over: ControlFlow<()>,
 }
@@ -76,6 +78,7 @@ impl<S: TraceSink> ProgramTrace<S> {
             planner: TrajectoryPlanner::new(machine, followed, options),
             sink,
             errors: Vec::new(),
+            undecided: Vec::new(),
             is_cut_short: false,
             over: ControlFlow::Continue(()),
         }
@@ -93,6 +96,11 @@ impl<S: TraceSink> ProgramTrace<S> {
     /// the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         (&self.errors, self.planner.diagnostics())
+    }
+
+    /// The first messages on stretches that only the machine decides, which are not driven (R14.8).
+    pub fn undecided(&self) -> &[Diagnostic] {
+        &self.undecided
     }
 
     /// Whether a budget stopped a program, as an endless loop does (FC910): the rest is not
@@ -127,6 +135,14 @@ impl<S: TraceSink> ProgramTrace<S> {
     }
 }
 
+/// Most stretches that are named.
+const MAX_UNDECIDED: usize = 10;
+
+/// Whether a message is about blocks that only the machine decides.
+fn is_undecided(said: &Diagnostic) -> bool {
+    matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908)
+}
+
 impl<S: TraceSink> Sink for ProgramTrace<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let error = |said: &&Diagnostic| said.severity == Severity::Error;
@@ -135,6 +151,9 @@ impl<S: TraceSink> Sink for ProgramTrace<S> {
             Record::Block(ref row) => {
                 self.errors
                     .extend(row.diagnostics.iter().filter(error).cloned());
+                let undecided = row.diagnostics.iter().filter(|said| is_undecided(said));
+                let left = MAX_UNDECIDED.saturating_sub(self.undecided.len());
+                self.undecided.extend(undecided.take(left).cloned());
                 self.over = self.planner.block(row, &mut self.sink);
             }
             Record::End(ref end) => {

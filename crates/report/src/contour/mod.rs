@@ -14,5 +14,5 @@ pub use document::{document, summary_record};
 pub use golden::{GoldenContour, agreed_contour};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
-pub use remarks::{contour_remarks, exceeded};
+pub use remarks::{contour_remarks, exceeded, why_not_judged};
 pub use text::{ContourSubject, render_text};

@@ -119,6 +119,11 @@ pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = 
     lines.map(|obstacle| format!("not judged: {obstacle}"))
 }
 
+/// Returns why a contour is not judged, one line each.
+pub fn why_not_judged<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
+    not_judged(&contour.obstacles()).collect()
+}
+
 /// Returns the exceeded limits of a contour, one line each.
 pub fn exceeded<S: ContourSink>(
     contour: &ProgramContour<S>,
@@ -127,7 +132,7 @@ pub fn exceeded<S: ContourSink>(
     if !limits.any() {
         return Vec::new();
     }
-    let mut lines: Vec<String> = not_judged(&contour.obstacles()).collect();
+    let mut lines = why_not_judged(contour);
     let programmed = &contour.deviations().programmed;
     let due = contour.due();
     for (what, um, at, limit) in [

@@ -1,0 +1,230 @@
+//! Ways that are too many to follow (R9.91, R14.4).
+//!
+//! Each way that only the machine decides costs work, and loops and calls multiply it. Past the budget every way is
+//! taken to the end of the outermost control block of the main program that any of them is in. Nothing of it is
+//! executed any more: whatever its blocks, and those of the programs that it calls, could change is unknown (R2.51).
+//! The program continues there, and no further way is followed.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind};
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
+use crate::interpreter::run::control::ControlState;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::path::{Last, Path};
+use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::unknown::telling::of_axes;
+use crate::interpreter::values::cause::how_to_set;
+use crate::interpreter::values::work_budget::PER_REGION_UNIT;
+
+/// Units of a block on one of several ways, with the row that shows it.
+const BLOCK: u64 = 3000;
+
+/// Units of a copy of the state of the control.
+const COPY: u64 = 3000;
+
+/// Units of a copied or compared level of the call stack.
+const LEVEL: u64 = 100;
+
+/// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
+const PAIR: u64 = 60;
+
+/// Most values that the advice names.
+const MAX_NAMED: usize = 3;
+
+impl Interpreter {
+    /// Whether following the ways of the program takes more work than its budget, and they are still followed.
+    #[inline]
+    pub(in crate::interpreter) fn is_past_ways(&self) -> bool {
+        self.state.effort.ways() > self.options.limits.ways
+            && !self.state.is_widened
+            && self.options.follows_ways()
+            && self.state.effort.ways() > self.ways_bound()
+    }
+
+    /// Whether even reading what the ways could change takes too much work.
+    #[inline]
+    pub(in crate::interpreter) fn is_past_regions(&self) -> bool {
+        self.state.effort.ways() > self.options.limits.ways
+            && self.state.effort.ways() > self.ways_bound().saturating_mul(2)
+    }
+
+    #[cold]
+    fn ways_bound(&self) -> u64 {
+        let granted = self.work_bound() - self.options.limits.work;
+        let granted = granted.saturating_mul(PER_REGION_UNIT);
+        self.options.limits.ways.saturating_add(granted)
+    }
+
+    /// Counts the work of copying a state, or of comparing it with another one.
+    pub(in crate::interpreter) fn charge_copies(&self, control: &ControlState, reach: &WaySet) {
+        let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
+        let pairs = PAIR.saturating_mul(control.pairs(reach));
+        let axes = 20 * self.machine.axes.len() as u64;
+        let units = COPY.saturating_add(levels).saturating_add(pairs);
+        self.state.effort.charge_ways(units.saturating_add(axes));
+    }
+
+    /// Counts the work of a block that is executed while other ways wait.
+    pub(in crate::interpreter) fn charge_block(&self, weight: u64) {
+        let waiting = self.state.pending.len() as u64;
+        let compared = waiting.saturating_mul(20 * self.state.control.frames.depth() as u64);
+        let units = BLOCK.saturating_add(weight).saturating_add(compared);
+        self.state.effort.charge_ways(units);
+    }
+
+    /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
+    /// from there on (FC908).
+    #[cold]
+    pub(in crate::interpreter) fn widen(&mut self, finder: &mut dyn Finder) {
+        self.state.is_widened = true;
+        let cause: Arc<str> = "ways that are not followed".into();
+        let mut left = BTreeSet::new();
+        let mut ways = std::mem::take(&mut self.state.pending);
+        ways.insert(0, self.state.leave_path());
+        for way in &mut ways {
+            self.enter_path(way.clone());
+            while self.state.control.frames.depth() > 1 {
+                let program = self.state.control.frames.program();
+                left.extend(program.map(|it| (it.unit, it.section)));
+                self.leave();
+            }
+            *way = self.state.leave_path();
+        }
+        let passed = self.passed_by_all(&ways);
+        let mut ways = ways.into_iter().map(|way| way.at(passed.end));
+        let Some(mut joined) = ways.next() else {
+            return;
+        };
+        for way in ways {
+            joined.join(way, &cause);
+        }
+        joined.track.loops.clear();
+        joined.track.open_loops.clear();
+        joined.track.marked = None;
+        self.enter_path(joined);
+        self.scratch.havoc_last_motion();
+        for (unit, section) in left {
+            let section = self.programs.section(ProgramId { unit, section });
+            let region = self.havoc_region(unit, section.start..section.end, &cause);
+            self.note_far_exits(&region, &cause);
+        }
+        if let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) {
+            let region = self.havoc_region(unit, passed.clone(), &cause);
+            self.note_exits(&region, passed.start..=passed.end, &cause, None);
+        }
+        self.havoc_called(finder);
+        self.take_departing();
+        if self.is_past_regions() {
+            self.havoc_all(&cause);
+        }
+        self.version += 1;
+        let said = self.too_many_ways(&passed);
+        self.met.extend(said);
+    }
+
+    /// The blocks of the main program that ways may execute up to the end of the control blocks that they are in.
+    fn passed_by_all(&self, ways: &[Path]) -> Range<EntryIndex> {
+        let frames = ways.iter().filter_map(|way| way.control.frames.running());
+        let next: Vec<EntryIndex> = frames.map(|frame| frame.next).collect();
+        let first = next.iter().min().copied().unwrap_or_default();
+        let last = next.iter().max().copied().unwrap_or_default();
+        let running = self.state.control.frames.main();
+        let running = running.or_else(|| ways.first()?.control.frames.main());
+        match running.map(|frame| self.programs.index(frame.unit)) {
+            Some(index) if !index.entries.is_empty() => index.around(first.saturating_sub(1)..last),
+            _ => last..last,
+        }
+    }
+
+    /// FC908.
+    fn too_many_ways(&self, passed: &Range<EntryIndex>) -> Option<Diagnostic> {
+        let main = self.state.control.frames.main();
+        let index = main.map(|frame| self.programs.index(frame.unit));
+        let index = index.filter(|index| !index.entries.is_empty());
+        let last = || self.state.last.as_ref().map(Last::place);
+        let place = index.map(|index| index.block_place(passed.start));
+        let place = place.or_else(last)?;
+        let to = index.and_then(|index| index.entries.get(passed.end.checked_sub(1)? as usize));
+        let to = to.map_or(String::new(), |entry| format!(" to line {}", entry.line));
+        let unknown = self.unknown_kinds();
+        let unknown = if unknown.is_empty() {
+            String::new()
+        } else {
+            format!(": {}", unknown.join(", "))
+        };
+        let message = format!(
+            "there are too many ways from here{to} to follow all of them; the dry run continues after them, and \
+             whatever these blocks could change is unknown{unknown}"
+        );
+        let mut said = Diagnostic::new(Code::Fc908, place, message);
+        let mut causes: Vec<&Arc<str>> = Vec::new();
+        for condition in &self.state.conditions {
+            if causes.len() < MAX_NAMED && !causes.contains(&&condition.cause) {
+                causes.push(&condition.cause);
+            }
+        }
+        for cause in causes {
+            said = said.with_help(how_to_set(cause));
+        }
+        Some(said.with_help(Advice::RaiseBudget(Budget::Ways)))
+    }
+
+    /// The kinds that are unknown, with their axes.
+    fn unknown_kinds(&self) -> Vec<String> {
+        let compensation = &self.state.control.compensation;
+        let axes = || (0..compensation.len()).map(AxisIndex::new);
+        let of_kind = |kind: &Kind| {
+            let unknown = axes().filter(|axis| compensation.unknown(*axis).contains(*kind));
+            let names: Vec<&str> = unknown
+                .map(|axis| self.machine.axis(axis).name.as_str())
+                .collect();
+            (!names.is_empty()).then(|| of_axes(*kind, &names))
+        };
+        Kind::ALL.iter().filter_map(of_kind).collect()
+    }
+}
+
+impl Index {
+    /// A range of blocks with all of each control block that it touches.
+    fn around(&self, mut blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+        loop {
+            let mut whole = blocks.clone();
+            for links in self.links.values() {
+                if links.opener < whole.end && links.end >= whole.start {
+                    whole = whole.start.min(links.opener)..whole.end.max(links.end + 1);
+                }
+            }
+            if whole == blocks {
+                return blocks;
+            }
+            blocks = whole;
+        }
+    }
+}
+
+impl Path {
+    /// The way when it reaches a block of the running program.
+    fn at(mut self, entry: EntryIndex) -> Self {
+        if let Some(frame) = self.control.frames.running_mut() {
+            frame.next = entry;
+            frame.seeking = None;
+            frame.waiting.clear();
+        }
+        self
+    }
+}
+
+impl ControlState {
+    /// Pairs of answers that are compared where ways to this state meet others.
+    fn pairs(&self, reach: &WaySet) -> u64 {
+        let splits = self.possible.iter();
+        let sets = splits.flat_map(|(_, split)| [&split.on, &split.off]);
+        let sets = sets.chain(self.untouched.sets()).chain([reach]);
+        sets.map(WaySet::pairs).fold(0, u64::saturating_add)
+    }
+}

@@ -42,8 +42,8 @@ fn the_documented_example() {
       end 5 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
     b.nc -
       1 line 1 -
-        FC403 1:1-3
       2 line 2 -
+        FC403 1:1-3
       end 2 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
     ");
 }
@@ -827,8 +827,8 @@ fn a_saved_state_is_what_the_next_session_starts_with() {
     start X:inactive Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
-        FC403 1:1-3
       2 line 2 -
+        FC403 1:1-3
       end 2 M30 X:inactive Y:active Z:unconfigured B:ineffective
     ");
 }

@@ -91,6 +91,22 @@ impl AxisFinding {
 }
 
 impl Archive {
+    /// Leaves out the axes that nothing describes and no program switches: there is nothing to leave or inherit.
+    #[must_use]
+    pub fn without_unswitched(mut self) -> Self {
+        let first = self.programs.first().map_or(&[][..], |first| &first.axes);
+        let counts = |at: usize| {
+            let mut programs = self.programs.iter().map(|program| &program.axes[at]);
+            programs.any(|axis| axis.is_described || axis.is_commanded)
+        };
+        let counting: Vec<bool> = (0..first.len()).map(counts).collect();
+        for program in &mut self.programs {
+            let mut counting = counting.iter().copied();
+            program.axes.retain(|_| counting.next().unwrap_or(true));
+        }
+        self
+    }
+
     /// Adds a program.
     pub fn push(&mut self, program: ProgramAudit) {
         self.programs.push(program);
@@ -178,7 +194,9 @@ impl Archive {
     pub fn to_mend(&self, end: MendedEnd) -> BTreeMap<usize, Vec<Mending>> {
         let mut wanted: BTreeMap<usize, Vec<Mending>> = BTreeMap::new();
         for finding in self.findings() {
-            if !finding.is_worth_a_warning() {
+            let first = self.programs.first().and_then(|it| it.axes.get(finding.at));
+            let is_described = first.is_some_and(|axis| axis.is_described);
+            if !finding.is_worth_a_warning() || !is_described {
                 continue;
             }
             let cure = match end {

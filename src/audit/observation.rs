@@ -227,18 +227,32 @@ impl Observation {
     }
 
     fn command(&mut self, scope: &Scope, executed: &Executed<'_>, outcome: &Outcome) {
+        let name = &outcome.command.axis;
+        let kinds = outcome.command.selection.kinds();
+        let site = Site {
+            file: Arc::clone(executed.file),
+            line: executed.line,
+        };
+        if let Some(at) = scope.undescribed(name) {
+            if kinds.contains(scope.subjects()[at].kind) {
+                let observed = &mut self.observed[at];
+                observed.commanded = true;
+                observed.last = Some(SelectionOrigin::Doubt(WhyUnknown {
+                    code: Some(Code::Fc408),
+                    message: format!("nothing describes axis `{name}`"),
+                    site: Some(site),
+                }));
+            }
+            return;
+        }
         let Ok(axis) = outcome.result else {
             return;
         };
-        let kinds = outcome.command.selection.kinds();
         for at in scope.of_axis(axis) {
             if kinds.contains(scope.subjects()[at].kind) {
                 let observed = &mut self.observed[at];
                 observed.commanded = true;
-                observed.last = Some(SelectionOrigin::Command(Site {
-                    file: Arc::clone(executed.file),
-                    line: executed.line,
-                }));
+                observed.last = Some(SelectionOrigin::Command(site.clone()));
             }
         }
     }
@@ -315,6 +329,11 @@ impl Observation {
         self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
         self.left = scope.subjects().iter().map(of_subject).collect();
+        for (at, observed) in self.observed.iter().enumerate() {
+            if observed.commanded && !scope.is_described(at) {
+                self.left[at] = Selected::Unknown;
+            }
+        }
         for states in ended.possible {
             for at in scope.of_axis(states.axis) {
                 if scope.subjects()[at].kind == states.kind {

@@ -44,6 +44,12 @@ pub struct AxisAudit {
     /// Whether it is selected at the start of the control.
     #[serde(skip)]
     pub on_at_start_up: bool,
+    /// Whether anything says if the axis is configured for it; if nothing does, it may be (R18.2).
+    #[serde(skip)]
+    pub is_described: bool,
+    /// Whether a command of the program is about it.
+    #[serde(skip)]
+    pub is_commanded: bool,
     /// Effect on the selection.
     pub effect: ProgramEffect,
     /// The last command that made it so.
@@ -289,7 +295,10 @@ impl Auditor {
             AxisAudit {
                 axis: self.name(*subject).to_owned(),
                 kind: subject.kind,
-                on_at_start_up: self.scope.is_on_at_start_up(*subject),
+                on_at_start_up: self.scope.is_on_at_start_up(*subject)
+                    || !self.scope.is_described(at),
+                is_described: self.scope.is_described(at),
+                is_commanded: runs.is_commanded(at),
                 effect,
                 by,
                 possible: (effect == ProgramEffect::Depends)

@@ -144,6 +144,11 @@ impl ProgramRuns {
         self.all().find(has_failed)
     }
 
+    /// Whether a command is about a subject.
+    pub(super) fn is_commanded(&self, at: usize) -> bool {
+        self.all().any(|run| run.observed[at].commanded)
+    }
+
     pub(super) fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
         if self.stopped().is_some() || self.asked().len() > MOST_ASKED {
             return ProgramEffect::Unknown;

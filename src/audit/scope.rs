@@ -5,7 +5,8 @@ use serde::Serialize;
 use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::machine::Machine;
 
-/// A kind of compensation on an axis that is configured for it.
+/// A kind of compensation on an axis that is configured for it, or friction compensation on an axis that nothing
+/// describes (R18.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct AuditedKind {
@@ -15,13 +16,15 @@ pub struct AuditedKind {
     pub kind: Kind,
 }
 
-/// The audited part of a machine: each configured kind of each axis; only friction compensation
-/// counts unless other kinds are requested.
+/// The audited part of a machine: each configured kind of each axis, and friction compensation of axes that nothing
+/// describes; only friction compensation counts unless other kinds are requested.
 #[derive(Debug, Clone)]
 pub struct Scope {
     subjects: Vec<AuditedKind>,
     /// The range of subjects of each axis.
     by_axis: Vec<std::ops::Range<usize>>,
+    /// The subjects whose axes nothing describes, with the names of these.
+    undescribed: Vec<(String, usize)>,
     start_up: Compensation,
 }
 
@@ -32,14 +35,20 @@ impl Scope {
         let mut subjects = Vec::new();
         let by_axis = (0..start_up.len()).map(AxisIndex::new).map(|axis| {
             let from = subjects.len();
-            let configured = kinds
-                .iter()
-                .filter(|kind| start_up.is_configured(axis, *kind));
-            subjects.extend(configured.map(|kind| AuditedKind { axis, kind }));
+            let is_open = !machine.axis(axis).is_described();
+            let counts = |kind: &Kind| {
+                start_up.is_configured(axis, *kind) || (is_open && *kind == Kind::Frict)
+            };
+            let counting = kinds.iter().filter(counts);
+            subjects.extend(counting.map(|kind| AuditedKind { axis, kind }));
             from..subjects.len()
         });
         let by_axis = by_axis.collect();
+        let open = subjects.iter().enumerate();
+        let open = open.filter(|(_, it)| !start_up.is_configured(it.axis, it.kind));
+        let named = open.map(|(at, it)| (machine.axis(it.axis).name.clone(), at));
         Self {
+            undescribed: named.collect(),
             subjects,
             by_axis,
             start_up,
@@ -49,6 +58,17 @@ impl Scope {
     /// Returns the audited kinds of the axes, in the order of the machine's axes.
     pub fn subjects(&self) -> &[AuditedKind] {
         &self.subjects
+    }
+
+    /// Whether anything says that the axis of a subject is configured for it (R18.2).
+    pub(super) fn is_described(&self, at: usize) -> bool {
+        self.undescribed.iter().all(|(_, open)| *open != at)
+    }
+
+    /// Returns the subject of an axis that nothing describes.
+    pub(super) fn undescribed(&self, name: &str) -> Option<usize> {
+        let mut open = self.undescribed.iter();
+        open.find(|(axis, _)| axis == name).map(|(_, at)| *at)
     }
 
     /// Returns the state at the start of the control (R1.22).

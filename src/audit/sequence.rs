@@ -19,6 +19,8 @@ pub struct Sequence<'a> {
     interpreter: Interpreter,
     /// The program that left each subject as it is, if that is not its start-up state.
     left_by: Vec<Option<String>>,
+    /// Whether a program switched each subject though nothing describes its axis (R18.2).
+    lost: Vec<bool>,
     /// The open questions whose readings decided something so far.
     rests_on: QuestionSet,
 }
@@ -78,6 +80,7 @@ impl<'a> Sequence<'a> {
         Self {
             interpreter: auditor.interpreter(scope.start_up().clone()),
             left_by: vec![None; scope.subjects().len()],
+            lost: vec![false; scope.subjects().len()],
             rests_on: QuestionSet::default(),
             auditor,
         }
@@ -104,14 +107,22 @@ impl<'a> Sequence<'a> {
         for (at, subject) in scope.subjects().iter().enumerate() {
             let observed = &observation.observed[at];
             let start_up = Selected::of(scope.start_up(), *subject);
-            let end = observation.left[at];
+            let is_described = scope.is_described(at);
+            self.lost[at] |= observed.commanded && !is_described;
+            if !is_described && !self.lost[at] {
+                continue;
+            }
+            let is_lost = self.lost[at];
+            let known = |selected| if is_lost { Selected::Unknown } else { selected };
+            let begin = known(Selected::of(&start, *subject));
+            let end = known(observation.left[at]);
             let inherits = observed.inherited.as_ref().map(|moved| moved.seq);
             let away = observed.astray.as_ref();
             let is_found = away.is_some_and(|away| Some(away.seq) == inherits);
             axes.push(StepAxis {
                 axis: self.auditor.name(*subject).to_owned(),
                 kind: subject.kind,
-                start: Selected::of(&start, *subject),
+                start: begin,
                 end,
                 possible: observation.possible[at].clone(),
                 start_up,
@@ -124,7 +135,7 @@ impl<'a> Sequence<'a> {
             });
             if end == start_up {
                 self.left_by[at] = None;
-            } else if observed.last.is_some() || Selected::of(&start, *subject) != end {
+            } else if observed.last.is_some() || begin != end {
                 self.left_by[at] = Some(file.to_owned());
             }
         }

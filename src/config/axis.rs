@@ -22,8 +22,8 @@ pub(crate) struct AxisTable {
     pub(crate) inline_list: Option<FrictionDraft>,
     /// Values that an axis list may give as well.
     pub(crate) values: AxisValues,
-    /// Whether compensation is assumed.
-    pub(crate) is_enabled: bool,
+    /// Set if compensation is assumed.
+    pub(crate) enabled: Option<Given<bool>>,
     /// The maximum velocity in mm/min or °/min.
     pub(crate) max_velocity: Option<f64>,
     /// The maximum acceleration in m/s² or °/s².
@@ -91,7 +91,7 @@ impl AxisTable {
                 name: Some(name.clone()),
                 ..values(section)?
             },
-            is_enabled: section.truth("enable")?.is_some_and(|given| given.value),
+            enabled: section.truth("enable")?.filter(|given| given.value),
             max_velocity: section.positive("max_velocity")?,
             max_acceleration: section.positive("max_acceleration")?,
             max_jerk: section.positive("max_jerk")?,

@@ -45,8 +45,6 @@ pub enum Advice {
     RaiseBudget(Budget),
     /// Assume that friction compensation of these axes is configured and parameterised.
     Enable(Vec<String>),
-    /// Set P-AXIS-00522 of this axis in its list, or assume that it is set.
-    Configure(String),
     /// Set P-AXIS-00522 of this axis to 1 where its list sets it to 0.
     ConfigureInList {
         /// Name of the axis.
@@ -144,10 +142,6 @@ impl fmt::Display for Advice {
                 let axes = axes.join(", ");
                 write!(f, "to continue as if it were set, assume friction compensation of {axes}")
             }
-            Self::Configure(axis) => write!(
-                f,
-                "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume that it is"
-            ),
             Self::ConfigureInList { file, line, .. } => write!(
                 f,
                 "{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control"

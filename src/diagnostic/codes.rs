@@ -121,7 +121,7 @@ codes! {
     Fc326 "FC326" Warning "program of another control";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
-    Fc403 "FC403" Info "depends on the program before";
+    Fc403 "FC403" Warning "depends on the program before";
     Fc404 "FC404" Info "lower-case keyword";
     Fc405 "FC405" Info "COMP and motion in one block";
     Fc406 "FC406" Info "kind named twice";

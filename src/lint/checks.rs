@@ -49,13 +49,8 @@ impl Linter<'_> {
         }
         // The commands of a block act before its motion (R1.9).
         for motion in executed.motions() {
-            if self.memory.moved(&motion, executed) {
-                let found = moved_before::lint(self, motion.axis, executed);
-                if found.is_some() {
-                    self.memory.settle(motion.axis);
-                }
-                said.extend(found);
-            }
+            let is_first = self.memory.moved(&motion, executed);
+            said.extend(moved_before::lint(self, (&motion, is_first), executed));
         }
     }
 

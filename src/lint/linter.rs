@@ -73,6 +73,18 @@ impl<'m> Linter<'m> {
     pub(crate) fn starts(&mut self, with: &Compensation) {
         let axes = (0..with.len()).map(AxisIndex::new);
         self.found = axes.map(|axis| with.state(axis, Kind::Frict)).collect();
+        for axis in (0..with.len()).map(AxisIndex::new) {
+            let is_at_start_up = self.found(axis) == self.history.start_up(axis, Kind::Frict);
+            self.memory.inherited(axis).is_settled = is_at_start_up;
+        }
+    }
+
+    /// Returns the messages about motions in states that the program found, which no later motion outweighed (R18.4).
+    pub(crate) fn held(&mut self) -> impl Iterator<Item = EndNote> {
+        self.memory.held().map(|held| EndNote {
+            seq: held.seq,
+            diagnostic: held.said,
+        })
     }
 
     /// Returns the state of friction compensation that the program found.

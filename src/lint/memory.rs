@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, Selection, State};
+use crate::diagnostic::Diagnostic;
 use crate::interpreter::{
     Certainty, Ended, Executed, FoundOn, MotionKind, MovedAxis, Outcome, WayCondition,
 };
@@ -140,6 +141,54 @@ pub(super) struct Touch {
     pub(super) certainty: Certainty,
 }
 
+impl Touch {
+    pub(super) fn new(motion: &MovedAxis, executed: &Executed<'_>) -> Self {
+        let whole = Span::new(0, executed.text.len());
+        let has_words = motion.span.end > motion.span.start;
+        Self {
+            site: BlockSite::new(executed, if has_words { motion.span } else { whole }),
+            kind: motion.kind,
+            certainty: motion.certainty,
+        }
+    }
+}
+
+/// A message about the state in which a program moves an axis, held back until its end (R18.4).
+#[derive(Debug, Clone)]
+pub(super) struct Held {
+    /// The executed block that it is about.
+    pub(super) seq: u64,
+    pub(super) said: Diagnostic,
+    /// Whether the motion is, or may be, at feed.
+    pub(super) is_feed: bool,
+}
+
+/// Motions of an axis in a state that something before the program left away from the start-up state (R18.4).
+#[derive(Debug, Clone, Default)]
+pub(super) struct Inherited {
+    /// The first feed move that is certain, and the ways on which such a move comes before any command.
+    cut: Option<(Touch, FoundOn)>,
+    /// The message about the other motions.
+    pub(super) held: Option<Held>,
+    /// Whether no further motion changes what is said.
+    pub(super) is_settled: bool,
+}
+
+impl Inherited {
+    /// Records a certain feed move. Returns it if it comes before any command on all ways, or the first of several of
+    /// which one does so on each way.
+    pub(super) fn cut(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> Option<Touch> {
+        let on = executed.found.on(motion.axis, Kind::Frict);
+        let touch = || Touch::new(motion, executed);
+        if on.is_always() {
+            return Some(touch());
+        }
+        let (first, ways) = self.cut.get_or_insert_with(|| (touch(), on.clone()));
+        ways.or(&on);
+        ways.is_always().then(|| first.clone())
+    }
+}
+
 /// A command that changed friction compensation after a feed move of the axis.
 #[derive(Debug, Clone)]
 pub(super) struct SwitchAfterMove {
@@ -159,11 +208,10 @@ pub(super) struct AxisMemory {
     moved_on: Option<FoundOn>,
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// A block that moved, or may have moved, it by any kind of motion, except where nothing is known. The first such
-    /// block, or the last one while the axis has moved on some ways only.
-    pub(super) touched: Option<Touch>,
-    /// Whether it has moved on all ways that lead to that block, in any way or with certainty.
+    /// Whether it has moved on all ways that lead to its last motion, in any way or with certainty.
     settled: Settled,
+    /// Its motions in a state that was left by something before the program.
+    pub(super) inherited: Inherited,
 }
 
 /// Settled questions about the first motion of an axis, which may differ between the ways of the program (R14.5).
@@ -218,7 +266,7 @@ fn counts(motion: &MovedAxis) -> bool {
 }
 
 /// Whether a form of R10.7 moves, or may move, the axis; not if nothing about the motion is known.
-fn is_of_a_kind(motion: &MovedAxis) -> bool {
+pub(super) fn is_of_a_kind(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
 
@@ -295,6 +343,7 @@ impl ProgramEffects {
             let memory = &self.axes[motion.axis.get()];
             (memory.settled.any || !is_of_a_kind(motion))
                 && (memory.settled.sure || !counts(motion))
+                && memory.inherited.is_settled
         };
         motions.iter().all(is_known)
     }
@@ -303,15 +352,6 @@ impl ProgramEffects {
     pub(super) fn moved(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> bool {
         let memory = &mut self.axes[motion.axis.get()];
         let is_on_all_ways = executed.branch.is_none();
-        let site = || {
-            let whole = Span::new(0, executed.text.len());
-            let span = if motion.span.end > motion.span.start {
-                motion.span
-            } else {
-                whole
-            };
-            BlockSite::new(executed, span)
-        };
         // On the same ways, a later motion finds no state that the earlier one did not find.
         let is_known = memory
             .moved_on
@@ -319,22 +359,17 @@ impl ProgramEffects {
             .is_some_and(|on| on.is_all_of(executed.found));
         if counts(motion) && !memory.settled.sure && !is_known {
             memory.moved_on = Some(executed.found.on_all());
-            let site = Arc::new(site());
+            let site = Arc::new(Touch::new(motion, executed).site);
             for (kind, memory) in Kind::ALL.into_iter().zip(&mut memory.kinds) {
                 memory.move_found(&site, (motion.axis, kind), executed);
             }
             memory.settled.sure = is_on_all_ways;
-            if self.is_alone && is_on_all_ways {
-                self.moved |= 1 << (motion.axis.get() % 64);
-            }
+        }
+        if self.is_alone && memory.settled.sure && memory.inherited.is_settled {
+            self.moved |= 1 << (motion.axis.get() % 64);
         }
         let is_new = !memory.settled.any && is_of_a_kind(motion);
         if is_new {
-            memory.touched = Some(Touch {
-                site: site(),
-                kind: motion.kind,
-                certainty: motion.certainty,
-            });
             memory.settled.any = is_on_all_ways;
         }
         is_new
@@ -348,8 +383,14 @@ impl ProgramEffects {
         }
     }
 
-    /// Marks the message about the first motion of an axis as reported.
-    pub(super) fn settle(&mut self, axis: AxisIndex) {
-        self.axes[axis.get()].settled.any = true;
+    /// Returns the motions of an axis in the state that the program found.
+    pub(super) fn inherited(&mut self, axis: AxisIndex) -> &mut Inherited {
+        &mut self.axes[axis.get()].inherited
+    }
+
+    /// Returns the messages held back until the end.
+    pub(super) fn held(&mut self) -> impl Iterator<Item = Held> {
+        let axes = self.axes.iter_mut();
+        axes.filter_map(|axis| axis.inherited.held.take())
     }
 }

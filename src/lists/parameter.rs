@@ -1,5 +1,6 @@
 //! The effective value of a parameter and its origin.
 
+use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -66,8 +67,33 @@ pub enum Origin {
         /// The line, from 1.
         line: u32,
     },
-    /// The user assumes it, for example with `enable = true`.
+    /// The user assumes it in a call, for example with `--enable`.
     Assumed,
+    /// The user assumes it with `enable = true` in this line of `frictcomp.toml` (R18.2).
+    Enabled {
+        /// The file as the user would name it.
+        file: String,
+        /// The line, from 1.
+        line: u32,
+    },
+}
+
+impl Origin {
+    /// Whether the user assumes it.
+    pub fn is_assumed(&self) -> bool {
+        matches!(self, Self::Assumed | Self::Enabled { .. })
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Default => f.write_str("default"),
+            Self::File { file, line } => write!(f, "{file}:{line}"),
+            Self::Assumed => f.write_str("assumed"),
+            Self::Enabled { file, line } => write!(f, "`enable = true`, {file}:{line}"),
+        }
+    }
 }
 
 impl<T> From<&Given<T>> for Origin {

@@ -71,10 +71,12 @@ pub(super) struct AxisDraft {
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
     pub(super) dynamics: ConfiguredDynamics,
-    /// Whether compensation is assumed, see [`Axis::enable`].
-    pub(super) enabled: bool,
+    /// The line that assumes compensation, see [`Axis::enable`].
+    pub(super) enabled: Option<Given<bool>>,
     /// Whether the axis has an axis list of the control.
     pub(super) is_listed: bool,
+    /// Whether a start-up list leads to the axis, and every axis list that it names was read: no other one says more.
+    pub(super) is_covered: bool,
     /// The list with the defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
 }
@@ -89,8 +91,9 @@ impl AxisDraft {
             startup_number: None,
             value_list: ValueList::default(),
             dynamics: ConfiguredDynamics::default(),
-            enabled: false,
+            enabled: None,
             is_listed: false,
+            is_covered: false,
             shared: None,
         }
     }
@@ -148,6 +151,11 @@ impl AxisDraft {
         let max_points_given = self.value_list.friction.get(Field::MaxPoints);
         let mut axis = Axis {
             name: self.name.clone(),
+            name_origin: self
+                .values
+                .name
+                .as_ref()
+                .map_or(Origin::Default, Origin::from),
             number: self.values.number.as_ref().map(|number| number.value),
             axis_type,
             configured: set(&self.values.selectors),
@@ -174,8 +182,9 @@ impl AxisDraft {
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
         };
-        if self.enabled {
-            axis.enable();
+        if let Some(given) = &self.enabled {
+            let (file, line) = (given.file().to_owned(), given.line());
+            axis.assume(Origin::Enabled { file, line });
         }
         diagnostics.extend(self.check_selection(&axis));
         diagnostics.extend(self.check_monitor(&axis));
@@ -187,15 +196,7 @@ impl AxisDraft {
         values.manual = manual;
         let mut parameters = values.parameters();
         parameters.extend(reading.parameters);
-        if axis.frict_comp_origin == Origin::Assumed {
-            for row in parameters
-                .iter_mut()
-                .filter(|row| row.number == "P-AXIS-00522")
-            {
-                "1".clone_into(&mut row.value);
-                row.origin = Origin::Assumed;
-            }
-        }
+        axis.show_assumed(&mut parameters);
         let report = AxisReport {
             axis: self.name,
             axis_type,
@@ -214,15 +215,16 @@ impl AxisDraft {
         (axis, report)
     }
 
-    /// Returns the kinds that the axis list leaves at their default, not selected (R1.41).
+    /// Returns the kinds that the lists leave at their default, not selected (R1.41, R18.2).
     fn unselected(&self) -> KindSet {
-        if !self.is_listed {
-            return KindSet::NONE;
-        }
+        let said = match (self.is_listed, self.is_covered) {
+            (true, _) => KindSet::ALL,
+            (false, true) => KindSet::of(Kind::Frict),
+            (false, false) => KindSet::NONE,
+        };
         let selectors = self.values.selectors.iter();
         let on = selectors.filter(|(_, on)| on.value).map(|(&kind, _)| kind);
-        let known = KindSet::ALL.without(self.values.unread);
-        known.without(on.collect())
+        said.without(self.values.unread).without(on.collect())
     }
 
     /// Returns FC124 for required kinds that may or may not be configured (R1.36).
@@ -324,8 +326,13 @@ impl AxisDraft {
         if !matches!(axis.friction, Parameterisation::Accepted(_)) {
             return None;
         }
+        let selects = if axis.is_described() {
+            "P-AXIS-00522 is 0"
+        } else {
+            "nothing says that P-AXIS-00522 is 1"
+        };
         let message = format!(
-            "axis `{}` has friction values, but P-AXIS-00522 is 0: they have no effect",
+            "axis `{}` has friction values, but {selects}: they have no effect",
             axis.name
         );
         let mut diagnostic = Diagnostic::new(Code::Fc135, anchor?.place(), message);

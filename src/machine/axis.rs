@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{Kind, KindSet};
-use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
 use crate::drive_interface::TorqueScale;
-use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, ListedDynamics, Origin};
+use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, ListedDynamics, Origin, Parameter};
 use crate::text::Place;
 
 /// Whether an axis has a friction value list that the control would accept.
@@ -42,8 +42,10 @@ pub struct Axis {
     pub axis_type: AxisType,
     /// The kinds whose selector in the axis list is set; FRICT is P-AXIS-00522.
     pub configured: KindSet,
-    /// The kinds that the axis list of the control is known not to select (R1.41); empty if the axis has no such list.
+    /// The kinds that the lists of the control are known not to select (R1.41, R18.2); empty if none describes the axis.
     pub unselected: KindSet,
+    /// Origin of the name; the default where no configuration lists the axes.
+    pub name_origin: Origin,
     /// Origin of P-AXIS-00522.
     pub frict_comp_origin: Origin,
     /// The change to the axis list that sets P-AXIS-00522, if there is a list that does not set it.
@@ -76,6 +78,7 @@ impl Axis {
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
+            name_origin: Origin::Default,
             number: None,
             axis_type: AxisType::Linear,
             configured: KindSet::NONE,
@@ -141,14 +144,55 @@ impl Axis {
         self.axis_type == AxisType::Spindle
     }
 
+    /// Whether a list that was read, or the user, says what P-AXIS-00522 is. Otherwise the documented default takes its
+    /// place, and what a command to the axis does is not known (R1.37, R18.2). A spindle has no friction compensation.
+    pub fn is_described(&self) -> bool {
+        self.is_spindle()
+            || self.frict_comp_origin != Origin::Default
+            || self.unselected.contains(Kind::Frict)
+    }
+
+    /// Returns the advice to describe the axis, of which nothing is said (R18.2).
+    pub(crate) fn describing(&self) -> Advice {
+        let name = &self.name;
+        let (place, where_to) = match &self.name_origin {
+            Origin::File { file, line } => {
+                (format!(" ({file}, line {line}, only names it)"), "there")
+            }
+            _ => (String::new(), "in `frictcomp.toml`"),
+        };
+        let words = format!(
+            "nothing describes axis `{name}`{place}, so that its P-AXIS-00522 (lr_param.frict_comp) counts as 0; write \
+             `frict_comp = true` or `frict_comp = false` {where_to}"
+        );
+        words.into()
+    }
+
     /// Assumes P-AXIS-00522 = 1 and an accepted value list. A list that was actually accepted is kept.
     pub fn enable(&mut self) {
+        self.assume(Origin::Assumed);
+    }
+
+    /// Assumes it, see [`enable`](Self::enable), as asked for at an origin.
+    pub(super) fn assume(&mut self, origin: Origin) {
         if !self.configured.contains(Kind::Frict) {
             self.configured.insert(Kind::Frict);
-            self.frict_comp_origin = Origin::Assumed;
+            self.frict_comp_origin = origin;
         }
         if !matches!(self.friction, Parameterisation::Accepted(_)) {
             self.friction = Parameterisation::Assumed;
+        }
+    }
+
+    /// Shows an assumed P-AXIS-00522 among the parameters of the axis.
+    pub fn show_assumed(&self, parameters: &mut [Parameter]) {
+        if !self.frict_comp_origin.is_assumed() {
+            return;
+        }
+        let selector = Kind::Frict.facts().parameter;
+        for row in parameters.iter_mut().filter(|row| row.number == selector) {
+            "1".clone_into(&mut row.value);
+            row.origin = self.frict_comp_origin.clone();
         }
     }
 }

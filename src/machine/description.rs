@@ -117,11 +117,29 @@ impl Machine {
         admitted
     }
 
-    /// Whether a configuration, a list or an assumption describes friction compensation. Otherwise every axis has the
-    /// documented default (R1.37).
+    /// Whether anything describes the machine: a configuration that lists its axes, or an assumption about one of them
+    /// (R1.37).
     pub fn is_described(&self) -> bool {
-        let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;
-        self.axis_set == AxisSet::Configured || self.axes.iter().any(given)
+        self.axis_set == AxisSet::Configured || self.axes.iter().any(Axis::is_described)
+    }
+
+    /// Returns the axes on which a line of `frictcomp.toml` assumes friction compensation, with its file and number: every
+    /// verdict about them rests on it (R18.2).
+    pub fn enabled_axes(&self) -> impl Iterator<Item = (&Axis, &str, u32)> {
+        self.axes
+            .iter()
+            .filter_map(|axis| match &axis.frict_comp_origin {
+                Origin::Enabled { file, line } => Some((axis, file.as_str(), *line)),
+                _ => None,
+            })
+    }
+
+    /// Returns these assumptions in words; `None` without any.
+    pub fn assumption(&self) -> Option<String> {
+        let lines = self.enabled_axes();
+        let lines = lines.map(|(axis, file, line)| format!("{file}:{line} ({})", axis.name));
+        let lines: Vec<String> = lines.collect();
+        (!lines.is_empty()).then(|| format!("assuming `enable = true`, {}", lines.join(", ")))
     }
 
     /// Returns the state of all compensations after a start of the control.

@@ -137,7 +137,7 @@ impl AxisDraft {
             self.value_list.friction.override_with(inline);
         }
         self.values.override_with(table.values);
-        self.enabled = table.is_enabled;
+        self.enabled = table.enabled;
         self.dynamics = ConfiguredDynamics {
             velocity: table.max_velocity,
             acceleration: table.max_acceleration,

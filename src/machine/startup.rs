@@ -3,6 +3,7 @@
 use super::assemble::AxisDraft;
 use super::files::folder;
 use super::loader::{FirstChannel, Loader};
+use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
     AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, Entries, Given, ListKind,
@@ -30,6 +31,7 @@ impl Loader<'_> {
                 listed.push((asked.clone(), draft));
             }
         }
+        let is_whole = listed.len() == startup.axis_lists.len();
         let mut axes = self.channels(&startup, &mut listed, &default);
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
@@ -57,6 +59,7 @@ impl Loader<'_> {
         self.drop_repeated(&mut axes);
         for axis in &mut axes {
             axis.shared.clone_from(&shared);
+            axis.is_covered = is_whole;
         }
         for named in startup.value_lists.iter().take(MAX_AXES) {
             self.attach(named, &mut axes);
@@ -128,10 +131,14 @@ impl Loader<'_> {
 
     /// Returns the values of the default list, which is not for a particular axis.
     fn default_values(&mut self, startup: &StartupList) -> AxisValues {
-        let list = startup.default_axis_list.as_ref();
-        let mut default = list
-            .and_then(|asked| self.axis_list(asked))
-            .unwrap_or_default();
+        let unread = AxisValues {
+            unread: KindSet::ALL,
+            ..AxisValues::default()
+        };
+        let mut default = match &startup.default_axis_list {
+            Some(asked) => self.axis_list(asked).unwrap_or(unread),
+            None => AxisValues::default(),
+        };
         default.number = None;
         default.name = None;
         default.gantry_master = None;

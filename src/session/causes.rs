@@ -21,6 +21,18 @@ struct CauseKey {
 
 impl CauseKey {
     fn of(said: &Diagnostic) -> Self {
+        if said.code == Code::Fc408 {
+            // That nothing describes an axis is one cause, whichever block switches it (R18.2).
+            return Self {
+                file: Arc::default(),
+                first_line: 0,
+                span: Span::default(),
+                code: said.code,
+                severity: said.severity,
+                axis: said.axis.clone(),
+                message: said.help().join("\n"),
+            };
+        }
         Self {
             file: Arc::clone(&said.place.file),
             first_line: said.place.first_line,
@@ -70,6 +82,9 @@ impl Causes {
             self.said.push(said);
             return;
         };
+        if known.place != said.place {
+            return;
+        }
         known.reached_from.append(&said.reached_from);
         if said.times > known.times {
             (known.times, known.message) = (said.times, said.message);

@@ -1,7 +1,7 @@
 //! Counts the feed moves that axes make without friction compensation (R13.12).
 
 use crate::comp::{AxisIndex, Kind, State};
-use crate::interpreter::{Certainty, Executed, Group, MotionKind};
+use crate::interpreter::{Certainty, Executed};
 use crate::timeline::{FeedMoves, PositionFrame};
 
 /// An axis whose friction compensation is not active.
@@ -96,19 +96,7 @@ impl FeedMoveCounter {
 
 /// Whether a block moves an axis other than in rapid motion; `None` where it does not.
 fn pace(executed: &Executed<'_>, axis: AxisIndex) -> Option<Certainty> {
-    let is_path_known = executed.modal.is_known(Group::Motion);
-    let is_path_rapid = is_path_known && executed.modal.functions.motion == 0;
     let motions = executed.motions().filter(|moved| moved.axis == axis);
-    let paces = motions.filter_map(|moved| match (moved.kind, moved.certainty) {
-        (MotionKind::Rapid | MotionKind::Homing, _) => None,
-        (MotionKind::Coupled | MotionKind::Frame, _) if is_path_rapid => None,
-        (MotionKind::Coupled | MotionKind::Frame, _) if !is_path_known => Some(Certainty::Possible),
-        (
-            MotionKind::Feed | MotionKind::Independent | MotionKind::Coupled | MotionKind::Frame,
-            certainty,
-        ) => Some(certainty),
-        _ => Some(Certainty::Possible),
-    });
     // `Certain` comes first.
-    paces.min()
+    motions.filter_map(|moved| executed.feeds(&moved)).min()
 }

@@ -11,9 +11,10 @@ mod message_dedup;
 mod recorder;
 mod safe_fixes;
 mod saved;
+mod totals;
 mod undescribed;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -34,13 +35,12 @@ use crate::interpreter::{Interpreter, RunOutcome, Value, set_name};
 pub use crate::lint::Maker;
 use crate::lint::{History, LeftAwayNotice, Linter};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
-use crate::readings::QuestionSet;
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
-use feed_moves::FeedMoveCounter;
 use message_dedup::MessageDedup;
-use recorder::{NoteBook, Recorder, SessionTotals};
+use recorder::{NoteBook, Recorder};
 use saved::{fingerprint, storable};
+use totals::SessionTotals;
 
 /// Options of a session.
 #[derive(Debug, Clone, Default)]
@@ -186,12 +186,10 @@ impl Session {
         }
         interpreter.havoc_start();
         let start = interpreter.compensation().clone();
-        let axes = machine.axes.len();
         Self {
             remark: undescribed(&machine, &options.switched)
                 .map(|advice| advice.in_words(options.wording)),
             wording: options.wording,
-            machine,
             interpreter,
             levels: options.levels,
             history: History::new(compensation),
@@ -199,17 +197,8 @@ impl Session {
             start,
             programs: 0,
             stopped: false,
-            tally: SessionTotals {
-                blocks: 0,
-                counts: BTreeMap::new(),
-                changed_by: vec![Vec::new(); axes],
-                changes: vec![0; axes],
-                last_changed: vec![None; axes],
-                assumed: BTreeSet::new(),
-                rests_on: QuestionSet::default(),
-                feed_moves: FeedMoveCounter::new(axes),
-                unknown: BTreeSet::new(),
-            },
+            tally: SessionTotals::of(&machine),
+            machine,
             notes: NoteBook::default(),
         }
     }
@@ -396,7 +385,7 @@ impl Session {
     }
 
     /// The configured kinds of each axis that were not known at a program's end or where the axis
-    /// moved (R2.98).
+    /// moved (R2.98), and friction compensation that a program switches on an axis that nothing describes (R18.2).
     pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
         let unknown = self.tally.unknown.iter();
         unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))
@@ -419,6 +408,7 @@ impl Session {
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
             feed_moves: self.tally.feed_moves.of(axis),
+            is_undescribed: self.tally.undescribed.contains_key(&axis),
         });
         sink.record(&Record::Summary(&Summary {
             programs: self.programs,

@@ -1,7 +1,7 @@
 //! Turns the events of a program into records: adds lints, applies the user's severities and `allow`
 //! comments, and counts everything.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -10,14 +10,13 @@ use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind, Observer, limit_to};
 use crate::lint::{LeftAwayNotice, Linter};
 use crate::machine::Machine;
-use crate::readings::{Question, QuestionSet};
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
 use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Join, Record, Row, Sink, StateView};
 
-use super::feed_moves::FeedMoveCounter;
 use super::message_dedup::{DedupVerdict, MessageDedup};
+use super::totals::SessionTotals;
 
 /// Number of blocks that the summary of an axis names.
 const MAX_NAMED: usize = 100;
@@ -31,49 +30,6 @@ pub(super) struct NoteBook {
     pub(super) notes: BTreeMap<(NoteKind, String, Arc<str>, Position), Place>,
     /// Number of occurrences that are not kept.
     pub(super) more: u64,
-}
-
-/// Totals of a session for the summary record.
-pub(super) struct SessionTotals {
-    pub(super) blocks: u64,
-    pub(super) counts: BTreeMap<Severity, u64>,
-    pub(super) changed_by: Vec<Vec<ChangedBy>>,
-    pub(super) changes: Vec<u64>,
-    /// The last block that changed each axis: its program and its number in the run.
-    pub(super) last_changed: Vec<Option<(u32, u64)>>,
-    /// The codes of the messages that states are assumed.
-    pub(super) assumed: BTreeSet<Code>,
-    /// The open questions whose readings messages depend on (R15.3).
-    pub(super) rests_on: QuestionSet,
-    pub(super) feed_moves: FeedMoveCounter,
-    /// The configured kinds that were unknown at a program's end or where their axis moved.
-    pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
-}
-
-impl SessionTotals {
-    pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
-        *self.counts.entry(diagnostic.severity).or_default() += 1;
-    }
-
-    /// Records what the run assumes, whether or not the user silenced it.
-    fn note_footing<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) {
-        for diagnostic in said {
-            match diagnostic.code {
-                Code::Fc401 => self.rests_on.insert(Question::Reset),
-                Code::Fc409 => self.rests_on.insert(Question::LookAhead),
-                Code::Fc210 | Code::Fc318 | Code::Fc325 | Code::Fc902 => {
-                    self.assumed.insert(diagnostic.code);
-                }
-                // The control stops on some ways only.
-                code if code.severity() == Severity::Error
-                    && diagnostic.severity < Severity::Error =>
-                {
-                    self.assumed.insert(code);
-                }
-                _ => {}
-            }
-        }
-    }
 }
 
 /// Number of comments kept for the report on unused ones. Further ones take effect in their block
@@ -279,6 +235,9 @@ impl Recorder<'_> {
             let lints = lints.filter(|said| said.code != Code::Fc403);
             lints.for_each(|said| limit_to(said, ways));
         }
+        if self.tally.has_undescribed {
+            self.tally.note_undescribed(self.machine, executed);
+        }
         self.note_allows(executed);
         for withheld in &executed.aside.withheld {
             if !is_allowed(&mut self.allows, withheld, executed.line) {
@@ -304,6 +263,7 @@ impl Recorder<'_> {
     fn filter(&mut self, line: u32) {
         let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
         let (before, tally, wording) = (&mut self.before, &mut *self.tally, self.wording);
+        let (machine, program) = (self.machine, self.program);
         self.said.sort_by(|one, other| {
             let order = one.place.cmp_start(&other.place);
             order.then(one.code.cmp(&other.code))
@@ -326,8 +286,12 @@ impl Recorder<'_> {
             if is_silenced || allowed {
                 return false;
             }
+            if tally.knows_undescribed(machine, (program, diagnostic)) {
+                return false;
+            }
             match before.take(diagnostic) {
                 DedupVerdict::Say => {
+                    SessionTotals::add_assumption(machine, diagnostic);
                     diagnostic.reword(wording);
                     true
                 }
@@ -424,6 +388,7 @@ impl Recorder<'_> {
                 diagnostic: diagnostic.clone(),
             })
             .collect();
+        notes.extend(self.linter.held());
         let left = self.linter.end(ended);
         let lints = left.iter().map(|left| &left.note.diagnostic);
         self.tally.note_footing(lints);
@@ -476,6 +441,7 @@ impl Recorder<'_> {
         }
         notes.append(&mut rest);
         for note in &mut notes {
+            SessionTotals::add_assumption(self.machine, &mut note.diagnostic);
             note.diagnostic.reword(self.wording);
         }
         let repeated = self.before.repeats();

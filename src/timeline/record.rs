@@ -183,6 +183,9 @@ pub struct AxisSummary {
     pub changes: u64,
     /// The feed moves of the axis while it was not active.
     pub feed_moves: FeedMoves,
+    /// Whether programs move or switch it though nothing says if it has friction compensation: its states are then only
+    /// assumed (R18.2).
+    pub is_undescribed: bool,
 }
 
 /// A block that changed an axis.

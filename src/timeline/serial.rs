@@ -12,6 +12,7 @@ use super::record::{
 use crate::comp::{AxisIndex, Change, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::WayCondition;
+use crate::machine::Machine;
 
 /// The states of axes at the end of a record: those of friction compensation, and those of each selected kind unless
 /// only friction compensation is selected (R9.12).
@@ -99,6 +100,26 @@ impl Serialize for Uncompensated<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let axes = self.0.uncompensated();
         serializer.collect_map(axes.map(|axis| (self.0.state.name(axis.axis), axis.feed_moves)))
+    }
+}
+
+/// A line of `frictcomp.toml` that assumes friction compensation of an axis (R18.2).
+#[derive(Serialize)]
+struct EnabledAxis<'a> {
+    axis: &'a str,
+    file: &'a str,
+    line: u32,
+}
+
+impl<'a> EnabledAxis<'a> {
+    fn of(machine: &'a Machine) -> Vec<Self> {
+        let axes = machine.enabled_axes();
+        let axes = axes.map(|(axis, file, line)| Self {
+            axis: &axis.name,
+            file,
+            line,
+        });
+        axes.collect()
     }
 }
 
@@ -204,6 +225,8 @@ enum Object<'a> {
         uncompensated: Uncompensated<'a>,
         #[serde(skip_serializing_if = "ReadingsInForce::is_empty")]
         rests_on: ReadingsInForce,
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        assuming: Vec<EnabledAxis<'a>>,
     },
 }
 
@@ -260,6 +283,7 @@ impl<'a> Object<'a> {
                 opaque: summary.opaque,
                 uncompensated: Uncompensated(summary),
                 rests_on: ReadingsInForce::of(summary.rests_on, summary.state.machine),
+                assuming: EnabledAxis::of(summary.state.machine),
             },
         }
     }

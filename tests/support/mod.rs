@@ -25,6 +25,7 @@ frict_comp = true
 value = { mode = 3, table = [[0, 12], [1800, 10]] }
 [[axis]]
 name = "Z"
+frict_comp = false
 [[axis]]
 name = "B"
 type = "R"

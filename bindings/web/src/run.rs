@@ -322,7 +322,8 @@ impl ShownRun {
             is_assumed: timeline.is_assumed,
             machine: MachineOverview {
                 origin: loaded.origin.as_ref().map(|it| it.display().to_string()),
-                is_described: loaded.machine.is_described(),
+                is_described: loaded.machine.is_described()
+                    && !timeline.summaries.iter().any(|axis| axis.is_undescribed),
                 lists: loaded.lists.0,
                 missing: loaded.lists.1,
                 said: &loaded.diagnostics,

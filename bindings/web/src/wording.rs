@@ -18,9 +18,6 @@ pub(crate) fn page(advice: &Advice) -> Option<String> {
             "to continue as if it were set, assume friction compensation of {}",
             axes.join(", ")
         ),
-        Advice::Configure(axis) => format!(
-            "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume friction compensation of {axis}"
-        ),
         Advice::SetVariable(name) => {
             format!(
                 "give `{name}` its value in `[variables]` of frictcomp.toml, and drop that file"

@@ -280,6 +280,11 @@ impl AuditArgs {
         })?;
         outputs.finish()?;
         self.machine.say_unread(&machines, &registry, console);
+        for loaded in auditor.machines() {
+            if let Some(assumption) = loaded.machine.assumption() {
+                console.remark(&assumption);
+            }
+        }
         let is_cut = steps.iter().any(|step| step.stopped.is_some());
         let errors = say_lists(&auditor, console) || is_cut;
         let mut axes = steps.iter().flat_map(|step| &step.axes);

@@ -212,6 +212,9 @@ fn check(
         let beside = in_callers_remark(in_callers) + &passed_over(found.left_out.others());
         console.remark(&(total(listing.tally()) + &beside));
         listing.hint().iter().for_each(|hint| console.remark(hint));
+        for assumption in machines.loaded().filter_map(|it| it.machine.assumption()) {
+            console.remark(&assumption);
+        }
         if let Some(said) = rests_on_text(&listing.tally().rests_on) {
             console.remark(&said);
         }

@@ -12,7 +12,7 @@ use super::machine::{MachineArgs, remark};
 use super::painted::parts;
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::machine::{AxisSet, AxisType, Origin, Parameterisation};
+use frictcomp::machine::{AxisSet, AxisType, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
@@ -143,9 +143,8 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         };
         let value = u8::from(axis.configured.contains(Kind::Frict));
         let origin = match &axis.frict_comp_origin {
-            Origin::Default => "default".to_owned(),
-            Origin::Assumed => "assumed".to_owned(),
-            Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
+            assumed if assumed.is_assumed() => "assumed".to_owned(),
+            origin => visible_line(&origin.to_string()).into_owned(),
         };
         let list = match &axis.friction {
             Parameterisation::Missing => "none".to_owned(),
@@ -165,6 +164,18 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         ]);
     }
     let _ = write!(output, "\n{table}");
+    if let Some(assumption) = machine.assumption() {
+        let _ = writeln!(output, "\n{}", visible_line(&assumption));
+    }
+    let open = machine.axes.iter().filter(|axis| !axis.is_described());
+    let open: Vec<&str> = open.map(|axis| axis.name.as_str()).collect();
+    if !open.is_empty() && machine.axis_set == AxisSet::Configured {
+        let _ = writeln!(
+            output,
+            "\nNothing describes {}: write `frict_comp = true` or `frict_comp = false`.",
+            open.join(", ")
+        );
+    }
     if machine.axis_set == AxisSet::AsTheyOccur {
         output.push_str("\nWithout a configuration these axes are taken as they occur.\n");
     }

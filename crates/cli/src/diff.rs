@@ -20,7 +20,7 @@ use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
 use frictcomp_host::{
     Axes, FileRegistry, Input, LoadedMachine, MachineOfVersions, MachineOwner, Naming, SingleRun,
-    drive_contour, run_alone, switched_axes,
+    drive_contour, run_alone,
 };
 use frictcomp_physics::compare::{
     Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
@@ -208,8 +208,5 @@ pub(super) fn version_of(
     };
     let mut version = Version::new(args.kinds);
     run_alone(input, loaded, alone, &mut version)?;
-    if !loaded.machine.is_described() && !switched_axes([input]).is_empty() {
-        version.rests_on_no_machine();
-    }
     Ok(version)
 }

@@ -16,7 +16,8 @@ use frictcomp_report::configuration::render_configuration;
 /// Write a commented `frictcomp.toml` to start from
 ///
 /// Describes the machine from the control's start-up list if one is given or found in the folder,
-/// otherwise from the axes that the programs in the folder use. An existing file is not changed.
+/// otherwise from the axes that the programs in the folder use: `enable = true` then assumes that each is compensated.
+/// An existing file is not changed.
 #[derive(Debug, Args)]
 pub(super) struct InitArgs {
     /// The folder with the programs
@@ -46,8 +47,20 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
         shown_path(&target),
         told(&outline)
     ));
+    let names = names(&outline).join(", ");
+    if !names.is_empty() {
+        Console::talk(&format!(
+            "`enable = true` assumes that these axes are compensated, which nobody knows yet: {names}; write \
+             `frict_comp = true` or `frict_comp = false` for each"
+        ));
+    }
     Console::talk("next: `frictcomp config show` shows the machine that it describes");
     Ok(exit::CLEAN)
+}
+
+/// Returns the names of the axes that programs use.
+fn names(outline: &Outline) -> Vec<&str> {
+    outline.axes().iter().map(|(name, _)| *name).collect()
 }
 
 /// Returns what was found out about a machine, in a few words.
@@ -55,7 +68,7 @@ fn told(outline: &Outline) -> String {
     if let Outline::Startup(path) = outline {
         return format!("the machine of `{path}`");
     }
-    let names: Vec<&str> = outline.axes().iter().map(|(name, _)| *name).collect();
+    let names = names(outline);
     if names.is_empty() {
         return "there is no start-up list and no program; fill in the axes".to_owned();
     }

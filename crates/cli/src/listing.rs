@@ -253,7 +253,9 @@ fn row(code: Code, severity: Severity, count: u64) -> String {
 
 fn parameter(report: &AxisReport, row: &Parameter) -> Value {
     let (file, line) = match &row.origin {
-        Origin::File { file, line } => (Some(&**file), Some(*line)),
+        Origin::File { file, line } | Origin::Enabled { file, line } => {
+            (Some(&**file), Some(*line))
+        }
         Origin::Default | Origin::Assumed => (None, None),
     };
     json!({
@@ -265,7 +267,7 @@ fn parameter(report: &AxisReport, row: &Parameter) -> Value {
         "unit": row.unit,
         "origin": match &row.origin {
             Origin::Default => "default",
-            Origin::Assumed => "assumed",
+            Origin::Assumed | Origin::Enabled { .. } => "assumed",
             Origin::File { .. } => "file",
         },
         "file": file,

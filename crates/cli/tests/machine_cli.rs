@@ -268,7 +268,7 @@ fn init_writes_what_loads_without_a_message() {
         .collect();
     let expected = [
         ["X", "active"],
-        ["Y", "unconfigured"],
+        ["Y", "active"],
         ["B", "active"],
         ["Z1", "active"],
     ];

@@ -31,6 +31,7 @@ type = \"R\"
 frict_comp = true
 [[axis]]
 name = \"Z\"
+frict_comp = false
 ";
 
 fn bench(programs: &[(&str, &str)]) -> Bench {

@@ -4,7 +4,7 @@ use super::axes_ahead::{AxesAhead, may_be_axis};
 use super::error::HostError;
 use super::input::Input;
 use frictcomp::diagnostic::UnknownName;
-use frictcomp::machine::{AxisReport, AxisSet, Machine, Origin};
+use frictcomp::machine::{AxisReport, AxisSet, Machine};
 
 /// The axes that programs have: those of their machines, and where none is described, those that
 /// they name.
@@ -138,15 +138,10 @@ fn enable(machine: &mut Machine, name: &str) -> Result<(), HostError> {
 
 /// Shows an assumed P-AXIS-00522 among the parameters of its axis.
 fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
-    let axis = machine.axes.iter().find(|axis| axis.name == name);
-    if axis.is_none_or(|axis| axis.frict_comp_origin != Origin::Assumed) {
-        return;
-    }
-    let report = reports.iter_mut().filter(|report| report.axis == name);
-    let rows = report.flat_map(|report| &mut report.parameters);
-    for row in rows.filter(|row| row.number == "P-AXIS-00522") {
-        "1".clone_into(&mut row.value);
-        row.origin = Origin::Assumed;
+    let axes = machine.axes.iter().filter(|axis| axis.name == name);
+    for axis in axes {
+        let report = reports.iter_mut().filter(|report| report.axis == name);
+        report.for_each(|report| axis.show_assumed(&mut report.parameters));
     }
 }
 

@@ -45,7 +45,7 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
 
 /// Whether an axis is known to be as at the start of the control.
 pub(super) fn is_home(axis: &AxisSummary) -> bool {
-    axis.end == axis.start_up && axis.others_away.is_empty()
+    !axis.is_undescribed && axis.end == axis.start_up && axis.others_away.is_empty()
 }
 
 /// Whether every feed move of the axis had friction compensation, if it is configured (R13.12).
@@ -88,6 +88,7 @@ mod tests {
                 changed_by: Vec::new(),
                 changes: 0,
                 feed_moves: frictcomp::timeline::FeedMoves::default(),
+                is_undescribed: false,
             };
             axis_advice(&axis, "X").unwrap_or_default()
         };

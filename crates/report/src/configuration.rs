@@ -49,18 +49,24 @@ pub fn render_configuration(outline: &Outline) -> String {
 
 fn append_axes(text: &mut String, axes: &[(&str, AxisUse)]) {
     text.push_str(
-        "# All axes of the machine, in its order; any other name is an error. `enable` stands for a\n\
-         # value list that is not known yet: replace it with `frict_comp = true` and\n\
-         # `value_list = \"lists/comp_x.lis\"`.\n",
+        "# All axes of the machine, in its order; any other name is an error. Nobody knows yet which\n\
+         # are compensated: `enable = true` assumes it, and results that depend on it say so. Replace\n\
+         # it with `frict_comp = true` and `value_list = \"lists/comp_x.lis\"`, or with\n\
+         # `frict_comp = false`.\n",
     );
     if axes.is_empty() {
         text.push_str("# [[axis]]\n# name = \"X\"\n# enable = true\n\n");
     }
     for (name, how) in axes {
-        let _ = writeln!(text, "[[axis]]\nname = \"{name}\"");
-        if *how == AxisUse::Switched {
-            text.push_str("enable = true   # the programs switch its friction compensation\n");
-        }
-        text.push('\n');
+        let why = match how {
+            AxisUse::Switched => {
+                "the programs switch it, but nobody knows yet whether it is compensated"
+            }
+            _ => "nobody knows yet whether it is compensated",
+        };
+        let _ = writeln!(
+            text,
+            "[[axis]]\nname = \"{name}\"\nenable = true   # {why}\n"
+        );
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::visible::visible_line;
-use frictcomp::lists::{AxisType, Origin, Parameter};
-use frictcomp::machine::AxisReport;
+use frictcomp::lists::{AxisType, Parameter};
+use frictcomp::machine::{Axis, AxisReport};
 
 /// Minimum width of an origin, however wide the other columns are.
 const MIN_ORIGIN: usize = 16;
@@ -81,6 +81,15 @@ fn render_rows(parameters: &[Parameter], room: usize, out: &mut dyn fmt::Write) 
     Ok(())
 }
 
+/// Returns the origin of P-AXIS-00522 of an axis in words.
+pub(crate) fn selector_origin(axis: &Axis) -> String {
+    if axis.is_described() {
+        visible_line(&axis.frict_comp_origin.to_string()).into_owned()
+    } else {
+        "not described".to_owned()
+    }
+}
+
 /// Number, key, value with its unit, and origin of a parameter.
 pub fn cells(row: &Parameter) -> [String; 4] {
     let value = if row.unit.is_empty() {
@@ -90,11 +99,7 @@ pub fn cells(row: &Parameter) -> [String; 4] {
     } else {
         format!("{} {}", row.value, row.unit)
     };
-    let origin = match &row.origin {
-        Origin::Default => "default".to_owned(),
-        Origin::Assumed => "assumed".to_owned(),
-        Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
-    };
+    let origin = visible_line(&row.origin.to_string()).into_owned();
     [
         row.number.to_owned(),
         row.key.clone(),

@@ -10,9 +10,6 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             let axes = axes.join(",");
             format!("to continue as if it were set, run with `--enable {axes}`")
         }
-        Advice::Configure(axis) => format!(
-            "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume it with `--enable`"
-        ),
         Advice::DescribeMachine(switched) => {
             let axes = match switched.as_slice() {
                 [] => String::new(),

@@ -9,7 +9,7 @@ use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::machine::{AxisSet, Origin, Parameterisation};
+use crate::machine::{Axis, AxisSet, Origin, Parameterisation};
 use crate::readings::Question;
 use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
@@ -318,18 +318,20 @@ impl Interpreter {
             }
             CompensationError::NotConfigured { .. } => {
                 let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
-                let described = self.machine.is_described();
+                let undescribed = axis.filter(|axis| !axis.is_described());
                 diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
                     Some(Origin::File { file, line }) => Advice::ConfigureInList {
                         axis: name.clone(),
                         file: file.clone(),
                         line: *line,
                     },
-                    _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
-                    // A list of all axes is shown above (R1.37).
-                    _ => Advice::Configure(name.clone()),
+                    _ => undescribed.map_or_else(
+                        || format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
+                        Axis::describing,
+                    ),
                 });
-                if described {
+                // Otherwise a list of all axes is shown above (R1.37).
+                if self.machine.is_described() {
                     diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
                 }
                 diagnostic

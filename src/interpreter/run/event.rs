@@ -16,7 +16,7 @@ use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::{Motion, Travel};
-use crate::interpreter::coordinates::moving::{MotionKind, MovedAxis};
+use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
@@ -182,6 +182,17 @@ impl Executed<'_> {
     pub fn possible_of(&self, axis: AxisIndex, kind: Kind) -> Option<&PossibleStates> {
         let mut possible = self.possible.iter();
         possible.find(|it| it.axis == axis && it.kind == kind)
+    }
+
+    /// Returns whether one of its motions is, or may be, at feed: a coupled axis, or one in a turned frame, moves as the
+    /// axis words do. `None` in rapid motion and towards a reference point (R13.12, R18.4).
+    pub(crate) fn feeds(&self, moved: &MovedAxis) -> Option<Certainty> {
+        use MotionKind::{Coupled, Feed, Frame, Homing, Independent, Rapid, Unknown};
+        match (moved.kind, self.word_kind()) {
+            (Rapid | Homing, _) | (Coupled | Frame, Rapid | Homing) => None,
+            (Unknown, _) | (Coupled | Frame, Unknown) => Some(Certainty::Possible),
+            (Feed | Independent | Coupled | Frame, _) => Some(moved.certainty),
+        }
     }
 
     /// Returns the kind of motion of its axis words.

@@ -105,6 +105,11 @@ impl FoundOn {
         self.0 == *found.reach
     }
 
+    /// Returns whether it is every way of the program.
+    pub(crate) fn is_always(&self) -> bool {
+        self.0.is_always()
+    }
+
     /// Adds the ways of another motion.
     pub(crate) fn or(&mut self, other: &Self) {
         self.0.or(&other.0);

@@ -1,5 +1,5 @@
 //! FC402: a command that repeats an earlier one of the program, or switches off a kind that is not
-//! configured (R1.51).
+//! configured (R1.51, R18.3).
 
 use std::sync::Arc;
 
@@ -10,14 +10,6 @@ use crate::lint::memory::{BlockSite, KindEffect, place};
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);
-    if !memory.commanded {
-        // Setting the required state at program start is the recommended practice.
-        return None;
-    }
-    if taken.outcome.changes > 0 {
-        // Another way switched it before; this one did not.
-        return None;
-    }
     let command = &taken.outcome.command;
     let deed = KindEffect::from(command.selection);
     let kinds = command.selection.kinds();
@@ -25,10 +17,34 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     let (what, name) = (what(command.selection), &command.axis);
     let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
     let useless = |kind| deed == KindEffect::Off && is_unconfigured(linter, taken, kind);
-    if kinds.iter().all(useless) {
+    let of_axis = &linter.machine.axis(taken.axis).frict_comp_origin;
+    // Somebody believed that the axis is compensated (R18.3).
+    let is_mistaken = kinds.contains(Kind::Frict) && useless(Kind::Frict);
+    let advised = |said: Diagnostic| {
+        match is_mistaken {
+        true => said.with_help(format!(
+            "P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is 0 ({of_axis}); set it to 1 if the axis is to be \
+             compensated"
+        )),
+        false => said,
+    }
+    };
+    if (is_mistaken || memory.commanded) && kinds.iter().all(useless) {
         let message =
             format!("this command changes nothing: {what} of axis `{name}` is not configured");
-        return Some(say(message));
+        return Some(advised(say(message)));
+    }
+    if is_mistaken && command.selection != Selection::OffAll {
+        let message = format!(
+            "this command does not switch `{}` of axis `{name}`, which is not configured",
+            Kind::Frict
+        );
+        return Some(advised(say(message)));
+    }
+    if !memory.commanded || taken.outcome.changes > 0 {
+        // Setting the required state at program start is the recommended practice; or another way switched it before,
+        // and this one did not.
+        return None;
     }
     let mut repeated: Option<&Arc<BlockSite>> = None;
     for kind in kinds.iter() {
@@ -57,7 +73,7 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
 /// Whether the machine is known to lack a kind on the axis.
 fn is_unconfigured(linter: &Linter<'_>, taken: &Taken<'_>, kind: Kind) -> bool {
     let compensation = taken.executed.compensation;
-    linter.machine.is_described() && !compensation.is_configured(taken.axis, kind)
+    linter.machine.axis(taken.axis).is_described() && !compensation.is_configured(taken.axis, kind)
 }
 
 fn what(selection: Selection) -> String {

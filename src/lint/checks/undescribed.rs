@@ -1,4 +1,4 @@
-//! FC408: a command whose effect depends on a machine that is not described (R1.37).
+//! FC408: a command to an axis that is not described, whose effect is therefore not known (R1.37, R18.2).
 
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
@@ -7,8 +7,9 @@ use crate::lint::memory::place;
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let command = &taken.outcome.command;
+    let axis = linter.machine.axis(taken.axis);
     let off = !matches!(command.selection, Selection::On(_));
-    if linter.machine.is_described() || !off || !command.selection.kinds().contains(Kind::Frict) {
+    if axis.is_described() || !off || !command.selection.kinds().contains(Kind::Frict) {
         return None;
     }
     let name = &command.axis;
@@ -19,6 +20,6 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     Some(
         Diagnostic::new(Code::Fc408, place(taken.executed, command.span), message)
             .with_axis(name.clone())
-            .with_help("describe the machine in `frictcomp.toml`"),
+            .with_help(axis.describing()),
     )
 }

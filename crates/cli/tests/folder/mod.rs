@@ -20,6 +20,7 @@ frict_comp = true
 value = { mode = 3, table = [[0, 12], [1800, 10]] }
 [[axis]]
 name = \"Z\"
+frict_comp = false
 ";
 
 /// A folder with a machine and programs.

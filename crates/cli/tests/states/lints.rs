@@ -68,15 +68,21 @@ fn a_repeat_is_one_of_the_same_program() {
       3:1: the earlier one
     b.nc
     ");
-    // Switching off an unconfigured axis, but never the first command on an axis.
-    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"FC402 4:1 this command changes nothing: `CROSS` of axis `Z` is not configured");
+    // R18.3: switching off an axis without friction compensation, also with the first command.
+    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"
+    FC402 1:1 this command changes nothing: `FRICT` of axis `Z` is not configured
+      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is 0 (frictcomp.toml:15); set it to 1 if the axis is to be compensated
+    FC402 4:1 this command changes nothing: `CROSS` of axis `Z` is not configured
+    ");
     // A refused command counts as absent; something unknown is in between.
     assert_snapshot!(said(&[
         "Z[COMP ON FRICT]\nZ[COMP OFF FRICT]\nX[COMP ON FRICT]\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30",
     ]), @"
     P-ERR-70495 1:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
-      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
+      help: frictcomp.toml:15 sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control
       help: to continue as if it were set, run with `--enable Z`
+    FC402 2:1 this command changes nothing: `FRICT` of axis `Z` is not configured
+      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is 0 (frictcomp.toml:15); set it to 1 if the axis is to be compensated
     FC901 4:5 this condition depends on `V.E.A`, which only the machine knows; every way is followed, and where they meet what differs is unknown: `FRICT` of `X`
       help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     ");
@@ -169,7 +175,7 @@ fn an_error_ends_without_blame() {
     let bench = Bench::on(&machine_text());
     assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
     P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
-      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
+      help: frictcomp.toml:15 sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control
       help: to continue as if it were set, run with `--enable Z`
     ");
 }

@@ -113,7 +113,9 @@ impl Run<'_> {
             last.is_some_and(|last| last.on == command.on) || (!command.on && !has(axis, *kind))
         };
         // Kinds of the control that this model leaves out are configured nowhere.
-        let useless = self.commanded[axis] && kinds.iter().all(repeats);
+        // The axis was believed to have friction compensation (R18.3).
+        let believed = !command.on && !has(axis, 0) && command.kinds.contains(&0);
+        let useless = believed || (self.commanded[axis] && kinds.iter().all(repeats));
         let once = (at.1, "FC402", place, axis);
         if useless && !block.allows.contains(&"FC402") && !self.said.contains(&once) {
             self.said.push(once);

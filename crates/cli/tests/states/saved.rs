@@ -155,7 +155,7 @@ fn the_demo_says_fc403_twice_in_two_processes() {
     let bench = Bench::new(&[("friction.nc", &friction), ("next.nc", &next)]);
     bench.stdout(&["run", "--state", "s", "friction.nc"]);
     let apart = bench.stdout(&["run", "--width", "200", "--state", "s", "next.nc"]);
-    assert_eq!(apart.matches("info[FC403]").count(), 2, "{apart}");
+    assert_eq!(apart.matches("warning[FC403]").count(), 2, "{apart}");
     assert!(
         apart.contains("friction.nc:5") && apart.contains("friction.nc:3"),
         "{apart}"

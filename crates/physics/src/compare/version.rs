@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::obstacle::{Obstacle, Reason};
 use super::switch::Switch;
 use frictcomp::comp::{KindSet, State};
-use frictcomp::diagnostic::Diagnostic;
+use frictcomp::diagnostic::{Code, Diagnostic};
 use frictcomp::timeline::{EndedBy, Record, Row, Sink};
 
 /// Switches of one version of a program: a sink for the records of a session that runs it.
@@ -54,12 +54,6 @@ impl Version {
         row.diagnostics.iter().for_each(|said| self.judge(said));
     }
 
-    /// Notes that the program switches on a machine that is not described; the user may have silenced the
-    /// message about it.
-    pub fn rests_on_no_machine(&mut self) {
-        self.hinder(Reason::Undescribed);
-    }
-
     /// Notes an obstacle to a comparison of the whole program, unless there is one for a block of it.
     fn hinder(&mut self, reason: Reason) {
         let file = &self.file;
@@ -92,7 +86,12 @@ impl Sink for Version {
             }
             // The user may have silenced the message about it.
             Record::Summary(summary) if !summary.assumed.is_empty() => {
-                self.hinder(Reason::Assumed);
+                let is_undescribed = summary.assumed.contains(&Code::Fc408);
+                self.hinder(if is_undescribed {
+                    Reason::Undescribed
+                } else {
+                    Reason::Assumed
+                });
             }
             _ => {}
         }

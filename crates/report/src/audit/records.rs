@@ -36,6 +36,10 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
     if !rests_on.is_empty() {
         summary["rests_on"] = json!(rests_on);
     }
+    let assumptions: Vec<&str> = report.assumptions().collect();
+    if !assumptions.is_empty() {
+        summary["assuming"] = json!(assumptions);
+    }
     records.push(summary);
     if let Some(Value::Object(first)) = records.first_mut() {
         first.insert("schema".to_owned(), SCHEMA.into());

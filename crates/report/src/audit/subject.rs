@@ -24,14 +24,18 @@ pub struct MachineAudit {
     pub findings: Vec<AxisFinding>,
     /// The readings on which these effects rest.
     pub rests_on: ReadingsInForce,
+    /// The lines that assume friction compensation of axes, in words (R18.2).
+    pub assumption: Option<String>,
 }
 
 impl MachineAudit {
     /// Finds the effects of the programs of a machine together.
     pub fn new(origin: Option<String>, machine: &Machine, archive: Archive) -> Self {
+        let archive = archive.without_unswitched();
         Self {
             findings: archive.findings(),
             rests_on: ReadingsInForce::of(archive.rests_on(), machine),
+            assumption: machine.assumption(),
             origin,
             archive,
         }
@@ -50,6 +54,13 @@ impl AuditReport {
             all.extend(machine.rests_on.clone());
         }
         all
+    }
+
+    /// The assumptions about axes on which the findings rest.
+    pub(crate) fn assumptions(&self) -> impl Iterator<Item = &str> {
+        self.machines
+            .iter()
+            .filter_map(|it| it.assumption.as_deref())
     }
 
     /// The hazards of all axes.

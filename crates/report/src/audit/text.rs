@@ -48,6 +48,9 @@ pub fn render_text(report: &AuditReport, length: Length) -> String {
         out.push('\n');
     }
     let _ = writeln!(out, "{}", total(report));
+    for assumption in report.assumptions() {
+        let _ = writeln!(out, "{}", visible_line(assumption));
+    }
     if let Some(text) = rests_on_text(&report.rests_on()) {
         let _ = writeln!(out, "{text}");
     }

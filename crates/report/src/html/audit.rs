@@ -45,6 +45,9 @@ pub fn render_audit(
     )?;
     page.long_part(FINDINGS, |page| {
         findings(page, report, &marks)?;
+        for assumption in report.assumptions() {
+            page.push(&html! { p { (assumption) } })?;
+        }
         match rests_on_text(&report.rests_on()) {
             Some(text) => page.push(&html! { p { (text) } }),
             None => Ok(()),

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use super::track::{SpanStart, StateTrack};
 use super::ways::{Ways, WaysIndex};
+use crate::lists::selector_origin;
 use crate::svg::StartUpRelation;
 use frictcomp::comp::{AxisIndex, Change, CncBuild, Kind, KindSet, State};
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
 use frictcomp::lists::AxisType;
-use frictcomp::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
+use frictcomp::machine::{AcceptedList, AxisSet, Parameterisation};
 use frictcomp::readings::Readings;
 use frictcomp::text::{Place, Position};
 use frictcomp::timeline::{AxisSummary, End, EndedBy, Join, Record, Row, Sink, StateView, Summary};
@@ -43,6 +44,8 @@ pub struct RunDigest {
     pub(super) readings: (Readings, Option<CncBuild>),
     /// Remark that no machine is described (R1.37).
     pub(super) remark: Option<String>,
+    /// The lines that assume friction compensation of axes, in words (R18.2).
+    pub(super) assumption: Option<String>,
     pub(super) accepted: Vec<AcceptedList>,
     pub(super) programs: Vec<ProgramDigest>,
     /// Programs beyond [`MAX_PROGRAMS`].
@@ -79,7 +82,8 @@ pub(super) struct AxisDigest {
     pub(super) name: String,
     pub(super) axis_type: AxisType,
     pub(super) configured: bool,
-    pub(super) origin: Origin,
+    /// Origin of P-AXIS-00522, in words.
+    pub(super) origin: String,
     pub(super) friction: Parameterisation,
     /// Whether the records list it.
     pub(super) listed: bool,
@@ -204,6 +208,7 @@ impl RunDigest {
 
     fn session(&mut self, state: StateView<'_>, remark: Option<&str>) {
         self.remark = remark.map(str::to_owned);
+        self.assumption = state.machine.assumption();
         let listed = state.listed.iter().copied().chain(std::iter::repeat(false));
         self.axis_set = state.machine.axis_set;
         self.readings = (state.machine.readings.clone(), state.machine.build);
@@ -213,7 +218,7 @@ impl RunDigest {
                 name: axis.name.clone(),
                 axis_type: axis.axis_type,
                 configured: axis.configured.contains(Kind::Frict),
-                origin: axis.frict_comp_origin.clone(),
+                origin: selector_origin(axis),
                 friction: axis.friction.clone(),
                 listed,
             })

@@ -2,14 +2,17 @@
 
 use maud::{Markup, html};
 
-use super::digest::RunDigest;
+use super::digest::{AxisDigest, RunDigest};
 use super::given::RunInputs;
 use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, figure};
 use crate::lists::cells;
 use crate::pictures::value_curve;
 use crate::svg::Frame;
-use frictcomp::lists::{AxisType, Origin, Parameter};
+use frictcomp::lists::{AxisType, Parameter};
 use frictcomp::machine::{AxisSet, Parameterisation};
+
+/// The assumption of a configuration about an axis.
+const ENABLED: &str = "`enable = true`";
 
 /// Renders the user's options and the effective values of each axis.
 pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
@@ -68,8 +71,8 @@ fn axes(digest: &RunDigest) -> Markup {
         let cells = [
             html! { (axis_type(axis.axis_type)) },
             html! { (configured) },
-            html! { (origin(&axis.origin)) },
-            html! { (value_list(&axis.friction)) },
+            html! { (axis.origin) },
+            html! { (value_list(axis)) },
         ];
         HtmlRow::new(&axis.name, cells)
     }))
@@ -107,19 +110,14 @@ fn axis_type(axis_type: AxisType) -> &'static str {
     }
 }
 
-fn origin(origin: &Origin) -> String {
-    match origin {
-        Origin::Default => "default".to_owned(),
-        Origin::Assumed => "assumed".to_owned(),
-        Origin::File { file, line } => format!("{file}:{line}"),
-    }
-}
-
-fn value_list(friction: &Parameterisation) -> String {
-    match friction {
+fn value_list(axis: &AxisDigest) -> String {
+    match &axis.friction {
         Parameterisation::Missing => "none".to_owned(),
         Parameterisation::Off => "its mode is 0, off".to_owned(),
         Parameterisation::Rejected { file, code } => format!("{file} is rejected ({code})"),
+        Parameterisation::Assumed if axis.origin.contains(ENABLED) => {
+            format!("assumed by {ENABLED}, its values are not known")
+        }
         Parameterisation::Assumed => "assumed by --enable, its values are not known".to_owned(),
         Parameterisation::Accepted(list) => format!("accepted, {} points", list.table.len()),
     }

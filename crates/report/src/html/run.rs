@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::digest::{RunDigest, SummaryDigest};
 use super::given::RunInputs;
 use super::page::{Page, PagePart};
-use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, state_word};
+use super::parts::{Caption, ColumnHeading, HtmlRow, HtmlTable, line_id, state_word, with_code};
 use super::source::{self, Sources};
 use super::{assumptions, machine, messages, states};
 use crate::advice::{all_home, axis_advice, error_advice, is_home};
@@ -178,6 +178,9 @@ fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
             div.to-do { ul { @for text in &advice { li { (text) } } } }
         } @else if is_all_home {
             p { (all_home(&summary.axes, &summary.assumed)) }
+        }
+        @if let Some(assumption) = &digest.assumption {
+            p { (with_code(assumption)) "." }
         }
         @if !uncompensated.is_empty() {
             div.to-do { ul { @for text in &uncompensated { li { (text) } } } }

@@ -169,6 +169,7 @@ impl<'a> Player<'a> {
                     .collect(),
                 changes: u64::from(changed),
                 feed_moves: frictcomp::timeline::FeedMoves::default(),
+                is_undescribed: false,
             }
         });
         let opaque = BTreeMap::from([("#HSC".to_owned(), 3)]);

@@ -8,7 +8,7 @@ use crate::assumptions::rests_on_text;
 use crate::diagnostics::Look;
 use crate::feed_moves::feed_moves_text;
 use crate::strings::grouped;
-use crate::visible::last_part;
+use crate::visible::{last_part, visible_line};
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Severity;
 use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, ReadingsInForce, Summary};
@@ -192,6 +192,10 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     } else if out.len() == bare && is_all_home {
         Paragraph::new(DIM, &all_home(&summary.axes, &summary.assumed)).write(out, look);
     }
+    if let Some(text) = summary.state.machine.assumption() {
+        let text = text.replacen("assuming", "Assuming", 1) + ".";
+        Paragraph::new(DIM, &visible_line(&text)).write(out, look);
+    }
     let rests_on = ReadingsInForce::of(summary.rests_on, summary.state.machine);
     if let Some(text) = rests_on_text(&rests_on) {
         Paragraph::new(DIM, &text).write(out, look);
@@ -230,6 +234,7 @@ mod tests {
             changed_by: Vec::new(),
             changes: 0,
             feed_moves: frictcomp::timeline::FeedMoves::default(),
+            is_undescribed: false,
         };
         assert_eq!(changed_by(&axis, 40), "-");
         for line in 1..=100 {

@@ -1,0 +1,132 @@
+//! Totals of a session.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::feed_moves::FeedMoveCounter;
+use crate::comp::{AxisIndex, Kind};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::Executed;
+use crate::machine::{Machine, Origin};
+use crate::readings::{Question, QuestionSet};
+use crate::text::Place;
+use crate::timeline::ChangedBy;
+
+/// Totals of a session for the summary record.
+pub(super) struct SessionTotals {
+    pub(super) blocks: u64,
+    pub(super) counts: BTreeMap<Severity, u64>,
+    pub(super) changed_by: Vec<Vec<ChangedBy>>,
+    pub(super) changes: Vec<u64>,
+    /// The last block that changed each axis: its program and its number in the run.
+    pub(super) last_changed: Vec<Option<(u32, u64)>>,
+    /// The codes of the messages that states are assumed.
+    pub(super) assumed: BTreeSet<Code>,
+    /// The open questions whose readings messages depend on (R15.3).
+    pub(super) rests_on: QuestionSet,
+    pub(super) feed_moves: FeedMoveCounter,
+    /// The configured kinds that were unknown at a program's end or where their axis moved, and those that a program
+    /// switches on an axis that nothing describes.
+    pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
+    /// Whether the machine has axes that nothing describes.
+    pub(super) has_undescribed: bool,
+    /// Those of them that programs move or switch, with the program and place of the first message about it (R18.2).
+    pub(super) undescribed: BTreeMap<AxisIndex, Option<(u32, Place)>>,
+}
+
+impl SessionTotals {
+    /// Returns the totals before the first program on a machine.
+    pub(super) fn of(machine: &Machine) -> Self {
+        let axes = machine.axes.len();
+        Self {
+            blocks: 0,
+            counts: BTreeMap::new(),
+            changed_by: vec![Vec::new(); axes],
+            changes: vec![0; axes],
+            last_changed: vec![None; axes],
+            assumed: BTreeSet::new(),
+            rests_on: QuestionSet::default(),
+            feed_moves: FeedMoveCounter::new(axes),
+            unknown: BTreeSet::new(),
+            has_undescribed: machine.axes.iter().any(|axis| !axis.is_described()),
+            undescribed: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
+        *self.counts.entry(diagnostic.severity).or_default() += 1;
+    }
+
+    /// Records what the run assumes, whether or not the user silenced it.
+    pub(super) fn note_footing<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) {
+        for diagnostic in said {
+            match diagnostic.code {
+                Code::Fc401 => self.rests_on.insert(Question::Reset),
+                Code::Fc409 => self.rests_on.insert(Question::LookAhead),
+                Code::Fc210 | Code::Fc318 | Code::Fc325 | Code::Fc408 | Code::Fc902 => {
+                    self.assumed.insert(diagnostic.code);
+                }
+                // The control stops on some ways only.
+                code if code.severity() == Severity::Error
+                    && diagnostic.severity < Severity::Error =>
+                {
+                    self.assumed.insert(code);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Records the axes that a block moves or switches though nothing describes them (R18.2).
+    #[cold]
+    pub(super) fn note_undescribed(&mut self, machine: &Machine, executed: &Executed<'_>) {
+        let is_undescribed = |axis: &AxisIndex| !machine.axis(*axis).is_described();
+        let moved = executed.motions().map(|motion| motion.axis);
+        for axis in moved.filter(is_undescribed) {
+            self.undescribed.entry(axis).or_default();
+        }
+        for outcome in executed.outcomes {
+            let command = &outcome.command;
+            let named = || machine.find(&command.axis);
+            let axis = outcome.result.as_ref().ok().copied().or_else(named);
+            if let Some(axis) = axis.filter(is_undescribed)
+                && command.selection.kinds().contains(Kind::Frict)
+            {
+                self.undescribed.entry(axis).or_default();
+                self.unknown.insert((axis, Kind::Frict));
+            }
+        }
+    }
+
+    /// Adds to a verdict on an axis that it rests on `enable = true` (R18.2).
+    pub(super) fn add_assumption(machine: &Machine, verdict: &mut Diagnostic) {
+        use Code::{Fc401, Fc403, Fc407, Fc409, PErr70435};
+        if !matches!(verdict.code, Fc401 | Fc403 | Fc407 | Fc409 | PErr70435) {
+            return;
+        }
+        let axis = verdict.axis.as_deref().and_then(|it| machine.find(it));
+        let origin = axis.map(|axis| &machine.axis(axis).frict_comp_origin);
+        if let Some(origin @ Origin::Enabled { .. }) = origin {
+            verdict.advice.push(format!("assuming {origin}").into());
+        }
+    }
+
+    /// Whether a message only repeats that nothing describes an axis, which is said once in a session; an error of the
+    /// control says it, too, but is never left out.
+    pub(super) fn knows_undescribed(
+        &mut self,
+        machine: &Machine,
+        (program, said): (u32, &Diagnostic),
+    ) -> bool {
+        if !matches!(said.code, Code::Fc408 | Code::PErr70495) {
+            return false;
+        }
+        let axis = said.axis.as_deref().and_then(|it| machine.find(it));
+        let Some(axis) = axis.filter(|axis| !machine.axis(*axis).is_described()) else {
+            return false;
+        };
+        let place = (program, said.place.clone());
+        let first = self.undescribed.entry(axis).or_default();
+        let first = first.get_or_insert_with(|| place.clone());
+        said.code == Code::Fc408 && *first != place
+    }
+}

@@ -12,7 +12,7 @@ const MAX_BLOCKS: usize = 400;
 /// Number of blocks after which a text that hardly has any is given up.
 const FIRST_BLOCKS: usize = 24;
 
-/// Whether most lines at the head of a text are blocks, and one of them is of a kind that only NC programs have: R2.97
+/// Whether more than two thirds of the lines at the head of a text are blocks, and one of them is of a kind that only NC programs have: R2.97
 /// turned round.
 pub fn reads_as_program(text: &str) -> bool {
     if no_program(text).is_some() {
@@ -22,6 +22,9 @@ pub fn reads_as_program(text: &str) -> bool {
     let mut block = Block::default();
     let (mut all, mut good, mut is_told) = (0, 0, false);
     while let Some(raw) = reader.next(&mut block) {
+        if raw.text.starts_with("```") {
+            return false;
+        }
         if raw.stretch != Stretch::Block {
             continue;
         }
@@ -34,7 +37,7 @@ pub fn reads_as_program(text: &str) -> bool {
             break;
         }
     }
-    is_told && good * 2 > all
+    is_told && good * 3 > all * 2
 }
 
 /// Whether other texts hardly have such a block: a block number, a G or M function, a command, a statement.
@@ -69,6 +72,8 @@ mod tests {
             "",
             "; only a comment\n",
             "# Title\n\nThe axis is switched by a command:\n\n```nc\nX[COMP OFF FRICT]\nM30\n```\n\nThen it moves.\nMore text.\n",
+            "```nc\nX[COMP OFF FRICT]\nX1\nX2\nM30\n```\n",
+            "An example follows.\nIt ends the program.\nX[COMP OFF FRICT]\nG1 X5\nM30\n",
             "t,line,X\n0.000,2,0\n0.001,2,1\n",
             "0.000 2 0\n0.001 2 1\n",
             "Dear colleague,\nG54 is set. M30 ends it.\nRegards\n",

@@ -9,7 +9,7 @@ pub const HEAD: usize = 4096;
 const MAX_LINES: usize = 40;
 
 /// Beginnings of files, as decoded, with what they show.
-const BEGINNINGS: [(&str, &str); 13] = [
+const BEGINNINGS: [(&str, &str); 16] = [
     ("PK\u{3}\u{4}", "a ZIP archive"),
     ("PK\u{5}\u{6}", "a ZIP archive"),
     ("%PDF-", "a PDF document"),
@@ -23,6 +23,9 @@ const BEGINNINGS: [(&str, &str); 13] = [
     ("\u{7f}ELF", "an executable"),
     ("\u{d0}\u{cf}\u{11}\u{e0}", "an Office document"),
     ("#!", "a script"),
+    ("CDF\u{1}", "NetCDF data"),
+    ("CDF\u{2}", "NetCDF data"),
+    ("\u{2030}HDF\r\n", "HDF data"),
 ];
 
 /// Returns what a text is, in words, where its head shows that it is no NC program.
@@ -33,7 +36,7 @@ pub fn no_program(text: &str) -> Option<&'static str> {
     if let Some((_, what)) = known {
         return Some(what);
     }
-    let first = head.trim_start_matches(|it: char| it.is_whitespace() || it == '\0');
+    let first = head.trim_start_matches(|it: char| it.is_whitespace() || "\0\u{feff}".contains(it));
     match first.as_bytes().first()? {
         b'<' => markup(first),
         b'{' | b'[' if is_json(first) => Some("JSON"),
@@ -194,6 +197,7 @@ mod tests {
             ("%PDF-1.7\n", "a PDF document"),
             ("\u{2030}PNG\r\n\u{1a}\n", "a PNG picture"),
             ("#!/bin/sh\nX1\n", "a script"),
+            ("CDF\u{1}\0\0\0\0", "NetCDF data"),
             ("\u{1}\u{6}\u{1f}\u{8}\u{e}ab", "binary data"),
         ] {
             assert_eq!(no_program(text), Some(what), "{text:?}");

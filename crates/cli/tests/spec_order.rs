@@ -227,8 +227,9 @@ fn every_cure_ends_every_hazard_and_changes_nothing_else() {
             for axis in of(&after, "axis") {
                 assert_eq!(axis["hazards"], 0, "seed {seed}, {fix}: {axis}");
             }
-            let status = bench.call(&["audit", "--fail-on", "warning"]).status.code();
-            assert_eq!(status, Some(0), "seed {seed}, {fix}");
+            // Some of the programs have only comments (R18.6).
+            let arguments = ["audit", "--fail-on", "warning", "--ignore", "FC103"];
+            assert_eq!(bench.status(&arguments), Some(0), "seed {seed}, {fix}");
             mended += all;
         }
     }

@@ -282,7 +282,7 @@ mod tests {
         });
         assert_eq!(
             (names(&found), found.left_out.others()),
-            (vec!["c.txt".to_owned()], 3)
+            (vec!["c.txt".to_owned()], 0)
         );
         std::fs::create_dir(path("empty")).unwrap();
         let found = find_programs(&[path("empty")], |_| FolderSelection::default());

@@ -70,7 +70,11 @@ pub(crate) fn audit(
 }
 
 fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
-    let (auditor, mut errors) = job.auditor(GivenPrograms::found, stop);
+    let find: Find = |programs, machines| {
+        let found = programs.found(machines);
+        (found.inputs, found.failures)
+    };
+    let (auditor, mut errors) = job.auditor(find, stop);
     let (archives, unread) = auditor.audit();
     errors.extend(unread);
     if let Some(failure) = Failure::of_several(errors) {

@@ -60,6 +60,8 @@ pub(super) struct Observation {
     pub(super) end: Option<u32>,
     /// Messages about the file as a whole: it has no block, or is no program (R18.6).
     pub(super) about_file: Vec<Diagnostic>,
+    /// The blocks of the main file that end it on some way.
+    pub(super) ends: BTreeSet<u32>,
     /// Reason for a stop before the end.
     pub(super) stopped: Option<WhyUnknown>,
     /// The state that it left, by subject.
@@ -81,6 +83,8 @@ pub(super) struct Observation {
     /// The called file of the last block.
     last_called: Option<Arc<str>>,
     doubt: Option<WhyUnknown>,
+    /// The error that the program reports itself.
+    reported: Option<WhyUnknown>,
 }
 
 impl Observation {
@@ -92,7 +96,9 @@ impl Observation {
             by: None,
             end: None,
             about_file: Vec::new(),
+            ends: BTreeSet::new(),
             stopped: None,
+            reported: None,
             left: vec![Selected::Unknown; count],
             possible: vec![None; count],
             asked: BTreeMap::new(),
@@ -218,6 +224,9 @@ impl Observation {
             if matches!(said.code, Code::Fc901 | Code::Fc902 | Code::Fc908) {
                 self.doubt = Some(reason(said, Some(site.clone())));
             }
+            if said.code == Code::Fc318 {
+                self.reported = Some(reason(said, Some(site.clone())));
+            }
         }
         if executed.stopped {
             let errors = executed.diagnostics.iter();
@@ -327,6 +336,8 @@ impl Observation {
         self.within.ended();
         let of_main = |place: &&Place| self.main.as_ref() == Some(&place.file);
         self.end = ended.at.filter(of_main).map(|place| place.first_line);
+        let ends = ended.ends.iter().map(|end| &end.place).filter(of_main);
+        self.ends = ends.map(|place| place.first_line).collect();
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
         self.left = scope.subjects().iter().map(of_subject).collect();
         for (at, observed) in self.observed.iter().enumerate() {
@@ -344,20 +355,45 @@ impl Observation {
         let has_failed = matches!(ended.by, EndedBy::Error | EndedBy::Budget);
         if has_failed && self.stopped.is_none() {
             let said = ended.diagnostics.first();
-            self.stopped = Some(said.map_or_else(
-                || WhyUnknown {
+            let said = said.map(|said| reason(said, Some(site_of(said))));
+            let reported = self.reported.take().filter(|_| ended.by == EndedBy::Error);
+            self.stopped = reported.or(said).or_else(|| {
+                Some(WhyUnknown {
                     code: None,
                     message: "the program was stopped".to_owned(),
                     site: None,
-                },
-                |said| reason(said, Some(site_of(said))),
-            ));
+                })
+            });
         }
+        self.commands_at(scope, ended);
         let ends = self.left.iter().zip(&self.possible);
         for (observed, (left, possible)) in self.observed.iter_mut().zip(ends) {
             let is_doubt = matches!(observed.last, Some(SelectionOrigin::Doubt(_)));
             if *left == Selected::Unknown && possible.is_none() && !is_doubt {
                 observed.last = self.doubt.clone().map(SelectionOrigin::Doubt);
+            }
+        }
+    }
+}
+
+impl Observation {
+    /// Records the commands that made the states at the end: of several ways, the one that leads away.
+    fn commands_at(&mut self, scope: &Scope, ended: &Ended<'_>) {
+        let subjects = scope.subjects().iter().enumerate();
+        for (at, &AuditedKind { axis, kind }) in subjects {
+            let is_on = match self.left[at] {
+                Selected::On => true,
+                Selected::Off => false,
+                Selected::Unknown if self.possible[at].is_some() => {
+                    !scope.is_on_at_start_up(AuditedKind { axis, kind })
+                }
+                Selected::Unknown => continue,
+            };
+            if let Some(command) = ended.last_commands.latest(axis, kind, is_on) {
+                self.observed[at].last = Some(SelectionOrigin::Command(Site {
+                    file: Arc::clone(&command.place.file),
+                    line: command.place.first_line,
+                }));
             }
         }
     }

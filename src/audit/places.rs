@@ -72,9 +72,11 @@ fn before_ends<'a>(
         };
         returned(run).into_iter().map(last).collect()
     };
+    // It may also end earlier, in a control block or at an error.
+    let each = |run: &Observation| run.ends.clone();
     let back = runs.clone().take(1);
     let back = back.flat_map(|run| run.within.last_lines());
-    [ends(&returned), ends(&run_out)]
+    [ends(&returned), ends(&run_out), ends(&each)]
         .into_iter()
         .chain(back.map(|line| vec![line]))
         .collect()

@@ -221,7 +221,10 @@ impl Auditor {
         Ok(ProgramAudit {
             file: file.to_owned(),
             axes: self.axes(&runs),
-            ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
+            ending: match runs.start_up.end {
+                Some(line) if runs.start_up.ends.len() == 1 => Ending::At(line),
+                _ => Ending::Elsewhere,
+            },
             about_file: runs.start_up.about_file.clone(),
             called: runs.called(),
             rests_on: runs.rests_on(),

@@ -150,10 +150,13 @@ impl ProgramRuns {
     }
 
     pub(super) fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
-        if self.stopped().is_some() || self.asked().len() > MOST_ASKED {
+        let subject = scope.subjects()[at];
+        if self.stopped().is_some() {
+            return self.left_at_error(scope, at);
+        }
+        if self.asked().len() > MOST_ASKED {
             return ProgramEffect::Unknown;
         }
-        let subject = scope.subjects()[at];
         let is_lost =
             |run: &Observation| run.left[at] == Selected::Unknown && run.possible[at].is_none();
         if self.all().any(is_lost) {
@@ -171,6 +174,20 @@ impl ProgramRuns {
             Selected::On => ProgramEffect::LeavesOn,
             Selected::Off => ProgramEffect::LeavesOff,
             Selected::Unknown => ProgramEffect::Depends,
+        }
+    }
+
+    /// The effect of a program that is stopped on all ways: an error leaves away what is away there (R18.10); where it
+    /// would have led otherwise is not known.
+    fn left_at_error(&self, scope: &Scope, at: usize) -> ProgramEffect {
+        let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
+        let away = if is_on { Selected::Off } else { Selected::On };
+        let leaves_away =
+            |run: &Observation| run.by == Some(EndedBy::Error) && run.left[at] == away;
+        match is_on {
+            _ if !self.all().all(leaves_away) => ProgramEffect::Unknown,
+            true => ProgramEffect::LeavesOff,
+            false => ProgramEffect::LeavesOn,
         }
     }
 

@@ -70,22 +70,38 @@ impl Linter<'_> {
         said.extend(shared_block::lint(executed));
     }
 
-    /// Checks the state that an ended program leaves, and records what made it. A program stopped by an error or a
-    /// budget is not judged by what it did not reach. A program in an endless loop is ended by a reset, which keeps the
-    /// state unless another reading is selected (R1.28).
+    /// Checks the state that an ended program leaves, and records what made it. A program stopped by a budget is not
+    /// judged by what it did not reach. A program in an endless loop, or one that an error stops, is ended by a reset,
+    /// which keeps the state unless another reading is selected (R1.28). Where the run went on after errors, the state
+    /// at them is judged, too.
     pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
         self.history
             .program_ended(&self.program, &self.memory, ended);
-        match ended.by {
-            EndedBy::Budget
-                if ended.endless && !self.machine.readings.takes_second(Question::Reset) =>
-            {
-                left_away::lint(self, ended, "the reset that ends it")
-            }
-            EndedBy::Error | EndedBy::Budget => Vec::new(),
-            EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile => {
-                left_away::lint(self, ended, "program end")
-            }
+        let is_kept = !self.machine.readings.takes_second(Question::Reset);
+        let mut left = match ended.by {
+            EndedBy::Budget if !(ended.endless && is_kept) => Vec::new(),
+            _ => left_away::lint(self, ended),
+        };
+        if let Some(stopped) = ended.stopped {
+            let at_errors = Ended {
+                by: EndedBy::Error,
+                at: None,
+                ends: &stopped.ends,
+                compensation: &stopped.compensation,
+                possible: &stopped.possible,
+                last_commands: &stopped.last_commands,
+                ..*ended
+            };
+            let mut found = left_away::lint(self, &at_errors);
+            let start_up = &self.history.start_up;
+            found.retain(|it| {
+                let is_known = left
+                    .iter()
+                    .any(|known| (known.axis, known.kind) == (it.axis, it.kind));
+                !is_known && memory::command_to(&at_errors, (it.axis, it.kind), start_up).is_some()
+            });
+            left.append(&mut found);
         }
+        left
     }
 }

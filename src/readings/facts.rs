@@ -50,7 +50,7 @@ impl QuestionFacts {
 }
 
 /// In the order of [`Question::ALL`](super::Question::ALL).
-pub(super) static FACTS: [QuestionFacts; 20] = [
+pub(super) static FACTS: [QuestionFacts; 21] = [
     QuestionFacts {
         rule: "R1.8",
         question: "Does the control take keywords of a COMP command in lower case?",
@@ -257,6 +257,20 @@ pub(super) static FACTS: [QuestionFacts; 20] = [
         depends: "the states after `run --from` (FC413)",
         way: Program,
         how: "`V.A.FRICT_COMP_ACTIVE` after a block search past a COMP command",
+    },
+    QuestionFacts {
+        rule: "R2.100",
+        question: "Does `#ERROR` without `RC` end the program?",
+        readings: ["goes-on", "stops"],
+        meanings: [
+            "`#ERROR` without `RC` is a warning, and the program goes on",
+            "`#ERROR` without `RC` stops the program",
+        ],
+        assumed: None,
+        why: "the page of the command calls `RC` optional and names no default",
+        depends: "whether what follows such a command is executed (FC902)",
+        way: Program,
+        how: "whether the program reaches its last message; a stop is noted by hand",
     },
     QuestionFacts {
         rule: "R4.2",

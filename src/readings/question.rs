@@ -37,6 +37,8 @@ pub enum Question {
     MachineData,
     /// Does a block search execute commands?
     BlockSearch,
+    /// Does `#ERROR` without a remedy class end the program?
+    RemedyClass,
     /// How does the current decay before a reversal?
     Decay,
     /// After which starts does the current build up?
@@ -51,7 +53,7 @@ pub enum Question {
 
 impl Question {
     /// Every question, in the order of the rules.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::LowerCase,
         Self::WithMotion,
         Self::SyntaxCheck,
@@ -67,6 +69,7 @@ impl Question {
         Self::SkipLevel,
         Self::MachineData,
         Self::BlockSearch,
+        Self::RemedyClass,
         Self::Decay,
         Self::Start,
         Self::Delay,

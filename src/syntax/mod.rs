@@ -62,9 +62,9 @@ pub(crate) use lines::BlockReader;
 pub use lines::FastPath;
 pub use parse::parse_comp;
 #[cfg(not(feature = "unstable"))]
-pub(crate) use parse::{is_lone_m, parse_block, parse_expression};
+pub(crate) use parse::{is_lone_end, parse_block, parse_expression};
 #[cfg(feature = "unstable")]
-pub use parse::{is_lone_m, parse_block, parse_expression};
+pub use parse::{is_lone_end, parse_block, parse_expression};
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};

@@ -67,18 +67,20 @@ pub fn parse_block(text: &str) -> Block {
     block
 }
 
-/// Whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, so that another block can be
+/// Whether a block is only an M word, `N90 M30 ; end`, `M 2`, `M=P1`, or only `#ERROR`, so that another block can be
 /// put before it (R1.59). A jump label is more: a jump to it would skip the other block.
-pub fn is_lone_m(text: &str) -> bool {
+pub fn is_lone_end(text: &str) -> bool {
     let block = parse_block(text);
     let is_m = |word: &Word| word.address == Address::Letter(b'M');
     let is_label = block.number.is_some_and(|number| number.label);
     let is_refused = |fault: &Fault| fault.code.severity() == Severity::Error;
-    matches!(block.words.as_slice(), [word] if is_m(word))
-        && block.items.is_empty()
-        && block.skip.is_none()
-        && !is_label
-        && !block.faults.iter().any(is_refused)
+    let is_error = |item: &Item| matches!(item, Item::Hash(hash) if hash.name == "#ERROR");
+    let is_end = match (block.words.as_slice(), block.items.as_slice()) {
+        ([word], []) => is_m(word),
+        ([], [item]) => is_error(item),
+        _ => false,
+    };
+    is_end && block.skip.is_none() && !is_label && !block.faults.iter().any(is_refused)
 }
 
 /// Parses a text that is one expression into an empty block; `None` where it is not, or
@@ -107,7 +109,7 @@ mod tests {
             "N5M02",
         ];
         for block in ends {
-            assert!(is_lone_m(block), "{block}");
+            assert!(is_lone_end(block), "{block}");
         }
         let others = [
             "G0 X0 M30",
@@ -121,7 +123,7 @@ mod tests {
             "",
         ];
         for block in others {
-            assert!(!is_lone_m(block), "{block}");
+            assert!(!is_lone_end(block), "{block}");
         }
     }
 }

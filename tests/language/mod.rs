@@ -10,6 +10,7 @@ mod places;
 mod plc;
 mod programs;
 mod skipping;
+mod stops;
 mod text;
 mod unknown;
 mod ways;

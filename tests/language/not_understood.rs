@@ -617,7 +617,7 @@ fn what_the_user_declares_harmless_is_passed_over() {
 
 #[test]
 fn an_error_of_the_program_stops_it() {
-    // R2.70
+    // R2.100
     let left = |command: &str| {
         let program = format!("P1=1\nX[COMP OFF FRICT]\n{command}\nX[COMP ON FRICT]\nM30");
         let bench = Bench::new();
@@ -628,12 +628,18 @@ fn an_error_of_the_program_stops_it() {
     };
     for (command, stops) in [
         ("#ERROR [ID=455 RC=2]", true),
-        ("#ERROR [ID455 RC7 PV1=5]", true),
+        ("#ERROR [ID455 RC5 PV1=5]", true),
         ("#ERROR [ID=1, RC=P1+1, MID=2]", true),
         ("#ERROR [ID=1 RC=0]", false),
         ("#ERROR [ID=1 RC=P1-1]", false),
         ("#ERROR [ID=1 PV1=\"RC=2\"]", false),
-        ("#ERROR [ID=1 RC=V.E.A]", false),
+        ("#ERROR [ID455 RC 1+1]", true),
+        ("#ERROR [RC[2], ID=1]", true),
+        ("#ERROR [PV1=\"RC=0\" RC=[1+1]]", true),
+        ("#ERROR [RC P1]", true),
+        ("#error [id=1 rc=2]", true),
+        ("#ERROR [RC[0] ID=2]", false),
+        ("#ERROR [ID=1 RC 0]", false),
         ("$IF P1==2\n#ERROR [RC=2]\n$ENDIF", false),
     ] {
         assert_eq!(left(command), (stops, stops), "{command}");

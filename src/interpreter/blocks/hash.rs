@@ -13,11 +13,8 @@ use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::block_context::BlockContext;
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::cycles::ModalCycles;
-use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
-use crate::interpreter::run::step::ControlStep;
 use crate::interpreter::values::target::AssignedPlace;
 use crate::interpreter::values::value::Value;
 use crate::readings::{Alternative, Question};
@@ -92,7 +89,7 @@ impl Interpreter {
             }
             "#RT WHILE" => self.real_time_loop(hash.span, at, outcome),
             "#RT ENDWHILE" => {}
-            "#ERROR" => self.report_error(hash, at, outcome),
+            "#ERROR" => return self.report_error(hash, at, outcome),
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.control.modal.hash(name);
@@ -235,26 +232,6 @@ impl Interpreter {
             outcome.step = self.skip_unknown(whole, &cause, span, at);
         }
     }
-
-    /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
-    /// known class it is taken for a warning (tf5200, 207457163).
-    fn report_error(&mut self, hash: &Hash, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
-        let code = hash.code(at.text);
-        let class = remedy_class(&code);
-        let class = class.and_then(|class| self.number_in(class, at));
-        let Some(class) = class.filter(|class| *class >= 1.0) else {
-            self.pass_over("#ERROR", hash.span, at);
-            return;
-        };
-        let message =
-            format!("the control stops here: the program reports an error with `RC={class}`");
-        let fault = Fault::new(Code::Fc318, hash.span, message)
-            .with_help("with `RC=0` it is a warning, and the program continues");
-        self.scratch.diagnostics.push(at.diagnostic(fault));
-        if self.options.stop == StopPolicy::FirstError {
-            outcome.step = Some(ControlStep::End(EndedBy::Error));
-        }
-    }
 }
 
 impl ControlState {
@@ -277,12 +254,4 @@ fn goes_on(name: &str) -> bool {
     ["#VAR", "#ENDVAR", "#COMMENT", "#MSG"]
         .iter()
         .any(|known| name.starts_with(known))
-}
-
-/// Returns the text after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.
-fn remedy_class(text: &str) -> Option<&str> {
-    let outside_of_texts = text.split('"').step_by(2);
-    let mut words = outside_of_texts.flat_map(|part| part.split([' ', '\t', '[', ',']));
-    let word = words.find_map(|word| word.strip_prefix("RC"))?;
-    Some(word.trim_start_matches('=').trim_end_matches(']'))
 }

@@ -8,7 +8,7 @@ use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::effects::plc::has_function;
 use crate::interpreter::run::block_context::{BlockContext, MacroCode, ShownBlockLines};
-use crate::interpreter::run::block_scratch::BlockScratch;
+use crate::interpreter::run::block_scratch::{AfterError, BlockScratch};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::outcome::BlockOutcome;
@@ -24,9 +24,9 @@ use crate::text::Span;
 pub(in crate::interpreter) const MAX_SAID: usize = 1000;
 
 impl Interpreter {
-    /// Returns the first place of the block that the control would refuse; nothing to its right is executed.
+    /// Returns the first place of the block that the control would refuse; nothing to its right is executed there.
     pub(in crate::interpreter) fn first_refusal(&self, block: &Block) -> Option<u32> {
-        if self.options.stop != StopPolicy::FirstError {
+        if self.options.stop == StopPolicy::KeepGoing {
             return None;
         }
         block
@@ -71,10 +71,9 @@ impl Interpreter {
         outcome: &mut BlockOutcome,
         limit: Option<u32>,
     ) {
-        let limit = limit.unwrap_or(u32::MAX);
-        let is_reached = |span: Span| span.start < limit;
+        let mut limit = limit.unwrap_or(u32::MAX);
         for word in &at.block.words {
-            if !is_reached(word.span) {
+            if word.span.start >= limit && self.refuse_from(&mut limit, at).is_break() {
                 return;
             }
             if self.plain_word(word, outcome) {
@@ -86,7 +85,7 @@ impl Interpreter {
             }
         }
         for item in &at.block.items {
-            if !is_reached(item.span()) {
+            if item.span().start >= limit && self.refuse_from(&mut limit, at).is_break() {
                 return;
             }
             let done = self.item(item, at, outcome);
@@ -99,12 +98,27 @@ impl Interpreter {
         }
     }
 
+    /// The rest of the block is to the right of what the control refuses. `Break` where it stops there.
+    #[cold]
+    fn refuse_from(&mut self, limit: &mut u32, at: &BlockContext<'_>) -> ControlFlow<()> {
+        if self.options.stop == StopPolicy::FirstError {
+            return ControlFlow::Break(());
+        }
+        *limit = u32::MAX;
+        self.fail(AfterError::Reset, at);
+        ControlFlow::Continue(())
+    }
+
     /// Reports the fault of a part of the block. `Break` where the control stops.
     #[inline]
     fn say(&mut self, done: Result<(), Box<Fault>>, at: &BlockContext<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
             self.scratch.complain(*fault, at);
         }
+        if self.scratch.diagnostics.is_empty() {
+            return ControlFlow::Continue(());
+        }
+        self.fail_if_refused(at);
         if self.is_halted() {
             ControlFlow::Break(())
         } else {
@@ -285,7 +299,8 @@ impl Interpreter {
         );
         let limit = self.first_refusal(&block);
         self.items(&inner, outcome, limit);
-        self.take_faults(&inner, limit.is_some());
+        let stopped = limit.is_some() && self.options.stop == StopPolicy::FirstError;
+        self.take_faults(&inner, stopped);
         // Messages about the macro's code are shown where the macro is used.
         for diagnostic in &mut self.scratch.diagnostics[said..] {
             diagnostic.place = at.place(span);

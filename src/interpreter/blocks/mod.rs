@@ -12,6 +12,7 @@ pub(super) mod macros;
 pub(super) mod pace;
 pub(super) mod parting;
 pub(super) mod probing;
+pub(super) mod reported;
 pub(super) mod required;
 pub(super) mod resolve;
 pub(super) mod sequence;

@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::AfterError;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Branches, StopPolicy};
 use crate::interpreter::run::possible::Split;
@@ -121,9 +122,9 @@ impl Interpreter {
     ) -> bool {
         let mut changes = self.scratch.changes.iter();
         let is_switched = changes.any(|change| (change.axis, change.kind) == (axis, kind));
-        let control = &mut self.state.control;
-        let reach = &mut self.state.track.reach;
-        let split = control.possible.of(axis, kind).filter(|_| !is_switched);
+        let possible = &self.state.control.possible;
+        let reach = &self.state.track.reach;
+        let split = possible.of(axis, kind).filter(|_| !is_switched);
         let Some(Split { on, off }) = split.map(|split| split.and(reach)) else {
             return false;
         };
@@ -133,10 +134,9 @@ impl Interpreter {
         let mut refused = moves_without(&self.machine.axis(axis).name, kind, span, at);
         limit_to(&mut refused, &ways_of(&off, &self.state.conditions));
         self.scratch.of_some_ways.push(refused);
-        if self.options.stop == StopPolicy::FirstError {
-            *reach = on;
-            control.possible.narrow(reach, &mut control.compensation);
-            self.version += 1;
+        self.stop_on(&off, AfterError::Reset, at);
+        if self.options.stop != StopPolicy::KeepGoing {
+            self.state.go_on_with(on);
         }
         true
     }

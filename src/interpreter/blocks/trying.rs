@@ -132,11 +132,13 @@ impl Interpreter {
         let scratch = std::mem::take(&mut self.scratch);
         let sides = std::mem::take(&mut self.sides);
         let (called, departing) = (self.pending.len(), self.departing.len());
+        let ended = self.state.ended.len();
         attempt(self);
         self.say_unsaid(at);
         self.sides = sides;
         self.pending.truncate(called);
         self.departing.truncate(departing);
+        self.state.ended.truncate(ended);
         let mut said = std::mem::replace(&mut self.scratch, scratch).diagnostics;
         for said in said.iter_mut().filter(|said| !said.code.is_about_text()) {
             let value = unknown_value(cause, at.file);

@@ -9,4 +9,5 @@ pub(super) mod external;
 pub(super) mod havoc;
 pub(super) mod machine_data;
 pub(super) mod plc;
+pub(super) mod restart;
 pub(super) mod roots;

@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::OwnEnd;
+use crate::interpreter::run::block_scratch::{AfterError, OwnEnd};
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::last_commands::LastCommand;
@@ -131,6 +131,9 @@ impl Interpreter {
         let stopped = undecided.is_none()
             && self.options.stop == StopPolicy::FirstError
             && (limit.is_some() || refused);
+        if undecided.is_none() && (limit.is_some() || refused) {
+            self.fail(AfterError::Reset, at);
+        }
         if !at.block.faults.is_empty() {
             self.take_faults(at, stopped);
         }
@@ -163,6 +166,10 @@ impl Interpreter {
                 }
                 step => step,
             }
+        };
+        let step = match step {
+            Some(ControlStep::End(EndedBy::Error)) => Some(self.end_by_error(at, finder)),
+            step => step,
         };
         self.limit_said(met);
         let flow = observer.event(Event::Executed(Executed {
@@ -214,6 +221,16 @@ impl Interpreter {
             None => ControlFlow::Continue(()),
             Some(step) => ControlFlow::Break(NextBlock::Step(step)),
         }
+    }
+
+    /// Ends the way at an error of the control. Whatever the control may have done instead ends with it.
+    #[cold]
+    fn end_by_error(&mut self, at: &BlockContext<'_>, finder: &mut dyn Finder) -> ControlStep {
+        self.meet_at_end(finder);
+        let after = std::mem::take(&mut self.scratch.after_error);
+        let ways = self.state.track.reach.clone();
+        self.stop_on(&ways, after, at);
+        ControlStep::Covered
     }
 
     /// Limits the messages of the block to the ways on which they apply, except the first ones, which are
@@ -330,17 +347,6 @@ impl Interpreter {
         }
     }
 
-    /// Whether a jump of the running program may go to the block.
-    fn may_be_jumped_to(&self, at: &BlockContext<'_>) -> bool {
-        let Some(frame) = self.state.control.frames.running() else {
-            return true;
-        };
-        let labels = at.block.items.iter();
-        let has_label = labels.clone().any(|item| matches!(item, Item::Label(_)));
-        let text = self.programs.index(frame.unit).source.text();
-        (has_label || at.block.number.is_some()) && names_target(text, at.text)
-    }
-
     /// Drops the sets of states that a change by the block has decided.
     fn replace_possible(&mut self) {
         let possible = &mut self.state.control.possible;
@@ -388,27 +394,4 @@ impl RunTrack {
             readings.act();
         }
     }
-}
-
-/// Whether a jump in a text may go to a block: it names the number or the label with which the block
-/// begins, or computes its target.
-fn names_target(text: &str, block: &str) -> bool {
-    let own = block.trim_start().to_ascii_uppercase();
-    let own = own.trim_start_matches(['N', '[']);
-    let end = own.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
-    let own = &own[..end.unwrap_or(own.len())];
-    let digits = own.trim_start_matches('0');
-    let upper = text.to_ascii_uppercase();
-    upper.split("GOTO").skip(1).any(|rest| {
-        let target = rest
-            .trim_start()
-            .trim_start_matches(['[', 'N'])
-            .trim_start();
-        let end = target.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
-        let target = &target[..end.unwrap_or(target.len())];
-        target == own
-            || target.trim_start_matches('0') == digits
-            || target.is_empty()
-            || target.starts_with(['P', 'V'])
-    })
 }

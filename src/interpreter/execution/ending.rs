@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::merging::MetWays;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::programs::index::EntryIndex;
@@ -15,6 +16,7 @@ use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
 use crate::interpreter::run::path::Last;
+use crate::interpreter::run::state::State;
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::AxisKinds;
@@ -70,25 +72,30 @@ impl Interpreter {
         if !beside.is_empty() {
             notes.to_mut().append(&beside);
         }
-        let mut by = by;
-        let mut met = Vec::new();
-        if self.state.ended.is_empty() {
-            self.state
-                .track
-                .assumed
-                .undo(&mut self.state.control.memory);
+        let met = if self.state.ended.is_empty() {
+            if by == EndedBy::Error {
+                self.reset_friction();
+            }
+            let State { track, control, .. } = &mut self.state;
+            track.assumed.undo(&mut control.memory);
+            MetWays {
+                by,
+                ends: Vec::new(),
+                stopped: None,
+            }
         } else {
-            (by, met) = self.meet_ended(by);
-        }
+            self.meet_ended(by)
+        };
+        let by = met.by;
         self.let_plc_act();
         notes.to_mut().extend(self.met.drain(..));
         notes.to_mut().extend(self.scratch.of_some_ways.drain(..));
         notes.to_mut().extend(self.take_held());
         notes.to_mut().extend(self.missed_search());
         let at = self.scratch.end.take();
-        let mut ends = self.all_ends(at.as_ref());
-        if !met.is_empty() {
-            ends.splice(..1.min(ends.len()), met);
+        let mut ends = self.all_ends(by, at.as_ref());
+        if !met.ends.is_empty() {
+            ends.splice(..1.min(ends.len()), met.ends);
         }
         // R2.84: only a reset ends a loop without an end.
         if self.scratch.endless {
@@ -118,6 +125,7 @@ impl Interpreter {
             at: at.as_ref().map(|end| &end.place),
             ends: &ends,
             last_commands: &self.state.control.last_commands,
+            stopped: met.stopped.as_ref(),
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,
@@ -130,13 +138,14 @@ impl Interpreter {
     }
 
     /// Every end that the program may reach, with the state that is left there.
-    fn all_ends(&mut self, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
+    fn all_ends(&mut self, by: EndedBy, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
         let others = std::mem::take(&mut self.state.track.ways.ends);
         let own = self.state.track.ways.own.take();
         let last = self.state.last.as_ref().map(Last::place);
         let place = at.map(|end| end.place.clone()).or(last);
         let reached = place.map(|place| ProgramEnd {
             place,
+            by,
             is_passed_into: at.is_some_and(|end| end.is_passed_into),
             cause: None,
             compensation: self.state.control.left_with(own.as_deref()),
@@ -146,6 +155,7 @@ impl Interpreter {
             let is_reached = at.is_some_and(|at| at.place == place);
             (!is_reached).then(|| ProgramEnd {
                 place,
+                by: end.by,
                 is_passed_into: false,
                 cause: Some(end.cause),
                 compensation: self.state.control.left_with(Some(&end.kinds)),

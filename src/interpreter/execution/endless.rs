@@ -150,6 +150,7 @@ impl Interpreter {
                 self.state.track.reach = track.reach;
                 self.state.track.assumed = track.assumed;
                 self.state.track.asked = track.asked;
+                self.state.track.failed = track.failed;
                 self.journal.begin_anew();
                 known.covered = Some(before);
             }
@@ -172,6 +173,7 @@ impl Interpreter {
                 reach: track.reach.clone(),
                 asked: track.asked.clone(),
                 assumed: track.assumed.clone(),
+                failed: track.failed,
                 ..RunTrack::default()
             },
             parted: self.state.seq,

@@ -1,12 +1,15 @@
 //! The ends of the ways through the program.
 
+use crate::comp::AxisIndex;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::run::block_scratch::OwnEnd;
-use crate::interpreter::run::event::{EndedBy, ProgramEnd};
+use crate::interpreter::run::event::{EndedBy, ProgramEnd, StoppedState};
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::path::Last;
-use crate::interpreter::run::path::{EndedPath, Passed};
+use crate::interpreter::run::path::{EndedPath, Last, Passed};
+use crate::interpreter::run::possible_state::shown;
 use crate::interpreter::run::state::State;
+use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::values::cause::ERROR_COMMAND;
 
 impl Interpreter {
     /// Ends a way. Returns the end of the run if no other way continues.
@@ -28,7 +31,15 @@ impl Interpreter {
             return Some(by);
         }
         let never_ends = std::mem::take(&mut self.scratch.endless);
-        if !is_covered && !never_ends {
+        if never_ends {
+            self.reset_after_stop();
+            let said = self.scratch.over.last();
+            self.scratch.end = said.map(|said| OwnEnd {
+                place: said.place.clone(),
+                is_passed_into: false,
+            });
+        }
+        if !is_covered {
             if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
                 let missing = self.state.missing_end().map(|mut missing| {
                     self.state.limit_to_reach(&mut missing, None);
@@ -53,64 +64,39 @@ impl Interpreter {
         Some(last.by)
     }
 
-    fn ended_path(&mut self, by: EndedBy) -> EndedPath {
-        let mut path = self.state.leave_path();
-        path.track.assumed.undo(&mut path.control.memory);
-        path.control.frames.clear();
-        let at = self.scratch.end.take().map(|end| {
-            let passed = if end.is_passed_into {
-                Passed::Into
-            } else {
-                Passed::Perhaps
-            };
-            (end.place, passed)
-        });
-        EndedPath {
-            path,
-            by,
-            at,
-            last: self.state.last.clone(),
-        }
-    }
-
-    /// The ways through the program meet at its end. Returns what ended it, and each end.
+    /// The ways through the program meet at its end. Where the run has gone on after errors, one that an error has
+    /// ended counts only if no other went on, and the states at the errors are apart (R9.20).
     #[cold]
-    pub(in crate::interpreter) fn meet_ended(&mut self, by: EndedBy) -> (EndedBy, Vec<ProgramEnd>) {
-        let own = self.ended_path(by);
-        let mut ended = std::mem::take(&mut self.state.ended);
-        ended.push(own);
-        let mut ends: Vec<ProgramEnd> = Vec::new();
-        for end in ended.iter().rev() {
-            let place = end.at.as_ref().map(|(place, _)| place.clone());
-            let place = place.or_else(|| end.last.as_ref().map(Last::place));
-            let Some(place) = place.filter(|_| end.by != EndedBy::Error) else {
-                continue;
-            };
-            let mut compensation = end.path.control.compensation.clone();
-            let _ = compensation.program_end();
-            let number = end.path.track.reach.conditions().max();
-            let cause = number.and_then(|number| self.state.conditions.get(number as usize));
-            ends.push(ProgramEnd {
-                place,
-                is_passed_into: matches!(end.at, Some((_, Passed::Into))),
-                cause: cause
-                    .filter(|_| !ends.is_empty())
-                    .map(|found| found.cause.clone()),
-                compensation,
-            });
+    pub(in crate::interpreter) fn meet_ended(&mut self, by: EndedBy) -> MetWays {
+        if !std::mem::take(&mut self.scratch.covered) {
+            let own = self.ended_path(by);
+            self.state.ended.push(own);
         }
-        // The next program does not find the state that an error leaves.
-        let is_error = |end: &EndedPath| end.by == EndedBy::Error;
-        if !ended.iter().all(is_error) {
-            ended.retain(|end| !is_error(end));
-        }
-        let mut ways = ended.into_iter().rev();
+        let ended = std::mem::take(&mut self.state.ended).into_iter().rev();
+        let (failed, own): (Vec<_>, Vec<_>) = ended.partition(|end| end.path.track.failed);
+        let is_stop = |end: &EndedPath| matches!(end.by, EndedBy::Error | EndedBy::Budget);
+        let (mut stopped, mut all): (Vec<_>, Vec<_>) = own.into_iter().partition(is_stop);
+        stopped.sort_by_key(|end| end.by != EndedBy::Error);
+        let is_apart = all.is_empty() && !failed.is_empty();
+        let apart = if is_apart {
+            all = failed;
+            stopped
+        } else {
+            all.append(&mut stopped);
+            Vec::new()
+        };
+        let ends = self.state.ends_of(&all);
+        let stopped = self.state.stopped(&apart);
+        let mut ways = all.into_iter();
         let Some(EndedPath {
             path, by, at, last, ..
         }) = ways.next()
         else {
-            return (by, ends);
+            return MetWays { by, ends, stopped };
         };
+        let is_stop = matches!(by, EndedBy::Error | EndedBy::Budget);
+        self.scratch.endless = by == EndedBy::Budget;
+        let at = at.filter(|_| !is_stop);
         self.scratch.end = at.map(|(place, passed)| OwnEnd {
             place,
             is_passed_into: passed == Passed::Into,
@@ -120,7 +106,68 @@ impl Interpreter {
         for other in ways {
             self.join_path(other.path);
         }
-        (by, ends)
+        MetWays { by, ends, stopped }
+    }
+}
+
+/// The end of a program on whose ways it ended differently.
+pub(in crate::interpreter) struct MetWays {
+    pub(in crate::interpreter) by: EndedBy,
+    /// Each end, that of the dry run first.
+    pub(in crate::interpreter) ends: Vec<ProgramEnd>,
+    /// The state at the errors after which the run went on.
+    pub(in crate::interpreter) stopped: Option<StoppedState>,
+}
+
+impl State {
+    /// The places where ways end, each once.
+    fn ends_of(&self, ended: &[EndedPath]) -> Vec<ProgramEnd> {
+        let mut ends: Vec<ProgramEnd> = Vec::new();
+        for end in ended {
+            let place = end.at.as_ref().map(|(place, _)| place.clone());
+            let Some(place) = place.or_else(|| end.last.as_ref().map(Last::place)) else {
+                continue;
+            };
+            let mut compensation = end.path.control.compensation.clone();
+            let _ = compensation.program_end();
+            if let Some(known) = ends.iter_mut().find(|it| it.place == place) {
+                for axis in (0..compensation.len()).map(AxisIndex::new) {
+                    let kinds = known.compensation.differing(&compensation, axis);
+                    known.compensation.havoc(axis, kinds, &mut Vec::new());
+                }
+                continue;
+            }
+            let number = end.path.track.reach.conditions().max();
+            let cause = number.and_then(|number| self.conditions.get(number as usize));
+            ends.push(ProgramEnd {
+                place,
+                by: end.by,
+                is_passed_into: matches!(end.at, Some((_, Passed::Into))),
+                cause: cause
+                    .filter(|_| !ends.is_empty())
+                    .map(|found| found.cause.clone()),
+                compensation,
+            });
+        }
+        ends
+    }
+
+    /// The state that errors leave, as one.
+    fn stopped(&self, ended: &[EndedPath]) -> Option<StoppedState> {
+        let mut ways = ended.iter().map(|end| end.path.clone());
+        let mut all = ways.next()?;
+        for way in ways {
+            all.join(way, &ERROR_COMMAND.into());
+        }
+        let mut control = all.control;
+        let _ = control.compensation.program_end();
+        let state = (&control.compensation, &control.possible);
+        Some(StoppedState {
+            ends: self.ends_of(ended),
+            possible: shown(state, &WaySet::always(), &self.conditions),
+            last_commands: control.last_commands,
+            compensation: control.compensation,
+        })
     }
 }
 

@@ -97,11 +97,14 @@ impl Interpreter {
         for path in [&mine, &other] {
             self.charge_copies(&path.control, &path.track.reach);
         }
+        let both_count = mine.track.failed == other.track.failed;
         let differing = mine.join(other, &cause);
         self.state.effort.charge_region(ITEM * differing);
         self.enter_path(mine);
         self.scratch.havoc_last_motion();
-        self.tell_join(&before, parted);
+        if both_count {
+            self.tell_join(&before, parted);
+        }
     }
 
     /// The condition that separates two ways.
@@ -175,7 +178,8 @@ impl Interpreter {
         let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
         let mut said = about(&condition, &shown);
         self.state.limit_to_reach(&mut said, parted);
-        if is_new {
+        // Whether `#ERROR` ends the program is said at its block.
+        if is_new && condition.kind != ConditionKind::Stop {
             self.met.push(said);
         } else {
             self.met_withheld.push(said);
@@ -196,16 +200,6 @@ impl State {
         }
         if !reach.is_always() {
             limit_to(said, &ways_of(&reach, &self.conditions));
-        }
-    }
-
-    /// Takes the way that was being executed.
-    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
-        let control = self.control.clone();
-        Path {
-            control,
-            track: std::mem::take(&mut self.track),
-            parted: self.seq,
         }
     }
 }
@@ -269,6 +263,8 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
                 unknown_value(cause, &condition.place.file)
             )
         }
+        ConditionKind::Stop => "what follows `#ERROR` without `RC` is not documented".to_owned(),
+        ConditionKind::Restart => "after this error the control is reset, or restarted".to_owned(),
         ConditionKind::Branch
         | ConditionKind::Case
         | ConditionKind::Loop

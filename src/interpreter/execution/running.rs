@@ -115,15 +115,25 @@ impl Interpreter {
             let Some(step) = self.part_and_step(step, finder) else {
                 continue;
             };
-            if let ControlFlow::Break(by) = self.follow(step) {
-                if by != EndedBy::Error && !self.scratch.covered {
-                    self.meet_at_end(finder);
-                }
-                if let Some(by) = self.end_path(by) {
-                    return RunOutcome::Ended(by);
-                }
+            if let Some(by) = self.follow_to_end(step, finder) {
+                return RunOutcome::Ended(by);
             }
         }
+    }
+
+    /// Executes a step. Returns the end of the run if it is the last one of the last way.
+    pub(in crate::interpreter) fn follow_to_end(
+        &mut self,
+        step: ControlStep,
+        finder: &mut dyn Finder,
+    ) -> Option<EndedBy> {
+        let ControlFlow::Break(by) = self.follow(step) else {
+            return None;
+        };
+        if !self.scratch.covered {
+            self.meet_at_end(finder);
+        }
+        self.end_path(by)
     }
 
     /// Announces that ways meet.

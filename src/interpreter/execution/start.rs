@@ -88,9 +88,9 @@ impl Interpreter {
             Some(ControlStep::Begin) => {
                 return self.begin(finder, observer);
             }
-            Some(step) => match self.follow(step) {
-                ControlFlow::Break(by) => RunOutcome::Ended(by),
-                ControlFlow::Continue(()) => self.run(finder, observer),
+            Some(step) => match self.follow_to_end(step, finder) {
+                Some(by) => RunOutcome::Ended(by),
+                None => self.run(finder, observer),
             },
             None => self.run(finder, observer),
         };

@@ -28,6 +28,16 @@ pub(in crate::interpreter) struct OwnEnd {
     pub(in crate::interpreter) is_passed_into: bool,
 }
 
+/// What comes between an error and the next program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::interpreter) enum AfterError {
+    /// A reset of the channel.
+    #[default]
+    Reset,
+    /// That, or a restart of the control (R2.100).
+    ResetOrRestart,
+}
+
 /// A program that only the machine has, and its call: the state that it leaves is not known.
 #[derive(Debug, Clone)]
 pub(in crate::interpreter) struct LeftOpen {
@@ -123,6 +133,8 @@ pub(in crate::interpreter) struct BlockScratch {
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block that ends the program.
     pub(in crate::interpreter) end: Option<OwnEnd>,
+    /// What follows the error by which the block ends the program.
+    pub(in crate::interpreter) after_error: AfterError,
     /// Messages on the end of the run or of a way through it: a budget, or the end of a file
     /// without M30.
     pub(in crate::interpreter) over: Vec<Diagnostic>,

@@ -29,6 +29,10 @@ pub(in crate::interpreter) enum ConditionKind {
     Call(Kind),
     /// Whether a block search executes the commands that it passes.
     Search,
+    /// Whether `#ERROR` without a remedy class ends the program (R2.100).
+    Stop,
+    /// Whether the control is restarted after an error, not only reset (R2.100).
+    Restart,
 }
 
 /// Answers to an earlier condition and to a later one that no value gives.

@@ -229,8 +229,10 @@ pub struct Joined<'a> {
 #[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ProgramEnd {
-    /// The block, `M30` or the last one of the file.
+    /// The block: `M30`, the last one of the file, or the one that an error stops.
     pub place: Place,
+    /// What ends it there.
+    pub by: EndedBy,
     /// Whether no jump goes to that block, so that blocks before it in the text come before the end.
     pub is_passed_into: bool,
     /// Value that only the machine knows and that decides whether the program ends there; `None`
@@ -238,6 +240,15 @@ pub struct ProgramEnd {
     pub cause: Option<Arc<str>>,
     /// The state that is left there.
     pub compensation: Compensation,
+}
+
+/// The state at the errors after which a run goes on: on the control, the program ends there (R9.20).
+#[derive(Debug)]
+pub(crate) struct StoppedState {
+    pub(crate) ends: Vec<ProgramEnd>,
+    pub(crate) compensation: Compensation,
+    pub(crate) possible: Vec<PossibleStates>,
+    pub(crate) last_commands: LastCommands,
 }
 
 /// The end of a program.
@@ -256,6 +267,8 @@ pub struct Ended<'a> {
     pub ends: &'a [ProgramEnd],
     /// The last commands on each way that ends.
     pub(crate) last_commands: &'a LastCommands,
+    /// The state at the errors on all ways, where the run went on after them.
+    pub(crate) stopped: Option<&'a StoppedState>,
     /// Changes by the program end itself.
     pub changes: &'a [Change],
     /// Messages on the program that belong to no executed block.

@@ -14,6 +14,7 @@ pub(super) mod event;
 pub(super) mod hash_parts;
 pub(super) mod interpreter;
 pub(super) mod journal;
+pub(super) mod jumped_to;
 pub(super) mod last_commands;
 pub(super) mod limits;
 pub(super) mod lone_part;

@@ -45,6 +45,9 @@ pub(in crate::interpreter) struct RunTrack {
     pub(in crate::interpreter) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
     /// States before the program, until its searched block is reached.
     pub(in crate::interpreter) searching: Option<Box<BeforeSearch>>,
+    /// Whether an error has ended it, and the run goes on as if the failing command were not there (R9.20).
+    #[serde(default)]
+    pub(in crate::interpreter) failed: bool,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
@@ -232,6 +235,8 @@ impl RunTrack {
             marked,
             open_loops,
             searching,
+            // The same in both.
+            failed: _,
         } = other;
         if self.loops.len() < loops.len() {
             self.loops.clone_from(loops);
@@ -272,8 +277,15 @@ pub(in crate::interpreter) struct Path {
 }
 
 impl Path {
-    /// Another way reaches the same block: what differs becomes unknown. Returns how many values do.
+    /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
+    /// that the control may take, one that an error has ended does not count.
     pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
+        if self.track.failed != other.track.failed {
+            if self.track.failed {
+                *self = other;
+            }
+            return 0;
+        }
         self.undo_differing(&mut other);
         self.join_readings(&other);
         let differing = self.control.join(

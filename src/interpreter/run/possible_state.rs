@@ -128,7 +128,10 @@ impl PossibleStates {
                     asked.line = 0;
                     asked.changed = None;
                 }
-                WayCondition::Call { line, .. } | WayCondition::Search { line, .. } => *line = 0,
+                WayCondition::Call { line, .. }
+                | WayCondition::Search { line, .. }
+                | WayCondition::Stop { line, .. }
+                | WayCondition::Restart { line, .. } => *line = 0,
                 WayCondition::Skip { line, changed, .. } => {
                     *line = 0;
                     *changed = None;
@@ -337,6 +340,16 @@ fn condition_of(
             file,
             line,
             executed: !is_else,
+        },
+        ConditionKind::Stop => WayCondition::Stop {
+            file,
+            line,
+            stops: !is_else,
+        },
+        ConditionKind::Restart => WayCondition::Restart {
+            file,
+            line,
+            restarted: !is_else,
         },
         ConditionKind::Skip(level) => WayCondition::Skip {
             level,

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::hash::Hash;
 
+use super::event::EndedBy;
 use crate::comp::{AxisIndex, KindSet};
 use crate::interpreter::coordinates::simplified::Simplification;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
@@ -90,12 +91,31 @@ pub(in crate::interpreter) struct Region {
     pub(in crate::interpreter) calls: Vec<WantedCall>,
     pub(in crate::interpreter) exits: Vec<Exit>,
     /// Its blocks that end the program, each with its unit.
-    pub(in crate::interpreter) ends: Vec<(usize, EntryIndex)>,
+    pub(in crate::interpreter) ends: Vec<((usize, EntryIndex), EndedBy)>,
+    /// Whether an error ends the program in it.
+    pub(in crate::interpreter) is_refused: bool,
     /// The macros that it was looked through with.
     pub(in crate::interpreter) macro_version: u64,
 }
 
 impl Region {
+    /// A block ends the program by M30 or M02.
+    pub(in crate::interpreter) fn end_at(&mut self, place: (usize, EntryIndex)) {
+        self.ends.push((place, EndedBy::M30));
+    }
+
+    /// An error ends the program at a block, where one does.
+    pub(in crate::interpreter) fn refuse_if(
+        &mut self,
+        is_refused: bool,
+        place: (usize, EntryIndex),
+    ) {
+        if is_refused {
+            self.is_refused = true;
+            self.ends.push((place, EndedBy::Error));
+        }
+    }
+
     /// Whether it could move an axis.
     pub(in crate::interpreter) fn moves(&self) -> bool {
         let moves = |effect: &RegionEffect| {

@@ -10,6 +10,7 @@ use super::control::ControlState;
 use super::path::{EndedPath, Last, Path, RunTrack};
 use super::step::ControlStep;
 use super::undecided::MentionedUnknowns;
+use super::way_set::WaySet;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::work_budget::WorkBudget;
 use crate::readings::QuestionSet;
@@ -65,6 +66,24 @@ impl State {
         let others = self.pending.iter_mut().chain(ended);
         let others = others.map(|path| &mut path.control);
         std::iter::once(&mut self.control).chain(others)
+    }
+
+    /// The run goes on only on some of the ways that lead here.
+    pub(in crate::interpreter) fn go_on_with(&mut self, ways: WaySet) {
+        self.track.reach = ways;
+        let control = &mut self.control;
+        control
+            .possible
+            .narrow(&self.track.reach, &mut control.compensation);
+    }
+
+    /// Takes the way that was being executed.
+    pub(in crate::interpreter) fn leave_path(&mut self) -> Path {
+        Path {
+            control: self.control.clone(),
+            track: std::mem::take(&mut self.track),
+            parted: self.seq,
+        }
     }
 
     /// Whether a word that is reported once occurs for the first time in the program.

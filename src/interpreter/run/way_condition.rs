@@ -63,6 +63,24 @@ pub enum WayCondition {
         /// Whether the search executes the commands that it passes.
         executed: bool,
     },
+    /// The reading of `#ERROR` without a remedy class (R2.100).
+    Stop {
+        /// The file of the command.
+        file: Arc<str>,
+        /// The line of the command, from 1.
+        line: u32,
+        /// Whether it ends the program.
+        stops: bool,
+    },
+    /// What follows an error with the remedy class 7 (R2.100).
+    Restart {
+        /// The file of the command.
+        file: Arc<str>,
+        /// The line of the command, from 1.
+        line: u32,
+        /// Whether the control is restarted, not only reset.
+        restarted: bool,
+    },
     /// The state in which an axis is found.
     Found {
         /// The name of the axis.
@@ -262,6 +280,31 @@ impl WayCondition {
                 };
                 format!("the block search {word} what it passes")
             }
+            Self::Stop {
+                file: of,
+                line,
+                stops,
+            } => {
+                let word = if *stops {
+                    "ends the program"
+                } else {
+                    "lets the program go on"
+                };
+                format!("`#ERROR` {word} ({})", seen_from((of, *line), file))
+            }
+            Self::Restart {
+                file: of,
+                line,
+                restarted,
+            } => {
+                let word = if *restarted {
+                    "restarted"
+                } else {
+                    "only reset"
+                };
+                let place = seen_from((of, *line), file);
+                format!("the control is {word} after the error ({place})")
+            }
             Self::Found {
                 axis,
                 compensation: Kind::Frict,
@@ -284,7 +327,11 @@ impl WayCondition {
                 asked.changed.as_ref()
             }
             Self::Skip { changed, .. } => changed.as_ref(),
-            Self::Call { .. } | Self::Search { .. } | Self::Found { .. } => None,
+            Self::Call { .. }
+            | Self::Search { .. }
+            | Self::Stop { .. }
+            | Self::Restart { .. }
+            | Self::Found { .. } => None,
         }
     }
 
@@ -295,7 +342,9 @@ impl WayCondition {
             }
             Self::Skip { file, line, .. }
             | Self::Call { file, line, .. }
-            | Self::Search { file, line, .. } => Some((file, *line)),
+            | Self::Search { file, line, .. }
+            | Self::Stop { file, line, .. }
+            | Self::Restart { file, line, .. } => Some((file, *line)),
             Self::Found { .. } => None,
         }
     }

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::channel_axes::ChannelAxes;
 use super::cycles::ModalCycles;
+use super::event::EndedBy;
 use crate::comp::KindSet;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
@@ -52,6 +53,7 @@ const MAX_ENDS: usize = 64;
 pub(in crate::interpreter) struct WayEnd {
     /// The block, and the unit that holds it.
     pub(in crate::interpreter) place: (usize, EntryIndex),
+    pub(in crate::interpreter) by: EndedBy,
     /// Value that decides whether the program ends there.
     pub(in crate::interpreter) cause: Arc<str>,
     /// Selections that are possible there.

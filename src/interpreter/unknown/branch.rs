@@ -7,6 +7,7 @@ use crate::comp::AxisIndex;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::region::{Exit, Region};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::ways::{AxisKinds, Branch, JumpTarget, WayEnd};
@@ -26,6 +27,7 @@ impl Interpreter {
             return;
         };
         self.state.note_ends(region, cause);
+        self.note_refusal(region, cause);
         for exit in &region.exits {
             let labels = self.aims(exit, place);
             for to in labels {
@@ -42,9 +44,29 @@ impl Interpreter {
         }
     }
 
+    /// The way that a refused command of a region ends; what is refused is reported at its block.
+    fn note_refusal(&mut self, region: &Region, cause: &Arc<str>) {
+        if region.is_refused {
+            self.note_stop(cause);
+        }
+    }
+
+    /// A way that an error ends somewhere in what may be executed.
+    pub(in crate::interpreter) fn note_stop(&mut self, cause: &Arc<str>) {
+        if self.options.stop != StopPolicy::KeepGoing {
+            self.departing.push(Branch {
+                to: JumpTarget::End,
+                cause: cause.clone(),
+                here: 0,
+                say: None,
+            });
+        }
+    }
+
     /// The ways that leave a called program and do not come back to its caller.
     pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
         self.state.note_ends(region, cause);
+        self.note_refusal(region, cause);
         for exit in &region.exits {
             let to = match exit {
                 Exit::End => JumpTarget::End,
@@ -113,9 +135,10 @@ impl State {
             return;
         }
         let kinds = self.control.all_kinds();
-        for &place in &region.ends {
+        for &(place, by) in &region.ends {
             self.track.ways.note_end(WayEnd {
                 place,
+                by,
                 cause: cause.clone(),
                 kinds: kinds.clone(),
             });

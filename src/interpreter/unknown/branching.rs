@@ -170,6 +170,28 @@ impl Interpreter {
         true
     }
 
+    /// The ways on which an error ends the program at the block, and those on which it goes on; `None` where ways are
+    /// not followed.
+    pub(in crate::interpreter) fn part_at_error(
+        &mut self,
+        question: MachineQuestion,
+        at: &BlockContext<'_>,
+    ) -> Option<[WaySet; 2]> {
+        let can = self.options.follows_ways()
+            && !self.scratch.unread.get()
+            && self.state.conditions.len() + 1 < MAX_CONDITIONS;
+        if !can {
+            return None;
+        }
+        self.state
+            .effort
+            .charge_ways(1_000 + 20 * self.machine.axes.len() as u64);
+        let condition = self.ask(question, vec![ImpliedValues::default(); 2], at);
+        let reach = &self.state.track.reach;
+        let mut ways = answers(condition, 2).map(|answer| reach.and(&WaySet::of(answer)));
+        Some([ways.next()?, ways.next()?])
+    }
+
     /// Takes the answer that was chosen beforehand, or that an earlier one implies; without either, offers the
     /// answers. Returns whether one is taken.
     fn take_chosen(

@@ -137,15 +137,13 @@ impl MayEffects<'_> {
     }
 
     fn effect(&mut self, effect: RegionEffect) {
-        if !self.effects.contains(&effect) {
-            self.effects.insert(effect.clone());
+        if self.effects.insert(effect.clone()) {
             self.region.effects.push(effect);
         }
     }
 
     fn writes(&mut self, target: RegionTarget) {
-        if !self.region.written.contains(&target) {
-            self.region.written.insert(target.clone());
+        if self.region.written.insert(target.clone()) {
             self.region.targets.push(target);
         }
     }
@@ -162,6 +160,8 @@ impl MayEffects<'_> {
         match item {
             Item::Comp(command) => {
                 let kinds = command.selection.kinds();
+                let is_refused = self.run.machine.refuses(command);
+                self.region.refuse_if(is_refused, self.place);
                 self.effect(RegionEffect::Compensation(command.axis.clone(), kinds));
             }
             Item::Assign(assignment) => self.assigns(assignment.target.place, at),
@@ -266,8 +266,7 @@ impl MayEffects<'_> {
     }
 
     fn exit(&mut self, exit: Exit) {
-        if !self.exits.contains(&exit) {
-            self.exits.insert(exit.clone());
+        if self.exits.insert(exit.clone()) {
             self.region.exits.push(exit);
         }
     }
@@ -304,6 +303,8 @@ impl MayEffects<'_> {
     }
 
     fn hash(&mut self, hash: &HashCommand, at: &BlockContext<'_>) {
+        let ends = hash.name == "#ERROR" && hash.arguments != [Operand::Number(0.0)];
+        self.region.refuse_if(ends, self.place);
         let rest = &*hash.code(at.text);
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
@@ -428,7 +429,7 @@ impl MayEffects<'_> {
         match (word.address, number) {
             (Address::Letter(b'M'), Some(2 | 30)) => {
                 self.exit(Exit::End);
-                self.region.ends.push(self.place);
+                self.region.end_at(self.place);
             }
             (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
             (Address::Letter(b'M'), None) => {

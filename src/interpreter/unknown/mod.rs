@@ -7,4 +7,5 @@ pub(super) mod leaving;
 pub(super) mod may_effects;
 pub(super) mod regions;
 pub(super) mod search;
+pub(super) mod stops;
 pub(super) mod telling;

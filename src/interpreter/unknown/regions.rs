@@ -293,6 +293,7 @@ impl Interpreter {
                     // Its effects are not known.
                     let undecided = self.scratch.undecided.take();
                     self.havoc_all(&cause);
+                    self.note_stop(&cause);
                     self.scratch.undecided = undecided.map(|mut undecided| {
                         let name = &call.name;
                         let all = format!("all that `{name}` could change, which is not found");

@@ -15,6 +15,9 @@ const PROGRAM: &str = "program ";
 /// The signal of a probe as a cause (R2.91).
 pub(in crate::interpreter) const PROBE: &str = "the signal of the probe";
 
+/// The remedy class of `#ERROR` that is left out, as a cause (R2.100).
+pub(in crate::interpreter) const ERROR_COMMAND: &str = "#ERROR";
+
 /// A skip level as the deciding value (R2.90).
 pub(in crate::interpreter) fn skip_level(level: u8) -> Arc<str> {
     format!("{SKIP}{level}").into()
@@ -44,6 +47,8 @@ pub(in crate::interpreter) fn unknown_value(name: &str, file: &str) -> String {
         format!("`{name}`, which a program before this one may have left")
     } else if is_settable(name) {
         format!("`{name}`, which only the machine knows")
+    } else if name == ERROR_COMMAND {
+        format!("what the control does at `{name}`")
     } else if is_command(name) {
         format!("`{name}`, whose result only the machine knows")
     } else {
@@ -72,6 +77,9 @@ pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
     }
     if let Some(program) = name.strip_prefix(PROGRAM) {
         return format!("give frictcomp `{program}`, or say in `[machine.external_keeps]` that it keeps parameters").into();
+    }
+    if name == ERROR_COMMAND {
+        return "`RC=0` lets the program go on, `RC=2` stops it".into();
     }
     if is_command(name) {
         return format!("to check one case, assign the value in a block after `{name}`").into();

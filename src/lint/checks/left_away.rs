@@ -6,10 +6,10 @@ use crate::diagnostic::{Code, Diagnostic, Fix, Severity};
 use crate::interpreter::{Ended, EndedBy, PossibleStates, ProgramEnd, limit_to, unless};
 use crate::lint::linter::{EndNote, LeftAway, Linter};
 use crate::lint::memory::{BlockSite, KindEffect, MovedBefore, command_to};
-use crate::syntax::is_lone_m;
+use crate::syntax::is_lone_end;
 use crate::text::{Place, Span};
 
-pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<LeftAway> {
+pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>) -> Vec<LeftAway> {
     let left = ended.compensation;
     let mut found = Vec::new();
     for axis in (0..left.len()).map(AxisIndex::new) {
@@ -51,15 +51,15 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                     kind,
                     end,
                     possible,
-                    ending,
                     ended,
                 };
+                let ending = subject.ending(&site.place);
                 let moved_before = did.moved_before.as_ref().filter(|_| did.is_commanded);
                 let what = moved_before.and_then(|moved| subject.what_is_left(moved, site));
                 let diagnostic = match (moved_before, what) {
                     (Some(moved), Some(what)) => subject.second_run_differs(site, moved, &what),
-                    _ if end == State::Unknown => subject.may_be_left(site),
-                    _ => subject.left_changed(site),
+                    _ if end == State::Unknown => subject.may_be_left(site, &ending),
+                    _ => subject.left_changed(site, &ending),
                 };
                 let note = EndNote {
                     seq: site.seq,
@@ -85,18 +85,15 @@ struct LeftAwayKind<'a> {
     end: State,
     /// The possible states, if ways differ.
     possible: Option<&'a PossibleStates>,
-    /// The word that ends the program.
-    ending: &'a str,
     ended: &'a Ended<'a>,
 }
 
 impl LeftAwayKind<'_> {
-    fn left_changed(&self, site: &BlockSite) -> Diagnostic {
+    fn left_changed(&self, site: &BlockSite, ending: &str) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let message = format!(
-            "`{keyword}` of axis `{name}` is left {} after {}; the control starts with it {}",
+            "`{keyword}` of axis `{name}` is left {} after {ending}; the control starts with it {}",
             self.end.as_str(),
-            self.ending,
             self.linter.history.start_up(self.axis, self.kind).as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
@@ -105,7 +102,7 @@ impl LeftAwayKind<'_> {
     }
 
     /// Reports that a selection may also be left away, depending on a value that only the machine knows.
-    fn may_be_left(&self, site: &BlockSite) -> Diagnostic {
+    fn may_be_left(&self, site: &BlockSite, ending: &str) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let start_up = self.linter.history.start_up(self.axis, self.kind);
         let away = match start_up {
@@ -114,11 +111,8 @@ impl LeftAwayKind<'_> {
         };
         let away = away.as_str();
         let what = match self.ways_away(&site.place.file) {
-            Some(ways) => format!("is left {away} after {} {ways}", self.ending),
-            None => format!(
-                "may be left {away} after {}, which is not known offline",
-                self.ending
-            ),
+            Some(ways) => format!("is left {away} after {ending} {ways}"),
+            None => format!("may be left {away} after {ending}, which is not known offline"),
         };
         let message = format!(
             "`{keyword}` of axis `{name}` {what}; the control starts with it {}",
@@ -216,6 +210,23 @@ impl LeftAwayKind<'_> {
         ends.filter(move |end| end.compensation.state(self.axis, self.kind) != start_up)
     }
 
+    /// Returns what ends the program where the kind is left away, as seen from a file.
+    fn ending(&self, site: &Place) -> String {
+        if self.ended.endless {
+            return "the reset that ends it".to_owned();
+        }
+        let mut ends = self.ends().map(|end| (end.by, place_seen_from(end, site)));
+        match (ends.next(), ends.next()) {
+            (Some((EndedBy::Error, place)), None) => format!("the error in {place}"),
+            (Some((EndedBy::Error, _)), Some((EndedBy::Error, _)))
+                if ends.all(|(by, _)| by == EndedBy::Error) =>
+            {
+                "an error".to_owned()
+            }
+            _ => "program end".to_owned(),
+        }
+    }
+
     /// Returns the remedy, as seen from a file. Nothing runs after a loop that only a reset ends.
     fn restore(&self, site: &Place) -> String {
         let command = self.way_home();
@@ -227,22 +238,17 @@ impl LeftAwayKind<'_> {
 
     /// Returns the ends as named by a message in a file.
     fn place_of_end(&self, site: &Place) -> String {
-        let mut ends = self.ends().map(|end| {
-            let line = end.place.start().line;
-            if end.place.file == site.file {
-                format!("line {line}")
-            } else {
-                format!("{}:{line}", end.place.file)
-            }
-        });
+        let mut ends = self.ends().map(|end| (end.by, place_seen_from(end, site)));
         let word = match self.ended.by {
             EndedBy::M02 => "M02",
             _ => "M30",
         };
         match (ends.next(), ends.next()) {
-            (Some(only), None) if self.ended.at.is_some() => format!("{word} in {only}"),
+            (Some((EndedBy::Error, only)), None) => format!("the error in {only}"),
+            (Some((_, only)), None) if self.ended.at.is_some() => format!("{word} in {only}"),
             (Some(first), Some(second)) => {
-                let all: Vec<String> = [first, second].into_iter().chain(ends).collect();
+                let all = [first, second].into_iter().chain(ends);
+                let all: Vec<String> = all.map(|(_, place)| place).collect();
                 format!(
                     "each end that the program may reach, as no single block is right for all of them ({})",
                     all.join(", ")
@@ -256,26 +262,39 @@ impl LeftAwayKind<'_> {
     /// every way (R1.58).
     fn with_ends(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.ends = self.ends().map(|end| end.place.clone()).collect();
-        let shown = if has_other_ends(self.ended) {
-            usize::MAX
-        } else {
-            0
-        };
-        for end in self.ends().take(shown) {
+        let has_others = has_other_ends(self.ended);
+        let is_said = |end: &&ProgramEnd| has_others || end.by == EndedBy::Error;
+        for end in self.ends().filter(is_said) {
+            let what = match end.by {
+                EndedBy::Error => "an error ends the program here",
+                EndedBy::Budget => "only a reset ends the program here",
+                _ => "the program ends here",
+            };
             let text = match &end.cause {
-                Some(cause) => format!("the program ends here, depending on `{cause}`"),
-                None => "the program ends here otherwise".to_owned(),
+                Some(cause) => format!("{what}, depending on `{cause}`"),
+                None if has_others => format!("{what} otherwise"),
+                None => what.to_owned(),
             };
             diagnostic = diagnostic.with_label(end.place.clone(), text);
         }
         let mut ends = self.ends();
         match (ends.next(), ends.next()) {
-            (Some(only), None) if only.is_passed_into && is_lone_m(&only.place.text) => {
+            (Some(only), None) if only.is_passed_into && is_lone_end(&only.place.text) => {
                 let block = format!("{}\n", self.way_home());
                 diagnostic.with_fix(Fix::guess(start_of(&only.place), block))
             }
             _ => diagnostic,
         }
+    }
+}
+
+/// Returns the place of an end, as named by a message in a file.
+fn place_seen_from(end: &ProgramEnd, site: &Place) -> String {
+    let line = end.place.start().line;
+    if end.place.file == site.file {
+        format!("line {line}")
+    } else {
+        format!("{}:{line}", end.place.file)
     }
 }
 

@@ -189,7 +189,7 @@ pub struct Hash {
     pub name: String,
     /// Text after the words.
     pub rest: Span,
-    /// The value of `#TIME`, the targets of `#DELETE`.
+    /// The value of `#TIME`, the targets of `#DELETE`, the remedy class of `#ERROR`.
     pub arguments: Vec<Operand>,
     /// The declarations of `#VAR`.
     pub declarations: Vec<Declaration>,

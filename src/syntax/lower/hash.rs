@@ -79,6 +79,7 @@ impl BlockLowering<'_> {
     fn command(&mut self, name: String, touches: Touches, rest: Span, span: Span) {
         let arguments = match name.as_str() {
             "#TIME" | "#DELETE" | "#WAIT FOR" => self.expressions_in(rest),
+            "#ERROR" => self.remedy_class(rest).into_iter().collect(),
             _ => Vec::new(),
         };
         let declarations = if name == "#VAR" {
@@ -184,6 +185,15 @@ impl BlockLowering<'_> {
         values
             .map(|value| expression::lower(value, rest.start, self.block))
             .collect()
+    }
+
+    /// The value of `RC` among the words of `#ERROR`.
+    fn remedy_class(&mut self, rest: Span) -> Option<Operand> {
+        let words = NcParser::parse(Rule::error_words, rest.of(self.read)).ok()?;
+        let mut words = words.flat_map(Pair::into_inner);
+        let class = words.find(|word| word.as_rule() == Rule::error_class)?;
+        let value = class.into_inner().next()?;
+        Some(expression::lower(value, rest.start, self.block))
     }
 
     /// The parameters and variables that a text names.

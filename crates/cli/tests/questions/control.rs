@@ -109,6 +109,8 @@ impl Control {
         }
         if block == "M00" {
             self.level_2 = true;
+        } else if block.starts_with("#ERROR") && self.follows_second("R2.100") {
+            return Some(455);
         } else if block.starts_with("#CALL AX") && self.follows_second("R2.70") {
             self.on = self.configured;
         } else if block.starts_with("#MACHINE DATA") && !self.follows_second("R2.92") {

@@ -148,9 +148,10 @@ fn judge(question: Question, run: &AskedRun) -> Judged {
         return Err("what was seen is not written down yet".to_owned());
     }
     match question {
-        Question::LowerCase | Question::OffUnconfigured | Question::OnWithoutList => {
-            judge_refusable(question, values)
-        }
+        Question::LowerCase
+        | Question::OffUnconfigured
+        | Question::OnWithoutList
+        | Question::RemedyClass => judge_refusable(question, values),
         Question::OrderInBlock => judge_order(values),
         Question::ManualActivation => {
             let otherwise = "V.A.LEAD_COMP_INIT is 0: the axis has no leadscrew compensation";
@@ -233,7 +234,7 @@ fn first_if(holds: bool) -> Alternative {
 fn judge_refusable(question: Question, values: &Values) -> Judged {
     if question == Question::LowerCase {
         require(values, ("start", true), STARTS)?;
-    } else {
+    } else if question != Question::RemedyClass {
         let otherwise = "V.A.FRICT_COMP_INIT is 1: the axis is not as the program requires";
         require(values, ("init", false), otherwise)?;
     }

@@ -267,6 +267,13 @@ fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
             "it is started by a block search for N200, not from its first block; add a copy of the begin \
              line with searched 1 in place of begin to message.txt, and give it to frictcomp ask --read",
         ),
+        Question::RemedyClass => by_itself(
+            "the axis stands still",
+            format!(
+                ">begin\nN10 #ERROR [ID=1] ; frictcomp: allow FC902 the question\n>answer {STATE}\nN99 M30\n"
+            ),
+            READ_ERROR,
+        ),
         Question::SyntaxCheck => by_itself(
             "the axis has P-AXIS-00522 = 0; the program is only checked for its syntax, not started",
             "N10 @[COMP ON FRICT]\nN99 M30\n".to_owned(),

@@ -1,0 +1,8 @@
+%GUARD2
+N10 X[COMP OFF FRICT]
+N20 $IF V.E.PART == 0
+; wrong: X stays off for the next program
+N30 #ERROR [ID=455 RC=2]
+N40 $ENDIF
+N50 X[COMP ON FRICT]
+N60 M30

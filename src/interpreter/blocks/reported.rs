@@ -1,0 +1,188 @@
+//! `#ERROR`: an error that the program reports itself, and whether that ends it (R2.100; PM/207457163).
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::effects::plc::Doubt;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::AfterError;
+use crate::interpreter::run::condition::ConditionKind;
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::outcome::BlockOutcome;
+use crate::interpreter::run::possible_state::ways_of;
+use crate::interpreter::run::step::ControlStep;
+use crate::interpreter::run::way_condition::limit_to;
+use crate::interpreter::run::way_set::WaySet;
+use crate::interpreter::run::ways::{Branch, JumpTarget};
+use crate::interpreter::unknown::branching::MachineQuestion;
+use crate::interpreter::values::cause::ERROR_COMMAND;
+use crate::interpreter::values::functions::numeric;
+use crate::interpreter::values::plain::{Asking, Writer, reads, text_of};
+use crate::readings::{Alternative, Question};
+use crate::syntax::Fault;
+use crate::syntax::ast::{Expression, Hash, Operand};
+use crate::text::Span;
+
+/// The remedy class of a system error, after which the control is restarted, or reset (tf5200, 15557035659).
+const SYSTEM_ERROR: f64 = 7.0;
+
+/// What is known of the remedy class.
+enum RemedyClass {
+    Known(f64),
+    /// It is left out, and no default is documented.
+    LeftOut,
+    /// Only the machine knows the value that decides.
+    Unknown(Expression, Doubt),
+}
+
+impl Interpreter {
+    /// The program reports an error of its own. With the class 0 it goes on.
+    pub(in crate::interpreter) fn report_error(
+        &mut self,
+        hash: &Hash,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) -> Result<(), Box<Fault>> {
+        match self.remedy_class(hash, at)? {
+            RemedyClass::Known(0.0) => self.pass_over(ERROR_COMMAND, hash.span, at),
+            RemedyClass::Known(class) => {
+                let class_text = match hash.arguments.first() {
+                    Some(_) => format!("`RC={class}`"),
+                    None => "no `RC`".to_owned(),
+                };
+                let said = error_with(&class_text, hash.span, at);
+                self.scratch.diagnostics.push(said);
+                let after = if class == SYSTEM_ERROR {
+                    AfterError::ResetOrRestart
+                } else {
+                    AfterError::Reset
+                };
+                self.end_with(after, at, outcome);
+            }
+            RemedyClass::LeftOut => {
+                let message =
+                    "whether the program ends here is not documented: `#ERROR` has no `RC`";
+                if self.state.is_new_word(message) {
+                    let fault = Fault::new(Code::Fc902, hash.span, message).with_help(
+                        "`RC=0` lets the program go on, `RC=2` stops it; without it, \
+                         `\"R2.100\"` in `[reading]` of frictcomp.toml decides",
+                    );
+                    let mut said = at.diagnostic(fault);
+                    let reach = &self.state.track.reach;
+                    if !reach.is_always() {
+                        limit_to(&mut said, &ways_of(reach, &self.state.conditions));
+                    }
+                    self.scratch.of_some_ways.push(said);
+                }
+                let question = MachineQuestion {
+                    kind: ConditionKind::Stop,
+                    span: hash.span,
+                    texts: vec![ERROR_COMMAND.into()],
+                    cause: ERROR_COMMAND.into(),
+                    // The control has one answer for all of them.
+                    reads: Some(Asking {
+                        writer: Writer::Nothing,
+                        reads: Vec::new(),
+                        meaning: ERROR_COMMAND.to_owned(),
+                    }),
+                    kept: None,
+                };
+                let ways = self.part_at_error(question, at);
+                self.perhaps_end(ways, AfterError::Reset, at, outcome);
+            }
+            RemedyClass::Unknown(expression, doubt) => {
+                let (text, span) = text_of(at.block, at.text, expression);
+                let reads = reads(at.block, at.text, expression, &self.externals);
+                let question = MachineQuestion {
+                    kind: ConditionKind::Branch,
+                    span,
+                    texts: vec![format!("{text} != 0").into()],
+                    cause: doubt.cause().clone(),
+                    reads: reads.map(|asking| Asking {
+                        meaning: format!("{ERROR_COMMAND}{}", asking.meaning),
+                        ..asking
+                    }),
+                    kept: doubt.kept_answer(|value| usize::from(value.number() == Some(0.0))),
+                };
+                let ways = self.part_at_error(question, at);
+                if let Some([ends, _]) = ways.as_ref().filter(|[ends, _]| !ends.is_never()) {
+                    let mut said = error_with("an `RC` that is not 0", hash.span, at);
+                    limit_to(&mut said, &ways_of(ends, &self.state.conditions));
+                    self.scratch.of_some_ways.push(said);
+                }
+                self.perhaps_end(ways, AfterError::ResetOrRestart, at, outcome);
+            }
+        }
+        Ok(())
+    }
+
+    fn remedy_class(
+        &mut self,
+        hash: &Hash,
+        at: &BlockContext<'_>,
+    ) -> Result<RemedyClass, Box<Fault>> {
+        let Some(&class) = hash.arguments.first() else {
+            self.state.rests_on.insert(Question::RemedyClass);
+            return Ok(match self.machine.readings.of(Question::RemedyClass) {
+                Some(Alternative::First) => RemedyClass::Known(0.0),
+                Some(Alternative::Second) => RemedyClass::Known(2.0),
+                None => RemedyClass::LeftOut,
+            });
+        };
+        let (value, doubt) = self.asked_value(class, at)?;
+        Ok(match (doubt, class) {
+            (Some(doubt), Operand::Expression(expression)) => {
+                RemedyClass::Unknown(expression, doubt)
+            }
+            _ => RemedyClass::Known(numeric(&value, hash.span)?.unwrap_or_default()),
+        })
+    }
+
+    /// The program ends here on some ways that lead to the block, and goes on on the others; where they cannot be told
+    /// apart, it may end (R2.52).
+    fn perhaps_end(
+        &mut self,
+        ways: Option<[WaySet; 2]>,
+        after: AfterError,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) {
+        match ways {
+            Some([ends, _]) if ends.is_never() => {}
+            Some([_, goes_on]) if goes_on.is_never() => self.end_with(after, at, outcome),
+            Some([ends, goes_on]) => {
+                self.stop_on(&ends, after, at);
+                if self.options.stop != StopPolicy::KeepGoing {
+                    self.state.go_on_with(goes_on);
+                }
+            }
+            None if self.options.stop == StopPolicy::KeepGoing => {}
+            None => {
+                let frame = self.state.control.frames.running();
+                self.departing.push(Branch {
+                    to: JumpTarget::End,
+                    cause: ERROR_COMMAND.into(),
+                    here: frame.map_or(0, |frame| frame.next),
+                    say: Some(Span::new(0, at.text.len())),
+                });
+            }
+        }
+    }
+
+    fn end_with(&mut self, after: AfterError, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {
+        if self.options.stop == StopPolicy::FirstError {
+            self.scratch.after_error = after;
+            outcome.step = Some(ControlStep::End(EndedBy::Error));
+        } else {
+            self.fail(after, at);
+        }
+    }
+}
+
+/// FC318: the program reports an error of its own, with a remedy class that stops it.
+fn error_with(class: &str, span: Span, at: &BlockContext<'_>) -> Diagnostic {
+    let message = format!("the control stops here: the program reports an error with {class}");
+    let fault = Fault::new(Code::Fc318, span, message)
+        .with_help("with `RC=0` it is a warning, and the program continues");
+    at.diagnostic(fault)
+}

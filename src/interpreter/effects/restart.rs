@@ -1,0 +1,26 @@
+//! What comes between two programs: a reset of the channel, a restart of the control.
+
+use crate::comp::AxisIndex;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::readings::Question;
+
+impl Interpreter {
+    /// Resets friction compensation, where the machine is read so (R1.28).
+    pub(in crate::interpreter) fn reset_friction(&mut self) {
+        if self.machine.readings.takes_second(Question::Reset) {
+            for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
+                self.return_to_start(axis);
+            }
+        }
+    }
+
+    /// A restart of the control (R1.29): every kind returns to its start-up state, unless the machine
+    /// is read as keeping what was switched.
+    pub fn restart(&mut self) {
+        self.state.control.memory.restart();
+        self.journal.begin_anew();
+        if !self.machine.readings.takes_second(Question::Restart) {
+            self.set_compensation(self.machine.compensation());
+        }
+    }
+}

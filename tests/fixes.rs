@@ -634,6 +634,7 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
         "FC401",
         "FC404",
         "FC407",
+        "FC414",
         "FC490",
         "FC491",
     ];

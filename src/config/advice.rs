@@ -42,7 +42,7 @@ pub fn example(key: &str) -> Option<&'static str> {
 }
 
 /// One row per key.
-const EXAMPLES: [(&str, &str); 27] = [
+const EXAMPLES: [(&str, &str); 30] = [
     ("machine", "write `[machine]`, in single brackets"),
     (
         "axis",
@@ -68,6 +68,12 @@ const EXAMPLES: [(&str, &str); 27] = [
     ),
     ("cnc_build", "write `cnc_build = \"3.1.3132.0\"`"),
     ("program_dirs", "write `program_dirs = [\"cycles\"]`"),
+    ("external", "write `external = [\"*.ecy\"]`"),
+    (
+        "external_keeps",
+        "write `[machine.external_keeps]`, in single brackets",
+    ),
+    ("harmless", "write `harmless = [\"#MYCMD\", \"G81\"]`"),
     ("name", "write `name = \"X\"`"),
     (
         "type",

@@ -171,7 +171,7 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
             key(
                 "harmless",
                 Form::Texts,
-                "commands and functions that change nothing here",
+                "commands and functions that change nothing here, and cycles that keep the states",
             ),
         ],
     ),

@@ -48,6 +48,7 @@ macro_rules! codes {
 }
 
 codes! {
+    PErr20008 "P-ERR-20008" Error "first feed move without a feed";
     PErr21301 "P-ERR-21301" Error "invalid first keyword in an axis bracket";
     PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
     PErr21947 "P-ERR-21947" Error "unknown axis";
@@ -98,6 +99,7 @@ codes! {
     Fc208 "FC208" Error "control block not well-formed";
     Fc209 "FC209" Error "jump label missing or given twice";
     Fc210 "FC210" Warning "text not known to frictcomp";
+    Fc211 "FC211" Warning "axis word without a value";
     Fc301 "FC301" Warning "opposite COMP commands in one block";
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
@@ -119,6 +121,7 @@ codes! {
     Fc324 "FC324" Warning "main program that is never run";
     Fc325 "FC325" Warning "no program for a word that calls one";
     Fc326 "FC326" Warning "program of another control";
+    Fc327 "FC327" Warning "feed move without a feed";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Warning "depends on the program before";
@@ -130,6 +133,7 @@ codes! {
     Fc411 "FC411" Warning "COMP while a transformation is active";
     Fc412 "FC412" Info "compensation state read under cutter radius compensation";
     Fc413 "FC413" Warning "state that depends on the block search";
+    Fc414 "FC414" Warning "commands inside a comment";
     Fc409 "FC409" Info "switched while the axis keeps moving";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";
@@ -198,12 +202,14 @@ impl Code {
                 | Self::Fc103
                 | Self::Fc104
                 | Self::Fc210
+                | Self::Fc211
                 | Self::Fc323
                 | Self::Fc324
                 | Self::Fc325
                 | Self::Fc326
                 | Self::Fc404
                 | Self::Fc406
+                | Self::Fc414
                 | Self::Fc490
                 | Self::Fc491
                 | Self::Fc905

@@ -21,8 +21,9 @@ mod values;
 pub use coordinates::arc::{ArcShape, SAME_PLACE};
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::contouring::{Contouring, Joining};
+pub use coordinates::g_functions::GFunctions;
 pub use coordinates::group::Group;
-pub use coordinates::modal::{AxisPosition, GFunctions, Modal, PositionFrame};
+pub use coordinates::modal::{AxisPosition, Modal, PositionFrame};
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
 };

@@ -43,6 +43,8 @@ pub struct ChannelSettings {
     pub feed_unit: FeedUnit,
     /// The feed where a program has no F, in mm/min, P-CHAN-00099.
     pub feed_mm_per_min: Option<f64>,
+    /// Whether the lists of the channel were read and give no such feed.
+    pub lacks_feed: bool,
     /// The G functions in force at the start of a program, P-CHAN-00063, if they differ from the control's defaults.
     pub functions: Vec<u32>,
     /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
@@ -106,6 +108,8 @@ const UNACKNOWLEDGED: [&str; 5] = ["NO_SYNCH", "MOS", "MOS_TS", "MEP_MOS", "MET_
 pub struct ChannelDraft {
     factor: Option<Given<Number>>,
     feed: Option<Given<Number>>,
+    /// Whether a line gives the feed with a value that is not understood.
+    feed_is_odd: bool,
     functions: BTreeMap<u32, Given<u32>>,
     inch: Option<Given<bool>>,
     slope: Option<Given<SlopeProfile>>,
@@ -133,7 +137,9 @@ impl ChannelDraft {
                 }
             }
             ("prog_start.feedrate", []) => {
-                self.feed = number(entry, diagnostics).or(self.feed.take());
+                let given = number(entry, diagnostics);
+                self.feed_is_odd = given.is_none();
+                self.feed = given.or(self.feed.take());
             }
             ("prog_start.g_gruppe[].nr", &[group]) => self.function(group, entry, diagnostics),
             ("mass_einh", []) => {
@@ -207,6 +213,7 @@ impl ChannelDraft {
     /// Replaces values by those of another list.
     pub(super) fn override_with(&mut self, other: Self) {
         self.factor = other.factor.or(self.factor.take());
+        self.feed_is_odd |= other.feed_is_odd;
         self.feed = other.feed.or(self.feed.take());
         self.functions.extend(other.functions);
         self.inch = other.inch.or(self.inch.take());
@@ -230,13 +237,12 @@ impl ChannelDraft {
         });
         let given = self.spindle_name.iter().map(|given| given.value.as_str());
         let names = given.chain(main.map(|(name, _)| *name));
+        let feed = self.feed.as_ref().map(|given| given.value.to_f64());
+        let feed = feed.filter(|feed| *feed > 0.0);
         ChannelSettings {
             feed_unit: self.factor.as_ref().map_or(FeedUnit::default(), unit_of),
-            feed_mm_per_min: self
-                .feed
-                .as_ref()
-                .map(|given| given.value.to_f64())
-                .filter(|feed| *feed > 0.0),
+            feed_mm_per_min: feed,
+            lacks_feed: feed.is_none() && !self.feed_is_odd,
             functions: self.functions.values().map(|given| given.value).collect(),
             inch: self.inch.as_ref().is_some_and(|given| given.value),
             slope: self.slope.as_ref().map(|given| given.value),

@@ -6,8 +6,8 @@ use super::loader::{FirstChannel, Loader};
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
-    AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, Entries, Given, ListKind,
-    NamedList, StartupList, is_axis_name,
+    AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, ChannelSettings, Entries,
+    Given, ListKind, NamedList, StartupList, is_axis_name,
 };
 
 /// More axes than any control has; further ones are not read.
@@ -77,9 +77,9 @@ impl Loader<'_> {
     ) -> Vec<AxisDraft> {
         let mut axes: Vec<AxisDraft> = Vec::new();
         let base = startup.default_channel_list.as_ref();
-        let base = base
-            .and_then(|asked| self.channel_list(asked))
-            .unwrap_or_default();
+        let read = base.map(|asked| self.channel_list(asked));
+        let is_base_read = !matches!(read, Some(None));
+        let base = read.flatten().unwrap_or_default();
         for asked in startup.channel_lists.iter().take(MAX_AXES) {
             let Some(own) = self.channel_list(asked) else {
                 continue;
@@ -87,10 +87,16 @@ impl Loader<'_> {
             let mut channel = base.clone();
             channel.override_with(own);
             // A program runs in one channel; the first one is used.
-            self.channel.get_or_insert_with(|| FirstChannel {
-                programs: channel.programs.clone(),
-                motion: channel.motion.clone(),
-                settings: channel.settings(),
+            self.channel.get_or_insert_with(|| {
+                let settings = channel.settings();
+                FirstChannel {
+                    programs: channel.programs.clone(),
+                    motion: channel.motion.clone(),
+                    settings: ChannelSettings {
+                        lacks_feed: settings.lacks_feed && is_base_read,
+                        ..settings
+                    },
+                }
             });
             let mut taken = Vec::new();
             for axis in channel.axes() {

@@ -69,7 +69,15 @@ impl CompWords<'_> {
                         kinds.insert(kind);
                     }
                     (Err(_), _) => {
-                        faults.push(unknown_word(span, word));
+                        faults.push(match (upper.replace('_', "").as_str(), selection) {
+                            ("ALL", Some((off, by))) if by.eq_ignore_ascii_case("OFF") => {
+                                let both = off.to(span);
+                                unknown_word(span, word).with_near(both, &["OFF_ALL"])
+                            }
+                            ("ALLOFF", _) => unknown_word(span, word).with_near(span, &["OFF_ALL"]),
+                            ("ALL" | "ONALL" | "ALLON", _) => every_kind(span, word),
+                            _ => unknown_word(span, word),
+                        });
                         return None;
                     }
                 },
@@ -212,6 +220,15 @@ fn unknown_word(span: Span, word: &str) -> Fault {
         return fault.with_help(format!("the kinds are {kinds}"));
     }
     fault.with_near(span, &near)
+}
+
+/// `ON_ALL`: only `OFF_ALL` is about every kind (R1.3, R18.7).
+fn every_kind(span: Span, word: &str) -> Fault {
+    let kinds = Kind::ALL.map(Kind::as_str).join(", ");
+    let message = format!("`{word}` does not exist: `ON` takes each kind by its name");
+    Fault::new(Code::Fc202, span, message).with_help(format!(
+        "name the kinds to switch on, as in `ON FRICT`: {kinds}"
+    ))
 }
 
 /// The keywords that a word may mean. Of the selections only one whose own letter the word has, `F`

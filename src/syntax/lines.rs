@@ -7,13 +7,14 @@ use super::allow::MARK;
 use super::ast::Block;
 use super::fault::Fault;
 use super::hash_words::opening_command;
+use super::hidden_code::{faults_of_lines, open_region, reordered, words_without_value};
 use super::mask::{Masked, mask, mask_number};
 use super::pieces::is_blank;
 use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
 use super::remarks::LatestRemarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
-use crate::text::{LineSource, Span, changed_direction};
+use crate::text::{LineSource, Span};
 
 /// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
 /// without one a damaged file would be read into memory whole.
@@ -134,7 +135,8 @@ impl<S: LineSource> BlockReader<S> {
             if self.text.contains(MARK) {
                 self.remarks.take(&self.text, self.line);
             }
-            self.remarks.look_at(&self.text, self.line);
+            self.remarks
+                .note(&self.text, self.line, faults_of_lines(&self.text));
             if !masked.continues {
                 return None;
             }
@@ -144,7 +146,7 @@ impl<S: LineSource> BlockReader<S> {
             block
                 .faults
                 .extend(masked.foreign.map(|span| outside_ascii(span, &self.text)));
-            block.faults.extend(reordered(&self.text));
+            block.faults.extend(faults_of_lines(&self.text));
             return Some(stretch);
         }
         let mut foreign = masked.foreign;
@@ -157,7 +159,7 @@ impl<S: LineSource> BlockReader<S> {
         if let Some(opening) = opening_command(&self.code) {
             let is_alone = opening.is_alone();
             match opening.name.as_str() {
-                "#COMMENT BEGIN" if self.skip_comment_region(is_alone) => return None,
+                "#COMMENT BEGIN" if self.skip_comment_region(is_alone, block) => return None,
                 "#VAR" => self.take_region("#ENDVAR", block),
                 "#RT CYCLE" | "#RT CYCLE DEF" => self.take_region("#RT CYCLE END", block),
                 _ => {}
@@ -177,8 +179,9 @@ impl<S: LineSource> BlockReader<S> {
         block
             .faults
             .extend(foreign.map(|span| outside_ascii(span, &self.text)));
-        block.faults.extend(reordered(&self.text));
+        block.faults.extend(faults_of_lines(&self.text));
         lower::block(&self.code, block);
+        words_without_value(&self.text, block);
         block.faults.sort_by_key(|fault| fault.span.start);
         cap_faults(&mut block.faults);
         Some(Stretch::Block)
@@ -252,13 +255,14 @@ impl<S: LineSource> BlockReader<S> {
 
     /// Skips a comment region, whose opener is the block being read. Returns whether opener and end are
     /// alone in their blocks (R2.6). Where the end is not, it is the block from here on.
-    fn skip_comment_region(&mut self, opener_is_alone: bool) -> bool {
+    fn skip_comment_region(&mut self, opener_is_alone: bool, block: &mut Block) -> bool {
+        let opened = self.line;
         let mut code = String::new();
         while self.source.advance() {
             self.line += 1;
             code.clear();
             let line = trimmed(self.source.line().text);
-            self.remarks.look_at(line, self.line);
+            self.remarks.note(line, self.line, reordered(line));
             mask(line, &mut code);
             let opening = opening_command(&code);
             if let Some(end) = opening.filter(|it| it.name == "#COMMENT END") {
@@ -266,8 +270,14 @@ impl<S: LineSource> BlockReader<S> {
                     self.begin_block();
                     return false;
                 }
-                break;
+                return opener_is_alone;
             }
+        }
+        let fault = open_region(&self.text);
+        if opener_is_alone {
+            self.remarks.note(&self.text, opened, [fault]);
+        } else {
+            block.faults.push(fault);
         }
         opener_is_alone
     }
@@ -312,12 +322,6 @@ impl<S: LineSource> BlockReader<S> {
 /// Whether a line begins with the command that ends a region.
 fn ends(code: &str, end: &str) -> bool {
     opening_command(code).is_some_and(|command| command.name == end)
-}
-
-/// FC102: characters that change the order in which a line is shown (R9.94).
-fn reordered(text: &str) -> Option<Fault> {
-    let (span, message) = changed_direction(text)?;
-    Some(Fault::new(Code::Fc102, span, message).with_help("delete these characters"))
 }
 
 /// FC101: a character that programs have only in comments and strings.

@@ -22,6 +22,7 @@ mod fault;
 mod flow_scan;
 mod grammar;
 mod hash_words;
+mod hidden_code;
 mod keywords;
 mod lines;
 #[cfg(feature = "unstable")]
@@ -67,9 +68,9 @@ pub(crate) use parse::{is_lone_end, parse_block, parse_expression};
 pub use parse::{is_lone_end, parse_block, parse_expression};
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
-pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
+pub(crate) use raw::{LineFault, LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
-pub use raw::{LostRemarks, RawBlock, Stretch};
+pub use raw::{LineFault, LostRemarks, RawBlock, Stretch};
 
 #[cfg(feature = "unstable")]
 pub use look_alike::reads_as_program;

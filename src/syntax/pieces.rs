@@ -51,7 +51,10 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
                 None => (PieceKind::Code, start + 1),
             },
             b';' => (PieceKind::Comment, bytes.len()),
-            b'(' => (PieceKind::Comment, comment_end(bytes, start)),
+            b'(' => {
+                let end = closing(bytes, start).unwrap_or(bytes.len());
+                (PieceKind::Comment, end)
+            }
             b'\'' => {
                 let code = &bytes[start + 1..code_end(start)];
                 match memchr::memchr(b'\'', code) {
@@ -125,8 +128,13 @@ fn code_length(bytes: &[u8]) -> usize {
     bytes.iter().position(ends).unwrap_or(bytes.len())
 }
 
+/// Whether a comment begins with a `(` that nothing closes (R2.6).
+pub(super) fn is_open_comment(comment: &str) -> bool {
+    comment.starts_with('(') && closing(comment.as_bytes(), 0).is_none()
+}
+
 /// One past the `)` that closes the comment at `start`; comments nest (R2.6).
-fn comment_end(bytes: &[u8], start: usize) -> usize {
+fn closing(bytes: &[u8], start: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (at, byte) in bytes.iter().enumerate().skip(start) {
         match byte {
@@ -135,10 +143,10 @@ fn comment_end(bytes: &[u8], start: usize) -> usize {
             _ => continue,
         }
         if depth == 0 {
-            return at + 1;
+            return Some(at + 1);
         }
     }
-    bytes.len()
+    None
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! A block as written in the file.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::fault::Fault;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{Place, Span};
 
 /// Characters that one line may have (R2.2).
@@ -86,10 +87,21 @@ pub struct LostRemarks {
     pub remarks: Vec<Remark>,
     /// Number of further remarks.
     pub more: u64,
-    /// Lines outside blocks whose characters may be shown in another order than they are read.
-    pub reordered: Vec<Remark>,
-    /// The number of such lines beyond those.
-    pub more_reordered: u64,
+    /// The first faults of lines outside blocks.
+    pub faults: Vec<LineFault>,
+    /// The number of such faults beyond those, by their code.
+    pub more_faults: BTreeMap<Code, u64>,
+}
+
+/// A fault of a line outside blocks.
+#[derive(Debug, Clone)]
+pub struct LineFault {
+    /// The line without trailing blanks.
+    pub text: String,
+    /// Its number, from 1.
+    pub line: u32,
+    /// The fault, whose span counts from the start of the line.
+    pub fault: Fault,
 }
 
 /// Whether a text has comments.

@@ -1,8 +1,8 @@
 //! Comment lines that are addressed to this tool, and the blocks below them (R9.24).
 
-use super::raw::{LostRemarks, Remark};
+use super::fault::Fault;
+use super::raw::{LineFault, LostRemarks, Remark};
 use crate::diagnostic::MAX_MESSAGES;
-use crate::text::changed_direction;
 
 /// Bytes that lines one above the other may have together.
 const MAX_BYTES: usize = 1 << 16;
@@ -34,16 +34,15 @@ impl LatestRemarks {
         self.last = line;
     }
 
-    /// Takes a line outside blocks, whatever it contains.
-    pub(super) fn look_at(&mut self, text: &str, line: u32) {
-        if changed_direction(text).is_none() {
-            return;
-        }
-        if self.lost.reordered.len() <= MAX_MESSAGES {
-            let text = text.to_owned();
-            self.lost.reordered.push(Remark { text, line });
-        } else {
-            self.lost.more_reordered += 1;
+    /// Takes the faults of a line outside blocks.
+    pub(super) fn note(&mut self, text: &str, line: u32, faults: impl IntoIterator<Item = Fault>) {
+        for fault in faults {
+            if self.lost.faults.len() <= MAX_MESSAGES {
+                let text = text.to_owned();
+                self.lost.faults.push(LineFault { text, line, fault });
+            } else {
+                *self.lost.more_faults.entry(fault.code).or_default() += 1;
+            }
         }
     }
 

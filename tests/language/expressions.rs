@@ -314,6 +314,7 @@ fn macros() {
       3 line 3 N10 X:active>inactive Y:active>inactive
       4 line 4 N20 X:inactive>active
         FC301 4:5-11
+        FC327 4:5-11
         FC402 4:5-11
         FC402 4:5-11
         FC405 4:5-11

@@ -234,3 +234,94 @@ fn programs_that_only_the_machine_has() {
         frictcomp::machine::Machine::from_toml("[machine.external_keeps]\nmodal = true\n");
     assert!(not_a_key.is_err());
 }
+
+#[test]
+fn what_an_unknown_cycle_does_is_not_known() {
+    // R18.8: as after a program that only the machine has, wherever the word is executed
+    let unknown = |programs: &[&str]| {
+        let transcript = Bench::new().run(programs);
+        let all = ends(&transcript);
+        let last = all.last().copied().unwrap_or_default();
+        assert!(
+            last.contains("X:unknown Y:unknown Z:unconfigured B:unknown"),
+            "{programs:?}: {transcript}"
+        );
+        transcript
+    };
+    for block in [
+        "G81",
+        "N10 G80",
+        "G81 X1 Z-5",
+        "G800",
+        "G839[1, 2, , 4]",
+        "G85 [P1]",
+        "G899",
+    ] {
+        let transcript = unknown(&[&format!("P1=1\n{block}\nM30")]);
+        assert_eq!(transcript.matches("FC325").count(), 1, "{transcript}");
+    }
+    // In a macro, a loop, a subprogram, on one way only, before the state of another program.
+    unknown(&["\"DRILL\" = \"G81\"\n\"DRILL\"\nM30"]);
+    let repeated = unknown(&["$FOR P1=1,3,1\nG81\nG82\nG81\n$ENDFOR\nM30"]);
+    assert_eq!(repeated.matches("FC325").count(), 2, "{repeated}");
+    unknown(&["%L SUB\nG83[1]\nM17\n%M\nLL SUB\nM30"]);
+    unknown(&["$IF V.E.A == 1\nG81\n$ENDIF\nM30"]);
+    unknown(&["/ G81\nM30"]);
+    let session = unknown(&["G81\nM30", "G81\nM30"]);
+    assert_eq!(session.matches("FC325").count(), 2, "{session}");
+    // The program is called after the words of its block, and a later command sets the state.
+    unknown(&["G81 X[COMP ON FRICT]\nM30"]);
+    let set = Bench::new().run(&["G81\nX[COMP ON FRICT]\nM30"]);
+    assert!(ends(&set)[0].contains("X:active Y:unknown"), "{set}");
+    // Values that it may write.
+    let values = Bench::new().values("P1=1\nV.P.A=2\nG0 X5\nG81", &["P1", "V.P.A", "V.A.ABS.X"]);
+    assert_eq!(values.matches("-> unknown").count(), 3, "{values}");
+    let found = Bench::new().said("G81\nM30");
+    for wanted in [
+        "FC325 1:1 no program is known for `G81`",
+        "every axis becomes unknown",
+        "[machine.programs]",
+        "[machine.external_keeps]",
+        "harmless = [\"G81\"]",
+    ] {
+        assert!(found.contains(wanted), "{wanted}: {found}");
+    }
+    // M, T and D words change nothing unless a program is named.
+    let words = Bench::new().run(&["T3 D2 M6\nM100\nM30"]);
+    assert!(ends(&words)[0].contains("X:active Y:active"), "{words}");
+}
+
+#[test]
+fn a_configuration_says_what_an_unknown_cycle_keeps() {
+    // R18.8
+    let harmless = machine("harmless = [\"G81\", \"G800\"]");
+    for program in ["P1=1\nG81\nG800[1]\nM30", "$IF V.E.A\nG81\n$ENDIF\nM30"] {
+        let transcript = harmless.run(&[program]);
+        assert!(
+            ends(&transcript)[0].contains("X:active Y:active"),
+            "{transcript}"
+        );
+        assert!(!transcript.contains("FC325"), "{transcript}");
+    }
+    let values = harmless.values("P1=1\nG0 X5\nG81", &["P1", "V.A.ABS.X"]);
+    assert!(
+        values.contains("P1 -> 1") && values.contains("V.A.ABS.X -> unknown"),
+        "{values}"
+    );
+    assert!(ends(&harmless.run(&["G82\nM30"]))[0].contains("X:unknown"));
+    let external = "external = [\"*.ecy\"]\n[machine.programs]\nG81 = \"drill.ecy\"";
+    assert!(ends(&machine(external).run(&["G81\nM30"]))[0].contains("X:unknown"));
+    let keeps = "[machine.external_keeps]\ncompensation = true";
+    let kept = machine(&format!("{external}\n{keeps}")).run(&["G81\nM30"]);
+    assert!(ends(&kept)[0].contains("X:active"), "{kept}");
+    let named = machine("[machine.external_keeps]\ncompensation = [\"G8?\"]");
+    let transcript = named.run(&["G81\nM30"]);
+    assert!(ends(&transcript)[0].contains("X:active"), "{transcript}");
+    let found = named.said("G81\nM30");
+    assert!(
+        found.contains("FC325") && found.contains("all positions become unknown"),
+        "{found}"
+    );
+    let missing = machine("[machine.programs]\nM6 = \"gone.nc\"").said("M6\nM30");
+    assert!(missing.contains("FC320"), "{missing}");
+}

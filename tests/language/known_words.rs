@@ -108,7 +108,7 @@ fn a_word_that_calls_no_known_program_is_said_once() {
         found.contains("FC325 3:1 no program is known for `G800`"),
         "{found}"
     );
-    assert!(run("G81\nM30").contains("end 2 M30 X:active Y:active"));
+    assert!(run("G81\nM30").contains("end 2 M30 X:unknown Y:unknown"));
     assert_eq!(Code::Fc325.severity(), Severity::Warning);
     // It is reported for each program.
     let found = Bench::new().said_in_session(&["G83\nM30", "G83\nM30"]);

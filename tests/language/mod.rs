@@ -1,7 +1,9 @@
 mod budgets;
 mod exchange;
 mod expressions;
+mod feeds;
 mod flow;
+mod hidden_code;
 mod implicit;
 mod known_words;
 mod not_understood;

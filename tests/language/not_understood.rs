@@ -176,6 +176,7 @@ fn what_a_macro_holds_limits_what_is_in_its_block() {
 "REST" = "G1 ; a remark"
 "OPEN" = "G1 (a remark"
 "CLOSED" = "G1 (a remark)"
+F100
 "##;
     for block in [
         "X1 \"TIME\"",

@@ -283,14 +283,18 @@ fn implicit_calls() {
       17 line 1 - level 1 Y:active>inactive
       18 line 2 - level 1 Y:inactive>active
       19 line 3 - level 1
-      20 line 4 N40
+      20 line 4 N40 X:active>unknown Y:active>unknown B:ineffective>unknown
         FC325 4:5-13
       21 line 5 N50
         FC325 5:5-8
       22 line 6 -
-      end 22 M30 X:active Y:active Z:unconfigured B:ineffective
+      end 22 M30 X:unknown Y:unknown Z:unconfigured B:unknown
     opaque {"G81": 1, "G82": 1}
     "#);
+    // G81 and G82 may have written it.
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Unknown("program G82")}"#);
+    let mut session = bench.session();
+    let _ = bench.run_in(&mut session, &["N10 G800[1, 2, , 4]\nM30"]);
     assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(124.0)}"#);
 }
 
@@ -404,6 +408,7 @@ fn what_a_macro_does_is_said_where_it_is_used() {
       4 line 4 N1
       5 line 5 N2
         FC316 5:4-9
+        FC327 5:4-9
       6 line 6 N3
         FC320 6:4-10
       7 line 7 N4

@@ -140,6 +140,7 @@ fn comments() {
     a.nc -
       1 line 1 N10 X:active>inactive Y:active>inactive
       2 line 2 N20 X:inactive>active
+        FC414 2:22-50
       3 line 3 N30 Y:inactive>active
       4 line 7 N50 X:active>inactive
       5 line 8 N60 X:inactive>active

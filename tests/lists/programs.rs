@@ -140,6 +140,21 @@ fn the_channel_list_says_what_holds_for_motion() {
     let settings = &found.machine.channel;
     assert_eq!(settings.feed_unit, FeedUnit::MetresPerMinute);
     assert_eq!(settings.feed_mm_per_min, Some(1000.0));
+    assert!(!settings.lacks_feed);
+    // R2.110: whether the lists give no feed; a value that is not understood may be one.
+    for (feed, lacks_feed) in [
+        ("Ende\n", true),
+        ("prog_start.feedrate 0\nEnde\n", true),
+        ("prog_start.feedrate 0.0\nEnde\n", true),
+        ("prog_start.feedrate 1.5\nEnde\n", false),
+        ("prog_start.feedrate fast\nEnde\n", false),
+    ] {
+        assert_eq!(
+            channel(feed).machine.channel.lacks_feed,
+            lacks_feed,
+            "{feed}"
+        );
+    }
     assert_eq!(settings.functions, [1, 70]);
     assert_eq!(settings.main_spindle, ["S", "S1"]);
     let shown: Vec<_> = found

@@ -12,7 +12,7 @@ use super::machine::{MachineArgs, remark};
 use super::painted::parts;
 use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::machine::{AxisSet, AxisType, Parameterisation};
+use frictcomp::machine::{AxisSet, AxisType, Machine, Parameterisation};
 use frictcomp_host::{CONFIG_NAME, FileRegistry, LoadedMachine};
 use frictcomp_report::lists::render_parameters;
 use frictcomp_report::schema::{config_schema, plant_schema};
@@ -94,6 +94,28 @@ fn show(args: &ShowArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
+/// The programs that only the machine has, and what they keep.
+fn append_external(output: &mut String, machine: &Machine) {
+    let programs = &machine.programs;
+    if !programs.external.is_empty() {
+        let patterns = programs.external.join(", ");
+        let _ = writeln!(output, "external       {}", visible_line(&patterns));
+    }
+    let kept = [
+        ("compensation", &programs.keep_compensation),
+        ("positions", &programs.keep_positions),
+        ("parameters", &programs.keep_parameters),
+    ];
+    for (what, patterns) in kept.into_iter().filter(|(_, it)| !it.is_empty()) {
+        let patterns = patterns.join(", ");
+        let _ = writeln!(
+            output,
+            "external_keeps {what} of {}",
+            visible_line(&patterns)
+        );
+    }
+}
+
 fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     let machine = &loaded.machine;
     let _ = match (&loaded.origin, machine.axis_set) {
@@ -119,6 +141,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     for folder in &loaded.search_path.program_dirs {
         let _ = writeln!(output, "programs in    {}", shown(folder));
     }
+    append_external(output, machine);
     let harmless: Vec<String> = machine.harmless.words().collect();
     if !harmless.is_empty() {
         let _ = writeln!(output, "harmless       {}", harmless.join(", "));

@@ -328,9 +328,15 @@ fn feed_moves_without_compensation_are_counted() {
 fn the_closing_line_names_what_the_states_rest_on() {
     // R2.94
     for (program, codes) in [
-        ("G81 Z5\nM30\n", "see FC325."),
+        (
+            "G81 Z5\nX[COMP ON FRICT]\nY[COMP ON FRICT]\nM30\n",
+            "see FC325.",
+        ),
         ("G777\nM30\n", "see FC210."),
-        ("G777\nG81\nM30\n", "see FC210 and FC325."),
+        (
+            "G777\nG81\nX[COMP ON FRICT]\nY[COMP ON FRICT]\nM30\n",
+            "see FC210 and FC325.",
+        ),
         ("$IF V.E.A\n#ERROR [ID=1 RC=2]\n$ENDIF\nM30\n", "see FC318."),
     ] {
         let bench = Bench::new(&[("p.nc", program)]);
@@ -341,6 +347,28 @@ fn the_closing_line_names_what_the_states_rest_on() {
             "{program}: {shown}"
         );
     }
+}
+
+#[test]
+fn an_unknown_cycle_leaves_an_unknown_state() {
+    // R18.8
+    let bench = Bench::new(&[("p.nc", "G81 Z5\nM30\n")]);
+    let status = |bench: &Bench| {
+        let checked = bench.call(&["check", "--fail-on", "error,unknown", "p.nc"]);
+        checked.status.code()
+    };
+    assert_eq!(status(&bench), Some(1));
+    let audit = bench.stdout(&["audit", "p.nc"]);
+    assert!(audit.contains("unknown"), "{audit}");
+    let harmless =
+        format!("[machine]\nharmless = [\"G81\", \"G83\"]\nexternal = [\"*.ecy\"]\n{MACHINE}");
+    bench.write("frictcomp.toml", &harmless);
+    assert_eq!(status(&bench), Some(0));
+    let shown = bench.stdout(&["config", "show"]);
+    assert!(
+        shown.contains("G81, G83") && shown.contains("*.ecy"),
+        "{shown}"
+    );
 }
 
 #[test]

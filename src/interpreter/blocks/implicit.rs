@@ -84,13 +84,14 @@ impl Interpreter {
         if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, outcome) {
             return true;
         }
+        if chain::is_implicit_call(number) {
+            self.call_without_program(number, span, at, outcome);
+            return true;
+        }
         if self.machine.harmless.has_function(b'G', i64::from(number)) {
             return false;
         }
-        if chain::is_implicit_call(number) {
-            self.warn_not_configured(number, span, at);
-            self.pass_over_implicit(number);
-        } else if !chain::is_known_g(number) {
+        if !chain::is_known_g(number) {
             self.warn_unknown_g(number, span, at);
             self.pass_over_implicit(number);
         } else if !chain::is_named_g(number) {
@@ -122,37 +123,29 @@ impl Interpreter {
             Configured::Unknown(cause) => {
                 self.unknown_call("which program is called", &cause, call.span, at);
             }
-            Configured::None => {
-                if !self
-                    .machine
-                    .harmless
-                    .has_function(b'G', i64::from(call.number))
-                {
-                    self.warn_not_configured(call.number, call.span, at);
-                    self.pass_over_implicit(call.number);
-                }
-                self.pass_over(&format!("G{}", call.number), call.span, at);
-            }
+            Configured::None => self.call_without_program(call.number, call.span, at, outcome),
         }
         Ok(())
     }
 
-    /// FC325: no program is known for a word that calls one; once per word and program (R2.94).
-    fn warn_not_configured(&mut self, number: u32, span: Span, at: &BlockContext<'_>) {
-        let word = format!("G{number}");
-        if !self.state.is_new_word(&word) {
-            return;
+    /// A word whose program is not known calls one of the machine, which may change anything, unless the
+    /// configuration says that it changes nothing but positions (R2.94).
+    fn call_without_program(
+        &mut self,
+        number: u32,
+        span: Span,
+        at: &BlockContext<'_>,
+        outcome: &mut BlockOutcome,
+    ) {
+        let is_harmless = self.machine.harmless.has_function(b'G', i64::from(number));
+        if is_harmless {
+            self.pass_over_implicit(number);
+            self.pass_over(&format!("G{number}"), span, at);
+        } else {
+            outcome
+                .calls
+                .push(WantedCall::of_word(number, at.in_block(span)));
         }
-        let message = format!(
-            "no program is known for `{word}`, which calls one on the control; it is passed over: every compensation \
-             keeps its state, and axes may have moved"
-        );
-        let help = format!(
-            "name its program, `{word} = \"cycle.nc\"` in `[machine.programs]`, or set `harmless = [\"{word}\"]` in \
-             `[machine]` if it switches no compensation and moves no axis"
-        );
-        let fault = Fault::new(Code::Fc325, at.in_block(span), message).with_help(help);
-        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// FC210: a G function that is in no public list; once per word and program (R2.94).

@@ -4,6 +4,7 @@ pub(super) mod call;
 pub(super) mod carry;
 pub(super) mod comp;
 pub(super) mod declare;
+pub(super) mod feed;
 pub(super) mod flow;
 pub(super) mod hash;
 pub(super) mod implicit;

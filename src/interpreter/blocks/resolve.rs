@@ -151,15 +151,17 @@ impl Interpreter {
                 } => "the compensation of every axis becomes unknown",
                 Keeps { .. } => "every axis becomes unknown",
             };
-            let fault = Fault::new(
-                Code::Fc902,
-                wanted.span,
-                format!(
+            if wanted.lacks_program {
+                self.warn_without_program(&name, what, wanted.span, at);
+            } else {
+                let message = format!(
                     "the program `{name}` is only on the machine; the call is passed over, and {what}"
-                ),
-            )
-            .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
-            self.tell_once(&program(&name), "call", fault, at);
+                );
+                let fault = Fault::new(Code::Fc902, wanted.span, message).with_help(
+                    "if it leaves them as they are, say so in `[machine.external_keeps]`",
+                );
+                self.tell_once(&program(&name), "call", fault, at);
+            }
         }
         if let Some(after_motion_only) = wanted.repeat {
             self.state.control.cycles = ModalCycles::of(Repeated {
@@ -168,6 +170,25 @@ impl Interpreter {
                 after_motion_only,
             });
         }
+    }
+
+    /// FC325: no program is known for a word that calls one; once per word and program (R2.94).
+    fn warn_without_program(&mut self, word: &str, then: &str, span: Span, at: &BlockContext<'_>) {
+        if !self.state.is_new_word(word) {
+            return;
+        }
+        let message = format!(
+            "no program is known for `{word}`, which calls one on the control; the call is passed over, and {then}"
+        );
+        let fault = Fault::new(Code::Fc325, span, message)
+            .with_help(format!(
+                "name its program, `{word} = \"cycle.nc\"` in `[machine.programs]`; one that frictcomp cannot read \
+                 belongs in `external`, and `[machine.external_keeps]` says what it keeps"
+            ))
+            .with_help(format!(
+                "if it keeps every compensation, set `harmless = [\"{word}\"]` in `[machine]`"
+            ));
+        self.scratch.diagnostics.push(at.diagnostic(fault));
     }
 
     /// The calls of a block with the modal cycle after them, unless the block is one of the

@@ -163,7 +163,7 @@ pub(in crate::interpreter) fn is_known_g(number: u32) -> bool {
 
 /// Implicit calls: G80 to G89, G800 to G839 (PM/206278923, P-CHAN-00187).
 pub(in crate::interpreter) fn is_implicit_call(number: u32) -> bool {
-    matches!(number, 80..=89 | 800..=839)
+    matches!(number, 80..=89 | 800..=899)
 }
 
 /// Measuring motions, which end where the probe triggers.

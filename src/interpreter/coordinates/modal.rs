@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::axis_words::{AxisWord, shifted};
 use super::chain::{self, ChainStep};
 use super::contouring::{Contouring, ContouringCommand};
-use super::group::{Group, GroupSet};
+use super::g_functions::{GFunctions, PER_MINUTE, PER_REVOLUTION};
+use super::group::Group;
 use super::motion::BlockEnd;
 use super::pace::{Pace, ProgrammedFeed};
 use super::simplified::{self, Holds, Simplification, Simplifications};
@@ -35,49 +36,6 @@ pub struct AxisPosition {
     pub value: Option<f64>,
     /// Whether it is one of the machine.
     pub frame: PositionFrame,
-}
-
-/// The G functions in force and the feeds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct GFunctions {
-    /// G00 to G03.
-    pub motion: u32,
-    /// G17 to G19.
-    pub plane: u32,
-    /// Whether G90 is in force.
-    pub absolute: bool,
-    /// Whether G70 is in force.
-    pub inch: bool,
-    /// G93 to G95, G194.
-    pub feed_mode: u32,
-    /// The feed of each mode, G93, G94, G95, G194, where one was programmed.
-    pub feeds: [Option<ProgrammedFeed>; 4],
-    /// G53 to G59, G159.
-    pub offset: u32,
-    /// Whether the circle centre is absolute, G161.
-    pub centre_absolute: bool,
-    /// Condition for the end of blocks, G359 and G360.
-    pub block_end: BlockEnd,
-    /// Groups whose active function is not known offline (R2.51).
-    pub(super) unknown: GroupSet,
-}
-
-impl Default for GFunctions {
-    /// Those at program start.
-    fn default() -> Self {
-        Self {
-            motion: 0,
-            plane: 17,
-            absolute: true,
-            inch: false,
-            feed_mode: 94,
-            feeds: [None; 4],
-            offset: 53,
-            centre_absolute: false,
-            block_end: BlockEnd::Through,
-            unknown: GroupSet::default(),
-        }
-    }
 }
 
 /// The G functions in force and the programmed positions.
@@ -151,10 +109,13 @@ impl Modal {
         if channel.inch && !channel.functions.iter().any(chosen) {
             modal.functions.unknown.insert(Group::Unit);
         }
-        modal.functions.feeds[1] = channel.feed_mm_per_min.map(|value| ProgrammedFeed {
-            value,
-            unit_mm: Some(1.0),
-        });
+        if let Some(value) = channel.feed_mm_per_min {
+            modal.functions.lacking.give(PER_MINUTE);
+            modal.functions.feeds[PER_MINUTE] = Some(ProgrammedFeed {
+                value,
+                unit_mm: Some(1.0),
+            });
+        }
         modal
     }
 
@@ -355,6 +316,7 @@ impl Modal {
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
             *feed = feed.filter(|_| *feed == before);
         }
+        self.functions.lacking.join(before.functions.lacking);
         self.pace.join(&before.pace);
         self.radius = self.radius.filter(|_| self.radius == before.radius);
         self.havoc_positions();
@@ -452,7 +414,7 @@ impl Modal {
     /// Any word may have been executed.
     pub(in crate::interpreter) fn havoc_words(&mut self) {
         self.havoc_g(None);
-        self.functions.feeds = [None; 4];
+        self.havoc_feeds();
         self.pace.havoc();
         self.radius = None;
     }
@@ -489,6 +451,7 @@ impl Modal {
         for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
             *mine = mine.filter(|_| *mine == theirs);
         }
+        self.functions.lacking.join(other.functions.lacking);
         self.pace.join(&other.pace);
         if (self.simplified, self.contour, self.high_speed)
             != (other.simplified, other.contour, other.high_speed)
@@ -523,18 +486,28 @@ impl Modal {
 
     /// A feed word, in the unit of the mode in force.
     pub fn set_feed(&mut self, value: Option<f64>) {
-        let length = self.metric();
-        let (place, unit_mm) = match self.functions.feed_mode {
-            _ if !self.is_known(Group::Feed) => {
-                self.functions.feeds = [None; 4];
-                return;
-            }
-            93 => (0, Some(1.0)),
-            95 => (2, length),
-            194 => (3, Some(1.0)),
-            _ => (1, self.pace.unit_per_min(length)),
+        if !self.is_known(Group::Feed) {
+            self.havoc_feeds();
+            return;
+        }
+        let place = self.functions.feed_place();
+        let unit_mm = match place {
+            PER_MINUTE => self.pace.unit_per_min(self.metric()),
+            PER_REVOLUTION => self.metric(),
+            _ => Some(1.0),
         };
+        if value == Some(0.0) {
+            self.functions.lacking.take(place);
+        } else {
+            self.functions.lacking.give(place);
+        }
         self.functions.feeds[place] = value.map(|value| ProgrammedFeed { value, unit_mm });
+    }
+
+    /// Any feed may have been programmed.
+    pub(in crate::interpreter) fn havoc_feeds(&mut self) {
+        self.functions.feeds = [None; 4];
+        self.functions.perhaps_give_feeds();
     }
 
     /// The unit in mm/min that an E word has.

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::g_functions::GFunctions;
 use super::group::Group;
-use super::modal::{GFunctions, Modal};
+use super::modal::Modal;
 
 /// G functions that separate positions from those of the machine.
 const TRANSFORMING: [&str; 2] = ["G41", "G21"];
@@ -27,6 +28,7 @@ impl Saved {
         for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
             *mine = mine.filter(|_| *mine == theirs);
         }
+        self.functions.lacking.join(other.functions.lacking);
         for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
             *mine |= theirs;
         }

@@ -145,7 +145,7 @@ impl Interpreter {
         self.tell_once(cause, "call", fault.with_help(how_to_set(cause)), at);
     }
 
-    /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
+    /// A harmless implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
     pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
         self.state.control.modal.havoc_positions();
         self.perhaps_move_all();
@@ -202,6 +202,7 @@ impl Interpreter {
         cause: &Arc<str>,
     ) {
         let mut configured = vec![self.configured(word)];
+        let has_program = !matches!(configured[0], Configured::None);
         if word.letter == b'T' && self.machine.programs.data_with_tool {
             configured.push(self.configured(word.of_data()));
         }
@@ -230,12 +231,25 @@ impl Interpreter {
                     }
                     _ => true,
                 };
-                let is_call = chain::is_implicit_call(number) || !chain::is_known_g(number);
                 let harmless = &self.machine.harmless;
-                if harmless.has_function(word.letter, i64::from(number)) {
+                let is_harmless = harmless.has_function(word.letter, i64::from(number));
+                if letter == 'G' && chain::is_implicit_call(number) {
+                    if is_harmless {
+                        self.pass_over_implicit(number);
+                    } else if !has_program {
+                        self.pending.push(RegionCall {
+                            call: WantedCall::of_word(number, Span::default()),
+                            cause: cause.clone(),
+                            unit,
+                            region: None,
+                        });
+                    }
                     return;
                 }
-                if letter == 'G' && is_call {
+                if is_harmless {
+                    return;
+                }
+                if letter == 'G' && !chain::is_known_g(number) {
                     self.pass_over_implicit(number);
                 } else if !known {
                     let word = format!("{letter}{number}");
@@ -246,7 +260,7 @@ impl Interpreter {
                 self.havoc_all(cause);
                 self.look_through_words(b'M', Span::default(), unit, cause);
             }
-            ('G', None) if self.calls_by_words() => {
+            ('G', None) => {
                 self.havoc_all(cause);
                 self.look_through_words(b'G', Span::default(), unit, cause);
             }

@@ -8,7 +8,8 @@ use crate::syntax::ast::CallScope;
 impl Interpreter {
     /// Whether only the machine has the program.
     pub(in crate::interpreter) fn is_external(&self, wanted: &WantedCall) -> bool {
-        wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
+        wanted.lacks_program
+            || wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
     }
 
     /// Makes unknown what a program that only the machine has does not keep.
@@ -28,6 +29,7 @@ impl Interpreter {
             // It writes the P parameters and variables of its caller (R2.33, R2.52).
             self.havoc_memory(&program(name));
         }
+        self.state.control.modal.functions.perhaps_give_feeds();
         if !keeps.positions {
             self.state.control.modal.havoc_positions();
             self.perhaps_move_all();

@@ -36,7 +36,8 @@ impl Interpreter {
     /// Checks the motion of the axes of a block: the axes that move with its words, and whether
     /// each may.
     #[inline]
-    fn look_at_motion(&mut self, words: AxisWords, at: &BlockContext<'_>) {
+    fn look_at_motion(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
+        let words = outcome.axis_words;
         if self.scratch.again != 0 {
             self.refuse_repeated_axes(words, at);
         }
@@ -44,6 +45,7 @@ impl Interpreter {
             self.say_lacking(words, at);
         }
         self.move_around(words);
+        self.check_feed(outcome, at);
         self.carry_along(words);
         if !self.scratch.outcomes.is_empty() {
             self.note_command_with_motion();
@@ -121,7 +123,7 @@ impl Interpreter {
         } else if !self.is_halted() {
             self.remembered_items(at, &mut outcome, limit);
         }
-        self.look_at_motion(outcome.axis_words, at);
+        self.look_at_motion(&outcome, at);
         self.havoc_ways(at, finder);
         let calls = self.take_calls(&mut outcome, at, finder);
         if self.scratch.plc_acts {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::interpreter::programs::call_sites::holds_program_end;
-use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::{CallFrame, Retains};
@@ -18,17 +18,8 @@ impl Interpreter {
     fn holds_end_after(&self) -> Option<bool> {
         let frame = self.state.control.frames.running()?;
         let index = self.programs.index(frame.unit);
-        let end = index.sections.get(frame.section).map(|section| section.end);
-        let offset = |entry: EntryIndex| {
-            let entry = index
-                .entries
-                .get(usize::try_from(entry).unwrap_or(usize::MAX))?;
-            usize::try_from(entry.offset).ok()
-        };
-        let text = index.source.text();
-        let to = end.and_then(offset).unwrap_or(text.len());
-        let rest = offset(frame.next).and_then(|from| text.get(from..to));
-        (!text.is_empty()).then(|| rest.is_some_and(holds_program_end))
+        let is_kept = !index.source.text().is_empty();
+        is_kept.then(|| holds_program_end(index.text_from(frame.section, frame.next)))
     }
 
     pub(in crate::interpreter) fn push_call(&mut self, request: Request) {

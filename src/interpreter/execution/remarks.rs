@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::diagnostic::{Code, Collected};
 use crate::interpreter::programs::unit::SourceUnit;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
-use crate::syntax::{LostRemarks, Remark, allow};
-use crate::text::{Place, changed_direction};
+use crate::syntax::{LineFault, LostRemarks, Remark, allow};
+use crate::text::Place;
 
 impl Interpreter {
     /// Returns the messages on the `%` lines of the main file, and on comments for this tool in all
@@ -51,7 +51,7 @@ impl Interpreter {
     }
 }
 
-/// FC490 or FC491 for each comment, and FC102 for each line, down to a line.
+/// FC490 or FC491 for each comment, and the faults of lines outside blocks, down to a line.
 fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
     let lines = lost.remarks.iter().flat_map(Remark::lines);
     for (text, line) in lines.take_while(|(_, line)| *line <= until) {
@@ -66,20 +66,19 @@ fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected)
         };
         said.push(fault.into_diagnostic(place, |_| None));
     }
-    for line in lost.reordered.iter().take_while(|it| it.line <= until) {
-        if let Some((span, message)) = changed_direction(&line.text) {
-            let place = Place {
-                file: file.clone(),
-                text: line.text.as_str().into(),
-                first_line: line.line,
-                span,
-            };
-            let found = Diagnostic::new(Code::Fc102, place, message);
-            said.push(found.with_help("delete these characters"));
-        }
+    for LineFault { text, line, fault } in lost.faults.iter().filter(|it| it.line <= until) {
+        let place = Place {
+            file: file.clone(),
+            text: text.as_str().into(),
+            first_line: *line,
+            span: fault.span,
+        };
+        said.push(fault.clone().into_diagnostic(place, |_| None));
     }
-    if lost.more_reordered > 0 && until == u32::MAX {
-        *said.unsaid.entry(Code::Fc102).or_default() += lost.more_reordered;
+    if until == u32::MAX {
+        for (code, more) in &lost.more_faults {
+            *said.unsaid.entry(*code).or_default() += more;
+        }
     }
     if lost.more > 0 && until == u32::MAX {
         *said.unsaid.entry(Code::Fc490).or_default() += lost.more;

@@ -105,7 +105,10 @@ impl Interpreter {
                 notes.extend(never_begun.take().map(never_run));
             }
             // Both ways of a block that may be skipped are followed, with what comes after them (R14.1).
-            if self.undecided_level(&block).is_some() || (!raw.plain && needs_rest(&raw, &block)) {
+            if self.undecided_level(&block).is_some()
+                || (!raw.plain && needs_rest(&raw, &block))
+                || self.may_begin_without_feed(&block)
+            {
                 let rest = self.take_rest(opening(&raw), file, &mut reader);
                 return self.go_on_with(rest, StreamProgress { stage, notes }, finder, observer);
             }

@@ -7,7 +7,9 @@ use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::rounded;
 use crate::machine::{ConfiguredPrograms, canonical_word};
 use crate::syntax::ast::{Address, Block, CallName, CallScope, Hash, Item, Operand, Word};
-use crate::syntax::{BlockReader, FastPath, MAX_MACROS, may_call_file, parse_block, with_macros};
+use crate::syntax::{
+    BlockReader, FastPath, MAX_MACROS, Stretch, may_call_file, parse_block, with_macros,
+};
 use crate::text::{Span, TextLines};
 
 /// A call of another file.
@@ -64,7 +66,7 @@ pub fn holds_program_end(text: &str) -> bool {
     let mut is_found = false;
     for_each_block(text, |block, text, _| {
         with_macros(block, text, MAX_MACROS, &mut |block, _| {
-            is_found |= words(block).any(|word| {
+            is_found |= block.all_words().any(|word| {
                 word.address == Address::Letter(b'M')
                     && word.value.is_some()
                     && number(word).is_none_or(|number| matches!(number, 2 | 30))
@@ -74,20 +76,28 @@ pub fn holds_program_end(text: &str) -> bool {
     is_found
 }
 
+/// Whether a text is a main program: M02 or M30 is in it, and it does not end with M17 or M29 (R2.110).
+pub(in crate::interpreter) fn is_main_program(text: &str) -> bool {
+    let mut returns = false;
+    for_each_block(text, |block, _, _| {
+        let is_return = |word: &Word| {
+            word.address == Address::Letter(b'M') && matches!(number(word), Some(17 | 29))
+        };
+        let mut items = block.items.iter();
+        returns =
+            block.all_words().any(is_return) || items.any(|item| matches!(item, Item::Return(_)));
+    });
+    !returns && holds_program_end(text)
+}
+
 fn for_each_block(text: &str, mut take: impl FnMut(&Block, &str, u32)) {
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
     let mut block = Block::default();
     while let Some(raw) = reader.next(&mut block) {
-        take(&block, raw.text, raw.line);
+        if raw.stretch == Stretch::Block {
+            take(&block, raw.text, raw.line);
+        }
     }
-}
-
-fn words(block: &Block) -> impl Iterator<Item = &Word> {
-    let later = block.items.iter().filter_map(|item| match item {
-        Item::Word(word) => Some(word),
-        _ => None,
-    });
-    block.words.iter().chain(later)
 }
 
 fn number(word: &Word) -> Option<i64> {
@@ -144,7 +154,7 @@ impl Sites<'_> {
 
     /// The calls of a block, without those of its macros.
     fn own(&mut self, block: &Block, text: &str) {
-        for word in words(block) {
+        for word in block.all_words() {
             self.word(word);
         }
         for item in &block.items {

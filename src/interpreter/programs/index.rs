@@ -178,6 +178,20 @@ impl Index {
         opening.map_or(u32::MAX, |place| place.first_line)
     }
 
+    /// The text of a program from one of its blocks on.
+    pub(in crate::interpreter) fn text_from(&self, section: usize, first: EntryIndex) -> &str {
+        let end = self.sections.get(section).map(|section| section.end);
+        let offset = |entry: EntryIndex| {
+            let entry = self.entries.get(usize::try_from(entry).ok()?)?;
+            usize::try_from(entry.offset).ok()
+        };
+        let text = self.source.text();
+        let to = end.and_then(offset).unwrap_or(text.len());
+        offset(first)
+            .and_then(|from| text.get(from..to))
+            .unwrap_or_default()
+    }
+
     /// A local subprogram by its name.
     pub(in crate::interpreter) fn local(&self, name: &str) -> Option<usize> {
         self.locals.get(name).copied()

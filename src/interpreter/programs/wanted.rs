@@ -47,6 +47,8 @@ pub(in crate::interpreter) struct WantedCall {
     pub(in crate::interpreter) repeat: Option<bool>,
     /// The part of the program, where it is not all of it.
     pub(in crate::interpreter) part: Option<CalledPart>,
+    /// Whether the name is that of a word for which no program is known (R2.94).
+    pub(in crate::interpreter) lacks_program: bool,
 }
 
 impl WantedCall {
@@ -61,6 +63,15 @@ impl WantedCall {
             form: CallForm::Plain,
             repeat: None,
             part: None,
+            lacks_program: false,
+        }
+    }
+
+    /// G80 and the like, which call a program of the machine that is not known (R2.94).
+    pub(in crate::interpreter) fn of_word(number: u32, span: Span) -> Self {
+        Self {
+            lacks_program: true,
+            ..Self::program(CallScope::Global, format!("G{number}"), span)
         }
     }
 }

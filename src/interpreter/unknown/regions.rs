@@ -197,7 +197,7 @@ impl Interpreter {
                 Err(_) => {}
             },
             RegionEffect::G(number) => modal.havoc_g(*number),
-            RegionEffect::Feeds => modal.functions.feeds = [None; 4],
+            RegionEffect::Feeds => modal.havoc_feeds(),
             RegionEffect::Spindle => modal.pace.havoc_spindle(),
             RegionEffect::Overrides => modal.pace.havoc_overrides(),
             RegionEffect::Simplified(what) => modal.perhaps_simplify(*what),

@@ -42,7 +42,8 @@ pub(in crate::interpreter) fn unknown_value(name: &str, file: &str) -> String {
     } else if name == PROBE {
         format!("{name}, which only the machine knows")
     } else if let Some(program) = name.strip_prefix(PROGRAM) {
-        format!("the program `{program}`, which is missing")
+        let of = if is_word(program) { "of " } else { "" };
+        format!("the program {of}`{program}`, which is missing")
     } else if name.starts_with("V.S.") {
         format!("`{name}`, which a program before this one may have left")
     } else if is_settable(name) {
@@ -54,6 +55,12 @@ pub(in crate::interpreter) fn unknown_value(name: &str, file: &str) -> String {
     } else {
         format!("`{name}`, which frictcomp does not know")
     }
+}
+
+/// Whether a missing program is named by the G word that calls it (R2.94).
+fn is_word(program: &str) -> bool {
+    let number = program.strip_prefix('G').unwrap_or_default();
+    !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit())
 }
 
 /// Whether a name is one of a parameter or variable.
@@ -76,6 +83,9 @@ pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
         return "set the state afterwards, for example with `X[COMP ON FRICT]`".into();
     }
     if let Some(program) = name.strip_prefix(PROGRAM) {
+        if is_word(program) {
+            return format!("FC325 says how to describe `{program}`").into();
+        }
         return format!("give frictcomp `{program}`, or say in `[machine.external_keeps]` that it keeps parameters").into();
     }
     if name == ERROR_COMMAND {

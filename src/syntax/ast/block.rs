@@ -42,6 +42,15 @@ impl Block {
         }
     }
 
+    /// All its words, from left to right.
+    pub fn all_words(&self) -> impl Iterator<Item = &Word> {
+        let later = self.items.iter().filter_map(|item| match item {
+            Item::Word(word) => Some(word),
+            _ => None,
+        });
+        self.words.iter().chain(later)
+    }
+
     /// Empties the block and keeps its memory.
     #[inline]
     pub fn clear(&mut self) {

@@ -691,6 +691,7 @@ sent! {
     syntax::FastPath,
     syntax::Fault,
     syntax::FlowScan,
+    syntax::LineFault,
     syntax::LostRemarks,
     syntax::NameInBlock,
     syntax::NameRole,

@@ -1,0 +1,6 @@
+%CLAMP
+N10 G90 G01 X0 Y0 F1000
+; wrong: X has no value
+N20 G01 X Y10
+N30 X0
+N40 M30

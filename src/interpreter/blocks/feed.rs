@@ -1,0 +1,167 @@
+//! Feed moves without a feed (R2.110; TF5200 Diagnosis, error 20008).
+
+use crate::diagnostic::Code;
+use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::effects::called_words::Configured;
+use crate::interpreter::programs::call_sites::is_main_program;
+use crate::interpreter::programs::wanted::FunctionWord;
+use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::outcome::{BlockOutcome, Feed};
+use crate::interpreter::values::value::rounded;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Address, Block, Item, Operand, Word};
+use crate::text::Span;
+
+/// Last sentence on a feed move without a feed (PM/206811147).
+const PLC: &str = "unless the PLC gives the feed";
+
+impl Interpreter {
+    /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
+    #[inline]
+    pub(in crate::interpreter) fn check_feed(
+        &mut self,
+        outcome: &BlockOutcome,
+        at: &BlockContext<'_>,
+    ) {
+        match outcome.feed {
+            Feed::Absent if self.state.control.modal.functions.may_lack_feed() => {
+                self.move_without_feed(outcome, at);
+            }
+            Feed::Given(Some(feed)) if feed <= 0.0 => self.feed_not_positive(feed, outcome, at),
+            Feed::Absent | Feed::Given(_) => {}
+        }
+    }
+
+    /// The F word of the block is 0 or negative.
+    #[cold]
+    fn feed_not_positive(&mut self, feed: f64, outcome: &BlockOutcome, at: &BlockContext<'_>) {
+        let span = feed_word(at.block).unwrap_or(Span::new(0, at.text.trim_end().len()));
+        if feed < 0.0 {
+            let message = format!(
+                "the feed `{feed}` is negative; what the control does with it is not documented"
+            );
+            let fault = Fault::new(Code::Fc327, at.in_block(span), message);
+            self.scratch
+                .diagnostics
+                .push(at.diagnostic(fault.with_help("write a feed above 0")));
+        } else if self.moves_at_feed(outcome) {
+            self.say_feed_of_zero(span, at);
+        }
+    }
+
+    /// The block has no F word, and its mode of F may have no feed.
+    #[cold]
+    fn move_without_feed(&mut self, outcome: &BlockOutcome, at: &BlockContext<'_>) {
+        if !self.moves_at_feed(outcome) {
+            return;
+        }
+        let span = self
+            .scratch
+            .moved
+            .first()
+            .map_or(Span::default(), |word| word.span);
+        let functions = &self.state.control.modal.functions;
+        if functions.programmed_feed().is_some() {
+            self.say_feed_of_zero(span, at);
+        } else if !self.runs_main_program() {
+            // A subprogram runs with the feed of its caller.
+            self.state.control.modal.functions.perhaps_give_feeds();
+            return;
+        } else {
+            let is_certain = self.machine.channel.lacks_feed && functions.is_first_without_feed();
+            let fault = if is_certain {
+                let message = format!(
+                    "the first feed move of the program has no feed: neither an `F` word nor the channel list \
+                     gives one, and the control stops here {PLC}"
+                );
+                Fault::new(Code::PErr20008, span, message)
+            } else {
+                let message = format!(
+                    "this feed move has no feed in the program; the control may refuse it (20008) {PLC}"
+                );
+                Fault::new(Code::Fc327, span, message)
+            };
+            let fault = fault.with_help(
+                "write `F` in this block or before it, or give the channel list a `prog_start.feedrate`",
+            );
+            self.scratch.diagnostics.push(at.diagnostic(fault));
+        }
+        self.state.control.modal.functions.give_feed();
+    }
+
+    /// FC327: the feed in force is 0.
+    fn say_feed_of_zero(&mut self, span: Span, at: &BlockContext<'_>) {
+        let message =
+            format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
+        let fault = Fault::new(Code::Fc327, at.in_block(span), message);
+        self.scratch
+            .diagnostics
+            .push(at.diagnostic(fault.with_help("write a feed above 0")));
+    }
+
+    /// Whether the block moves along its axis words at the feed in force.
+    fn moves_at_feed(&self, outcome: &BlockOutcome) -> bool {
+        let geometry = self.scratch.geometry.as_ref();
+        let is_other = geometry.is_some_and(|it| it.foreign.is_some() || it.end_feed.is_some());
+        outcome.axis_words == AxisWords::Motion
+            && !self.scratch.moved.is_empty()
+            && self.scratch.word_row.is_none()
+            && self.state.control.described.is_none()
+            && self.state.control.modal.functions.is_feed_move()
+            && !is_other
+            && !self.is_halted()
+    }
+
+    /// Whether a block that comes next, or a program that it calls, may be a feed move without a feed: what the control
+    /// does then depends on how the text ends.
+    #[inline]
+    pub(in crate::interpreter) fn may_begin_without_feed(&self, block: &Block) -> bool {
+        self.state.control.modal.functions.has_no_feed() && self.may_move_or_call(block)
+    }
+
+    fn may_move_or_call(&self, block: &Block) -> bool {
+        if feed_word(block).is_some() {
+            return false;
+        }
+        let moves = self.state.control.modal.functions.motion != 0;
+        let is_call = |item: &Item| {
+            matches!(item, Item::Call(_) | Item::Sequence(_) | Item::GCall(_))
+                || moves && matches!(item, Item::Hash(_))
+        };
+        let calls = block.items.iter().any(is_call);
+        calls
+            || block.all_words().any(|word| {
+                let number = match word.value {
+                    Some(Operand::Number(number)) => rounded(number),
+                    _ => None,
+                };
+                match word.address {
+                    Address::Letter(b'G') if number.is_none_or(|it| (1..=3).contains(&it)) => true,
+                    Address::Letter(letter @ (b'G' | b'M' | b'T' | b'D')) => {
+                        let word = FunctionWord { letter, number };
+                        self.calls_by_words() && !matches!(self.configured(word), Configured::None)
+                    }
+                    Address::Letter(letter) => moves && self.letter_axis(letter).is_some(),
+                    Address::Name(_) | Address::Main(_) => moves,
+                    Address::Lower(_) => false,
+                }
+            })
+    }
+
+    /// Whether the file that runs is a main program: one that ends with M02 or M30.
+    fn runs_main_program(&self) -> bool {
+        let Some(frame) = self.state.control.frames.iter().next() else {
+            return true;
+        };
+        let index = self.programs.index(frame.unit);
+        let start = index.sections.get(frame.section).map_or(0, |it| it.start);
+        index.entries.is_empty() || is_main_program(index.text_from(frame.section, start))
+    }
+}
+
+/// The place of the F word of a block.
+fn feed_word(block: &Block) -> Option<Span> {
+    let is_feed = |word: &&Word| word.address == Address::Letter(b'F');
+    block.all_words().find(is_feed).map(|word| word.span)
+}

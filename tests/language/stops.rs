@@ -38,6 +38,17 @@ fn the_state_at_an_error_of_one_way_is_one_of_the_next_program() {
             "$IF V.E.A\nL NIX.NC\n$ENDIF",
             "inactive if V.E.A (line 2), else active",
         ),
+        // R2.110
+        (
+            "G1 X10",
+            "inactive if error 20008 ends the program (line 2), else active",
+        ),
+        (
+            "G1 X10 F0\nX20 F0",
+            "inactive if error 20008 ends the program (line 2), else active",
+        ),
+        ("G1 X10 F100", "active"),
+        ("G1 X10 F-1", "active"),
         (
             "/#ERROR [ID=5 RC=2]",
             "inactive if skip level 1 is off, else active",

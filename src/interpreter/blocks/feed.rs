@@ -6,8 +6,12 @@ use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::call_sites::is_main_program;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
+use crate::interpreter::run::block_scratch::AfterError;
+use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
+use crate::interpreter::unknown::branching::MachineQuestion;
+use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Item, Operand, Word};
@@ -15,6 +19,9 @@ use crate::text::Span;
 
 /// Last sentence on a feed move without a feed (PM/206811147).
 const PLC: &str = "unless the PLC gives the feed";
+
+/// What may end the program, in words.
+const REFUSAL: &str = "error 20008";
 
 impl Interpreter {
     /// Looks for a feed move that has no feed, or the feed 0, and for a negative feed.
@@ -47,6 +54,7 @@ impl Interpreter {
                 .push(at.diagnostic(fault.with_help("write a feed above 0")));
         } else if self.moves_at_feed(outcome) {
             self.say_feed_of_zero(span, at);
+            self.perhaps_refuse_feed(span, at);
         }
     }
 
@@ -64,6 +72,7 @@ impl Interpreter {
         let functions = &self.state.control.modal.functions;
         if functions.programmed_feed().is_some() {
             self.say_feed_of_zero(span, at);
+            self.perhaps_refuse_feed(span, at);
         } else if !self.runs_main_program() {
             // A subprogram runs with the feed of its caller.
             self.state.control.modal.functions.perhaps_give_feeds();
@@ -86,8 +95,32 @@ impl Interpreter {
                 "write `F` in this block or before it, or give the channel list a `prog_start.feedrate`",
             );
             self.scratch.diagnostics.push(at.diagnostic(fault));
+            if !is_certain {
+                self.perhaps_refuse_feed(span, at);
+            }
         }
         self.state.control.modal.functions.give_feed();
+    }
+
+    /// The control ends the program at the block, or the PLC gives the feed, here and later: both ways are followed.
+    fn perhaps_refuse_feed(&mut self, span: Span, at: &BlockContext<'_>) {
+        let question = MachineQuestion {
+            kind: ConditionKind::Stop,
+            span: at.in_block(span),
+            texts: vec![REFUSAL.into()],
+            cause: REFUSAL.into(),
+            reads: Some(Asking {
+                writer: Writer::Nothing,
+                reads: Vec::new(),
+                meaning: REFUSAL.to_owned(),
+            }),
+            kept: None,
+        };
+        let ways = self.part_at_error(question, at);
+        // Where ways are not followed, no motion without a feed is driven either.
+        if ways.is_some() {
+            self.perhaps_end(ways, AfterError::Reset, at);
+        }
     }
 
     /// FC327: the feed in force is 0.

@@ -77,7 +77,7 @@ impl Interpreter {
                 let question = MachineQuestion {
                     kind: ConditionKind::Stop,
                     span: hash.span,
-                    texts: vec![ERROR_COMMAND.into()],
+                    texts: vec![format!("`{ERROR_COMMAND}`").into()],
                     cause: ERROR_COMMAND.into(),
                     // The control has one answer for all of them.
                     reads: Some(Asking {
@@ -88,7 +88,9 @@ impl Interpreter {
                     kept: None,
                 };
                 let ways = self.part_at_error(question, at);
-                self.perhaps_end(ways, AfterError::Reset, at, outcome);
+                if self.perhaps_end(ways, AfterError::Reset, at) {
+                    self.end_with(AfterError::Reset, at, outcome);
+                }
             }
             RemedyClass::Unknown(expression, doubt) => {
                 let (text, span) = text_of(at.block, at.text, expression);
@@ -110,7 +112,9 @@ impl Interpreter {
                     limit_to(&mut said, &ways_of(ends, &self.state.conditions));
                     self.scratch.of_some_ways.push(said);
                 }
-                self.perhaps_end(ways, AfterError::ResetOrRestart, at, outcome);
+                if self.perhaps_end(ways, AfterError::ResetOrRestart, at) {
+                    self.end_with(AfterError::ResetOrRestart, at, outcome);
+                }
             }
         }
         Ok(())
@@ -139,17 +143,16 @@ impl Interpreter {
     }
 
     /// The program ends here on some ways that lead to the block, and goes on on the others; where they cannot be told
-    /// apart, it may end (R2.52).
-    fn perhaps_end(
+    /// apart, it may end (R2.52). Returns whether it ends on all ways.
+    pub(in crate::interpreter) fn perhaps_end(
         &mut self,
         ways: Option<[WaySet; 2]>,
         after: AfterError,
         at: &BlockContext<'_>,
-        outcome: &mut BlockOutcome,
-    ) {
+    ) -> bool {
         match ways {
             Some([ends, _]) if ends.is_never() => {}
-            Some([_, goes_on]) if goes_on.is_never() => self.end_with(after, at, outcome),
+            Some([_, goes_on]) if goes_on.is_never() => return true,
             Some([ends, goes_on]) => {
                 self.stop_on(&ends, after, at);
                 if self.options.stop != StopPolicy::KeepGoing {
@@ -167,6 +170,7 @@ impl Interpreter {
                 });
             }
         }
+        false
     }
 
     fn end_with(&mut self, after: AfterError, at: &BlockContext<'_>, outcome: &mut BlockOutcome) {

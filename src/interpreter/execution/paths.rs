@@ -178,7 +178,7 @@ impl Interpreter {
         let is_new = !shown.is_empty() && self.state.told.is_new(cause, keys, &place);
         let mut said = about(&condition, &shown);
         self.state.limit_to_reach(&mut said, parted);
-        // Whether `#ERROR` ends the program is said at its block.
+        // Whether an error ends the program is said at its block.
         if is_new && condition.kind != ConditionKind::Stop {
             self.met.push(said);
         } else {
@@ -263,7 +263,7 @@ fn about(condition: &Condition, shown: &[String]) -> Diagnostic {
                 unknown_value(cause, &condition.place.file)
             )
         }
-        ConditionKind::Stop => "what follows `#ERROR` without `RC` is not documented".to_owned(),
+        ConditionKind::Stop => format!("whether {cause} ends the program is not documented"),
         ConditionKind::Restart => "after this error the control is reset, or restarted".to_owned(),
         ConditionKind::Branch
         | ConditionKind::Case

@@ -344,6 +344,7 @@ fn condition_of(
         ConditionKind::Stop => WayCondition::Stop {
             file,
             line,
+            text: condition.texts.first().cloned().unwrap_or_default(),
             stops: !is_else,
         },
         ConditionKind::Restart => WayCondition::Restart {

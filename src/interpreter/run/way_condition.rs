@@ -63,12 +63,15 @@ pub enum WayCondition {
         /// Whether the search executes the commands that it passes.
         executed: bool,
     },
-    /// The reading of `#ERROR` without a remedy class (R2.100).
+    /// Whether something ends the program: `#ERROR` without a remedy class (R2.100), a feed move without a feed (R2.110).
     Stop {
-        /// The file of the command.
+        /// The file of the block.
         file: Arc<str>,
-        /// The line of the command, from 1.
+        /// The line of the block, from 1.
         line: u32,
+        /// The error in words.
+        #[serde(serialize_with = "as_text")]
+        text: Arc<str>,
         /// Whether it ends the program.
         stops: bool,
     },
@@ -283,6 +286,7 @@ impl WayCondition {
             Self::Stop {
                 file: of,
                 line,
+                text,
                 stops,
             } => {
                 let word = if *stops {
@@ -290,7 +294,7 @@ impl WayCondition {
                 } else {
                     "lets the program go on"
                 };
-                format!("`#ERROR` {word} ({})", seen_from((of, *line), file))
+                format!("{text} {word} ({})", seen_from((of, *line), file))
             }
             Self::Restart {
                 file: of,

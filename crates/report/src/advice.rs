@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use frictcomp::comp::State;
 use frictcomp::diagnostic::Code;
-use frictcomp::timeline::{AxisSummary, EndedBy};
+use frictcomp::timeline::{AxisSummary, EndedBy, Summary};
 
 /// Returns the advice on an axis, after its name (R1.27: the state outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
@@ -58,14 +58,37 @@ pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
 pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>) -> String {
     let home = "very axis is as at the start of the control";
     let codes: Vec<&str> = assumed.iter().map(|code| code.as_str()).collect();
-    match codes.as_slice() {
-        [] if axes.iter().all(is_compensated) => format!("Nothing to do: e{home}."),
-        [] => format!("E{home}."),
-        [code] => format!("E{home} as far as is known: see {code}."),
-        [codes @ .., last] => {
-            let codes = codes.join(", ");
-            format!("E{home} as far as is known: see {codes} and {last}.")
-        }
+    match listed(&codes) {
+        None if axes.iter().all(is_compensated) => format!("Nothing to do: e{home}."),
+        None => format!("E{home}."),
+        Some(codes) => format!("E{home} as far as is known: see {codes}."),
+    }
+}
+
+/// Returns the last sentence on a session: the axes whose friction compensation it leaves off, or may leave off
+/// (R18.1).
+pub(super) fn left_off(summary: &Summary<'_>) -> Option<String> {
+    let ending = |end| {
+        let axes = summary.axes.iter();
+        let axes = axes.filter(|axis| axis.end == end && axis.start_up != end);
+        let axes = axes.filter(|axis| axis.start_up != State::Unconfigured);
+        axes.map(|axis| summary.state.name(axis.axis))
+            .collect::<Vec<_>>()
+    };
+    let certain = ending(State::Inactive);
+    let verb = if certain.len() == 1 { "is" } else { "are" };
+    let certain = listed(&certain).map(|axes| format!("{axes} {verb} left off"));
+    let possible = listed(&ending(State::Unknown)).map(|axes| format!("{axes} may be left off"));
+    let said: Vec<String> = certain.into_iter().chain(possible).collect();
+    (!said.is_empty()).then(|| said.join("; ") + ".")
+}
+
+/// Returns names as they are listed in a sentence.
+fn listed(names: &[&str]) -> Option<String> {
+    match names {
+        [] => None,
+        [name] => Some((*name).to_owned()),
+        [names @ .., last] => Some(format!("{} and {last}", names.join(", "))),
     }
 }
 
@@ -99,5 +122,12 @@ mod tests {
         assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
         assert!(advice(State::Active, State::Unknown).contains("not known offline"));
         assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
+    }
+
+    #[test]
+    fn names_are_listed_as_in_a_sentence() {
+        assert_eq!(listed(&[]), None);
+        assert_eq!(listed(&["X"]).as_deref(), Some("X"));
+        assert_eq!(listed(&["X", "Y", "Z"]).as_deref(), Some("X, Y and Z"));
     }
 }

@@ -3,7 +3,7 @@
 use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::advice::{all_home, axis_advice, error_advice, is_home};
+use crate::advice::{all_home, axis_advice, error_advice, is_home, left_off};
 use crate::assumptions::rests_on_text;
 use crate::diagnostics::Look;
 use crate::feed_moves::feed_moves_text;
@@ -206,6 +206,9 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
             let text = format!("{}{text}.", of.name);
             Paragraph::new(style(State::Inactive), &text).write(out, look);
         }
+    }
+    if let Some(text) = left_off(summary) {
+        Paragraph::new(style(State::Inactive), &text).write(out, look);
     }
     if out.len() == bare {
         out.truncate(before);

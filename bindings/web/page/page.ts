@@ -287,7 +287,7 @@ function passedOver(found: Overview): HTMLElement | null {
     return null;
   }
   const words = found.passedOver.map(([word, times]) => `${word} ×${grouped(times)}`).join(", ");
-  return h("p", { class: "quiet" }, `Passed over without effect on the states: ${words}`);
+  return h("p", { class: "quiet" }, `Passed over: ${words}`);
 }
 
 /** The content of a tab that is computed only on request. */

@@ -146,7 +146,7 @@ fn left(digest: &RunDigest) -> Markup {
         (advice(digest, summary))
         @if !summary.opaque.is_empty() {
             p {
-                "Passed over without effect on the states: "
+                "Passed over: "
                 @for (at, (word, count)) in summary.opaque.iter().enumerate() {
                     @if at > 0 { ", " }
                     code { (word) } "\u{a0}\u{d7}" (count)

@@ -194,7 +194,7 @@ fn the_example_as_text() {
       Y     active        inactive      N25 (demo.nc:4)
       Z     unconfigured  unconfigured  -
 
-    Passed over without effect on the states: #HSC ×3
+    Passed over: #HSC ×3
     "#);
 }
 
@@ -239,7 +239,7 @@ fn eight_axes_stay_readable() {
       U     active        active        -
       V     active        active        -
 
-    Passed over without effect on the states: #HSC ×3
+    Passed over: #HSC ×3
     ");
 }
 
@@ -278,7 +278,7 @@ fn axes_are_listed_as_they_occur() {
       X     active        inactive      N45 (demo.nc:6)
       Z     unconfigured  unconfigured  -
 
-    Passed over without effect on the states: #HSC ×3
+    Passed over: #HSC ×3
     ");
 }
 

@@ -149,7 +149,7 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         return;
     }
     out.push(b'\n');
-    let lead = "Passed over without effect on the states:";
+    let lead = "Passed over:";
     let mut line = TextLine::new(out, look.paint);
     line.plain(lead);
     let mut column = lead.width();

@@ -78,7 +78,13 @@ impl Linter<'_> {
         self.history
             .program_ended(&self.program, &self.memory, ended);
         let is_kept = !self.machine.readings.takes_second(Question::Reset);
+        // The blocks that a block search passes are not judged.
+        let is_missed = ended
+            .diagnostics
+            .iter()
+            .any(|said| said.code == Code::Fc413);
         let mut left = match ended.by {
+            EndedBy::Error if is_missed => return Vec::new(),
             EndedBy::Budget if !(ended.endless && is_kept) => Vec::new(),
             _ => left_away::lint(self, ended),
         };

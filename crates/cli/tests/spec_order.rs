@@ -506,3 +506,48 @@ fn long_archives_are_folded_and_never_paired() {
     );
     assert!(text(&bench, &["audit", "--all"]).lines().count() > 600);
 }
+
+#[test]
+fn the_state_at_an_error_of_one_way_reaches_the_next_program() {
+    // R18.10 R2.100
+    let bench = bench(&[
+        (
+            "guard.nc",
+            "X[COMP OFF FRICT]\n$IF V.E.A\n#ERROR [ID=5 RC=2]\n$ENDIF\nX[COMP ON FRICT]\nM30\n",
+        ),
+        (
+            "stops.nc",
+            "X[COMP OFF FRICT]\n#ERROR [RC=2]\nX[COMP ON FRICT]\nM30\n",
+        ),
+        ("moves.nc", "G01 X1 F100\nM30\n"),
+        ("order.txt", "guard.nc\nmoves.nc\n"),
+        ("certain.txt", "stops.nc\nmoves.nc\n"),
+    ]);
+    let records = records(&bench, &[]);
+    let x = |file| axis(&records, file, "X");
+    assert_eq!(x("guard.nc")["effect"], "depends");
+    assert_eq!(x("guard.nc")["by"]["line"], 1);
+    let way = &x("guard.nc")["possible"][0]["ways"][0][0];
+    assert_eq!((&way["text"], &way["line"]), (&"V.E.A".into(), &2.into()));
+    assert_eq!(x("stops.nc")["effect"], "leaves off");
+    let order = |name: &str| text(&bench, &["audit", "--sequence", name, "--width", "200"]);
+    let said = order("order.txt");
+    assert!(said.contains("if V.E.A"), "{said}");
+    let said = order("certain.txt");
+    assert!(said.contains("stops, FC318: "), "{said}");
+    assert!(said.contains("moves outside its start-up state"), "{said}");
+    // What a run saves is what the next one starts with.
+    bench.call(&["run", "--state", "s.json", "guard.nc"]);
+    let next = text(
+        &bench,
+        &["run", "--state", "s.json", "moves.nc", "--width", "200"],
+    );
+    assert!(
+        next.contains("inactive if V.E.A (guard.nc:2), else ineffective"),
+        "{next}"
+    );
+    let fixed = bench.call(&["audit", "--fix", "leavers", "--write"]);
+    assert!(fixed.status.code().is_some());
+    let mended = bench.read("guard.nc");
+    assert!(mended.contains("X[COMP ON FRICT]\n#ERROR"), "{mended}");
+}

@@ -19,8 +19,8 @@ use crate::readings::Question;
 use crate::text::Span;
 
 impl Interpreter {
-    /// An error ends some of the ways that lead to the block: they end the program here. With `--keep-going` nothing
-    /// does, as if the failing command were not there (R9.20).
+    /// An error ends some of the ways that lead to the block: they end the program here. With
+    /// [`StopPolicy::KeepGoing`] nothing does, as if the failing command were not there (R9.20).
     #[cold]
     pub(in crate::interpreter) fn stop_on(
         &mut self,

@@ -279,7 +279,12 @@ impl LeftAwayKind<'_> {
         }
         let mut ends = self.ends();
         match (ends.next(), ends.next()) {
-            (Some(only), None) if only.is_passed_into && is_lone_end(&only.place.text) => {
+            // Where an error ends every way, what follows it is no place to restore anything.
+            (Some(only), None)
+                if only.is_passed_into
+                    && self.ended.by != EndedBy::Error
+                    && is_lone_end(&only.place.text) =>
+            {
                 let block = format!("{}\n", self.way_home());
                 diagnostic.with_fix(Fix::guess(start_of(&only.place), block))
             }

@@ -170,13 +170,17 @@ fn remarks_on_the_text_of_a_command() {
 }
 
 #[test]
-fn an_error_ends_without_blame() {
-    // R1.50 R1.53: the program is not blamed for blocks that it did not reach; the cause is known.
+fn an_error_leaves_the_state_that_is_there() {
+    // R18.10 R1.53: the program is not blamed for blocks that it did not reach.
     let bench = Bench::on(&machine_text());
     assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
     P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: frictcomp.toml:15 sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control
       help: to continue as if it were set, run with `--enable Z`
+    FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
+      help: set it before the first motion, and restore it before the error in line 3: `X[COMP ON FRICT]`
+      1:1: the axis moves here first
+      3:1: an error ends the program here
     ");
 }
 

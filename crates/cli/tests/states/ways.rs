@@ -400,8 +400,10 @@ fn a_motion_that_needs_its_compensation_ends_the_ways_without_it() {
         "{on_some}"
     );
     assert!(refused[0].starts_with("error"), "{on_some}");
-    // The way has ended: nothing is left inactive.
-    assert!(of_code(&on_some, Code::Fc401).is_empty(), "{on_some}");
+    // R18.10: the way has ended, with the state that it has.
+    let left = of_code(&on_some, Code::Fc401);
+    let when = "is left inactive after the error in line 4 if V.E.A == 1 (line 1)";
+    assert!(left.len() == 1 && left[0].contains(when), "{on_some}");
     let on_all = said(&bench, &["X[COMP OFF FRICT]\nG01 X5 F100\nM30"]);
     let refused = of_code(&on_all, Code::PErr70435);
     assert!(refused[0].ends_with("requires"), "{on_all}");

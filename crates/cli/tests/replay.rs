@@ -512,7 +512,7 @@ fn a_recording_may_begin_in_a_called_program_or_in_a_loop() {
     let recorded = [(1, [0, 1]), (2, [0, 0]), (3, [1, 0]), (4, [1, 1])];
     let (status, found) = replayed(both, &samples(&recorded));
     assert_eq!(status, Some(0), "{found:#}");
-    let called = "%L S\nX[COMP OFF FRICT]\nG1 X2 F500\nM17\n%M\nLL S\nX[COMP ON FRICT]\nLL S\nX[COMP ON FRICT]\nM30\n";
+    let called = "%L S\nX[COMP OFF FRICT]\nG1 X2 Y0 F500\nM17\n%M\nLL S\nX[COMP ON FRICT]\nLL S\nX[COMP ON FRICT]\nM30\n";
     let recorded = [
         (2, [0, 1]),
         (3, [0, 1]),
@@ -524,7 +524,7 @@ fn a_recording_may_begin_in_a_called_program_or_in_a_loop() {
     let (status, found) = replayed(called, &samples(&recorded));
     assert_eq!(status, Some(0), "{found:#}");
     let looped =
-        "$FOR P1=1,4,1\nX[COMP OFF FRICT]\nG1 X2 F500\nX[COMP ON FRICT]\nG1 X5\n$ENDFOR\nM30\n";
+        "$FOR P1=1,4,1\nX[COMP OFF FRICT]\nG1 X2 Y0 F500\nX[COMP ON FRICT]\nG1 X5\n$ENDFOR\nM30\n";
     // It begins in the second of four passes.
     let pass = [(2, [0, 1]), (3, [0, 1]), (4, [1, 1]), (5, [1, 1])];
     let (status, found) = replayed(looped, &samples(&pass.repeat(3)));

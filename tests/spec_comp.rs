@@ -383,6 +383,7 @@ fn on_without_configuration_stops_the_control() {
     a.nc -
       1 line 1 N10 X:active>inactive
         P-ERR-70495 1:23-39
+        FC401 1:5-22
       end 1 error X:inactive Y:active Z:unconfigured B:ineffective
     ");
     assert_snapshot!(Bench::new().keep_going().run(&[program]), @"
@@ -425,6 +426,7 @@ fn off_without_configuration_is_no_error() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
+        FC402 1:1-18
       2 line 2 -
         FC402 2:1-16
       3 line 3 -
@@ -541,6 +543,7 @@ fn the_unknown_state_ends_with_the_next_command() {
       1 line 1 -
       2 line 2 - X:active>inactive
       3 line 3 -
+        FC402 3:1-18
       4 line 4 -
         FC901 1:5-13
       5 line 5 - X:unknown>active
@@ -622,6 +625,7 @@ fn motion_may_require_compensations() {
       5 line 5 -
       6 line 6 -
         P-ERR-70435 6:7-10
+        FC407 2:1-18
       end 6 error X:inactive Y:unconfigured
     ");
 }

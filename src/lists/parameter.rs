@@ -67,7 +67,7 @@ pub enum Origin {
         /// The line, from 1.
         line: u32,
     },
-    /// The user assumes it in a call, for example with `--enable`.
+    /// The user assumes it for the call.
     Assumed,
     /// The user assumes it with `enable = true` in this line of `frictcomp.toml` (R18.2).
     Enabled {

@@ -6,10 +6,10 @@ use crate::text::{SourceFile, Span};
 
 /// The change of a program that silences a message of it: a comment in its block, or above a block
 /// of several lines. `None` for what cannot be silenced, the numbers of the control, budgets,
-/// messages about such comments, about `%` lines and about files as a whole, and for a message whose lines are not
-/// those of the file.
+/// messages about such comments, about `%` lines, about files as a whole and about comments that hide what follows them,
+/// and for a message whose lines are not those of the file.
 pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
-    let is_comment = matches!(said.code, Code::Fc490 | Code::Fc491);
+    let is_comment = matches!(said.code, Code::Fc414 | Code::Fc490 | Code::Fc491);
     let is_of_file = matches!(said.code, Code::Fc103 | Code::Fc104 | Code::Fc105);
     if said.code.is_controller() || said.code.is_budget() || is_comment || is_of_file {
         return None;

@@ -353,7 +353,7 @@ fn system_variables() {
         .set("V.E.PART", 3.0)
         .set_text("V.E.NAME", "abc")
         .set("V.G.WZ[2].R", 5.0);
-    assert_snapshot!(bench.values("G1 X10 Y20", &[
+    assert_snapshot!(bench.values("G1 X10 Y20 F100", &[
         "V.E.PART", "V.E.NAME", "V.G.WZ[2].R", "V.E.OTHER", "V.A.ABS.X", "V.A.PROG[1]", "V.A.ABS.Z", "V.A.MODE.X", "V.G.NONE", "V.SPDL.POS", "V.TOOL.N",
         "V.E.LIST[2].X", "V.A.FRICT_COMP_INIT.X", "V.A.FRICT_COMP_ACTIVE.Z", "V.A.BACKLASH_COMP_ACTIVE.X", "EXIST[V.E.OTHER]", "SIZEOF[V.E.OTHER]",
     ]), @r#"

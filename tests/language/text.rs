@@ -152,6 +152,7 @@ fn comments() {
     a.nc -
       1 line 1 -
         FC310 1:1-3
+        FC414 2:1-15
       end 1 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::{Code, Diagnostic, Severity};
-use frictcomp::timeline::{Record, Sink};
+use frictcomp::timeline::{EndedBy, Record, Sink};
 use frictcomp_report::Report;
 use frictcomp_report::html::RunDigest;
 
@@ -43,6 +43,7 @@ pub(super) struct Listeners<'a> {
     digest: Option<&'a mut RunDigest>,
     /// The first of the most severe diagnostics.
     most_severe: Option<(Severity, Code)>,
+    has_stopped: bool,
 }
 
 impl<'a> Listeners<'a> {
@@ -52,12 +53,18 @@ impl<'a> Listeners<'a> {
             report,
             digest,
             most_severe: None,
+            has_stopped: false,
         }
     }
 
     /// Returns the first of the most severe messages.
     pub(super) fn most_severe(&self) -> Option<Code> {
         self.most_severe.map(|(_, code)| code)
+    }
+
+    /// Whether an error of the control ended a program on all ways, whatever its severity (R18.1).
+    pub(super) fn has_stopped(&self) -> bool {
+        self.has_stopped
     }
 
     fn weigh<'d>(&mut self, said: impl IntoIterator<Item = &'d Diagnostic>) {
@@ -77,7 +84,10 @@ impl Sink for Listeners<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => self.weigh(row.diagnostics),
-            Record::End(end) => self.weigh(end.notes.iter().map(|note| &note.diagnostic)),
+            Record::End(end) => {
+                self.has_stopped |= end.by == EndedBy::Error;
+                self.weigh(end.notes.iter().map(|note| &note.diagnostic));
+            }
             _ => {}
         }
         let flow = self.report.0.borrow_mut().record(record);

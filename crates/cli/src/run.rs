@@ -286,20 +286,19 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         session,
     };
     let report = args.report(target);
-    let (played, hint) = play(&mut start, report, html.as_mut())?;
-    let Some(played) = played else {
+    let Some(played) = play(&mut start, report, html.as_mut())? else {
         // The reader has seen enough; a run that was cut short saves nothing.
         return Ok(super::exit::CLEAN);
     };
     if let Some(html) = html {
         html.write(args.given(&loaded), &loaded)?;
     }
-    if let (true, Some(file)) = (played.flow.is_continue(), &state) {
+    if let (true, Some(file)) = (played.summary.flow.is_continue(), &state) {
         outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
     args.machine.say_unread(&machines, &registry, console);
-    if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
+    if let (TimelineFormat::Text, Some(code)) = (args.format, played.most_severe) {
         console.remark(&explain(code));
     }
     let unknown = start.session.unknown();
@@ -310,9 +309,21 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let status = fail_on.status(start.session.counts());
     let status = status.max(fail_on.unknown_status(&unknown));
-    // Programs that did not run are not an all-clear, whatever the reason.
-    let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
-    Ok(status.max(unrun.unwrap_or_default()))
+    // Neither a program that stopped nor one that did not run is an all-clear, whatever the reason.
+    let is_cut_short = played.has_stopped || played.summary.unrun > 0;
+    Ok(if is_cut_short {
+        super::exit::FOUND
+    } else {
+        status
+    })
+}
+
+/// Result of the programs of a call.
+struct Played {
+    summary: RunSummary,
+    most_severe: Option<Code>,
+    /// Whether an error ended one of them.
+    has_stopped: bool,
 }
 
 /// Runs the programs; `None` if the timeline was not read to its end and there is no other output.
@@ -320,7 +331,7 @@ fn play(
     start: &mut FirstProgram<'_>,
     report: Box<dyn Report>,
     html: Option<&mut HtmlFile>,
-) -> Result<(Option<RunSummary>, Option<Code>), Failure> {
+) -> Result<Option<Played>, Failure> {
     let timeline = SharedReport::new(report);
     let goes_on_alone = html.is_some();
     let mut listeners = Listeners::new(&timeline, html.map(HtmlFile::digest));
@@ -330,17 +341,21 @@ fn play(
     let context = context.before_waiting(&before_waiting);
     let session = &mut start.session;
     let played = run_programs(session, start.programs, &context, &mut listeners);
-    let most_severe = listeners.most_severe();
+    let (most_severe, has_stopped) = (listeners.most_severe(), listeners.has_stopped());
     let mut report = timeline.into_report();
     report.finish().map_err(Failure::output)?;
     if report.is_closed() && !goes_on_alone {
-        return Ok((None, None));
+        return Ok(None);
     }
-    let played = played?;
-    if played.unrun > 0 {
-        say_unrun(played.unrun, &start.session);
+    let summary = played?;
+    if summary.unrun > 0 {
+        say_unrun(summary.unrun, &start.session);
     }
-    Ok((Some(played), most_severe))
+    Ok(Some(Played {
+        summary,
+        most_severe,
+        has_stopped,
+    }))
 }
 
 /// Reports why programs did not run.

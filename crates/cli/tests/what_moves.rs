@@ -247,19 +247,18 @@ fn a_cure_changes_no_motion() {
     let arguments = [&["audit", "--fix", "leavers", "--write"], &files[..]].concat();
     let output = bench.call(&arguments);
     let remarks = String::from_utf8(output.stderr).expect("text");
+    // A block before each end changes the state in no motion.
+    let mended = main.replace("M30\n", "X[COMP ON FRICT]\nM30\n");
     for (file, text) in [
-        ("a.nc", main),
+        ("a.nc", &*mended),
         ("b.nc", other),
         ("SUB.NC", sub),
         ("LAST.NC", last),
     ] {
         assert_eq!(bench.read(file), text, "{file}");
     }
-    for file in ["a.nc", "b.nc"] {
-        let reason =
-            format!("{file}: a block that mends this would change the state in which axes move");
-        assert!(remarks.contains(&reason), "{remarks}");
-    }
+    let reason = "b.nc: a block that mends this would change the state in which axes move";
+    assert!(remarks.contains(reason), "{remarks}");
 }
 
 #[test]

@@ -53,8 +53,7 @@ impl Interpreter {
                 .diagnostics
                 .push(at.diagnostic(fault.with_help("write a feed above 0")));
         } else if self.moves_at_feed(outcome) {
-            self.say_feed_of_zero(span, at);
-            self.perhaps_refuse_feed(span, at);
+            self.refuse_feed_of_zero(span, at);
         }
     }
 
@@ -71,8 +70,7 @@ impl Interpreter {
             .map_or(Span::default(), |word| word.span);
         let functions = &self.state.control.modal.functions;
         if functions.programmed_feed().is_some() {
-            self.say_feed_of_zero(span, at);
-            self.perhaps_refuse_feed(span, at);
+            self.refuse_feed_of_zero(span, at);
         } else if !self.runs_main_program() {
             // A subprogram runs with the feed of its caller.
             self.state.control.modal.functions.perhaps_give_feeds();
@@ -91,11 +89,13 @@ impl Interpreter {
                 );
                 Fault::new(Code::Fc327, span, message)
             };
-            let fault = fault.with_help(
+            let said = at.diagnostic(fault.with_help(
                 "write `F` in this block or before it, or give the channel list a `prog_start.feedrate`",
-            );
-            self.scratch.diagnostics.push(at.diagnostic(fault));
-            if !is_certain {
+            ));
+            if is_certain {
+                self.scratch.diagnostics.push(said);
+            } else {
+                self.say_before_parting(said);
                 self.perhaps_refuse_feed(span, at);
             }
         }
@@ -124,13 +124,12 @@ impl Interpreter {
     }
 
     /// FC327: the feed in force is 0.
-    fn say_feed_of_zero(&mut self, span: Span, at: &BlockContext<'_>) {
+    fn refuse_feed_of_zero(&mut self, span: Span, at: &BlockContext<'_>) {
         let message =
             format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
         let fault = Fault::new(Code::Fc327, at.in_block(span), message);
-        self.scratch
-            .diagnostics
-            .push(at.diagnostic(fault.with_help("write a feed above 0")));
+        self.say_before_parting(at.diagnostic(fault.with_help("write a feed above 0")));
+        self.perhaps_refuse_feed(span, at);
     }
 
     /// Whether the block moves along its axis words at the feed in force.

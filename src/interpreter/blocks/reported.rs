@@ -67,12 +67,7 @@ impl Interpreter {
                         "`RC=0` lets the program go on, `RC=2` stops it; without it, \
                          `\"R2.100\"` in `[reading]` of frictcomp.toml decides",
                     );
-                    let mut said = at.diagnostic(fault);
-                    let reach = &self.state.track.reach;
-                    if !reach.is_always() {
-                        limit_to(&mut said, &ways_of(reach, &self.state.conditions));
-                    }
-                    self.scratch.of_some_ways.push(said);
+                    self.say_before_parting(at.diagnostic(fault));
                 }
                 let question = MachineQuestion {
                     kind: ConditionKind::Stop,
@@ -118,6 +113,15 @@ impl Interpreter {
             }
         }
         Ok(())
+    }
+
+    /// Reports a message about all ways that lead to a block after which they part.
+    pub(in crate::interpreter) fn say_before_parting(&mut self, mut said: Diagnostic) {
+        let reach = &self.state.track.reach;
+        if !reach.is_always() {
+            limit_to(&mut said, &ways_of(reach, &self.state.conditions));
+        }
+        self.scratch.of_some_ways.push(said);
     }
 
     fn remedy_class(

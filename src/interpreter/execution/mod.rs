@@ -5,6 +5,7 @@ mod between;
 mod block;
 pub(super) mod budget;
 pub(super) mod calling;
+pub(super) mod charging;
 pub(super) mod ending;
 pub(super) mod endless;
 pub(super) mod fingerprint;

@@ -194,6 +194,9 @@ impl Interpreter {
                 }
             }
         }
+        if let ProgramStage::Before | ProgramStage::Announced = stage {
+            self.lost.push(no_block(&file));
+        }
         self.note_lost(&file, reader.lost_remarks());
         self.scratch.block = block;
         self.after_lines(&file, &StreamProgress { stage, notes }, finder, observer)
@@ -207,9 +210,6 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
-        if let ProgramStage::Before | ProgramStage::Announced = progress.stage {
-            self.lost.push(no_block(file));
-        }
         match self.begin_at(progress.stage, file, finder, observer) {
             Some(outcome) => outcome,
             None => self.end_of_lines(progress.stage, &progress.notes, observer),

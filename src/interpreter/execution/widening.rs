@@ -13,25 +13,10 @@ use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{EntryIndex, Index, ProgramId};
-use crate::interpreter::run::control::ControlState;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::path::{Last, Path};
-use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::unknown::telling::of_axes;
 use crate::interpreter::values::cause::how_to_set;
-use crate::interpreter::values::work_budget::PER_REGION_UNIT;
-
-/// Units of a block on one of several ways, with the row that shows it.
-const BLOCK: u64 = 3000;
-
-/// Units of a copy of the state of the control.
-const COPY: u64 = 3000;
-
-/// Units of a copied or compared level of the call stack.
-const LEVEL: u64 = 100;
-
-/// Units of a pair of answers: ways that meet are compared with each other until none can be left out.
-const PAIR: u64 = 60;
 
 /// Most values that the advice names.
 const MAX_NAMED: usize = 3;
@@ -44,37 +29,6 @@ impl Interpreter {
             && !self.state.is_widened
             && self.options.follows_ways()
             && self.state.effort.ways() > self.ways_bound()
-    }
-
-    /// Whether even reading what the ways could change takes too much work.
-    #[inline]
-    pub(in crate::interpreter) fn is_past_regions(&self) -> bool {
-        self.state.effort.ways() > self.options.limits.ways
-            && self.state.effort.ways() > self.ways_bound().saturating_mul(2)
-    }
-
-    #[cold]
-    fn ways_bound(&self) -> u64 {
-        let granted = self.work_bound() - self.options.limits.work;
-        let granted = granted.saturating_mul(PER_REGION_UNIT);
-        self.options.limits.ways.saturating_add(granted)
-    }
-
-    /// Counts the work of copying a state, or of comparing it with another one.
-    pub(in crate::interpreter) fn charge_copies(&self, control: &ControlState, reach: &WaySet) {
-        let levels = LEVEL.saturating_mul(control.frames.depth() as u64);
-        let pairs = PAIR.saturating_mul(control.pairs(reach));
-        let axes = 20 * self.machine.axes.len() as u64;
-        let units = COPY.saturating_add(levels).saturating_add(pairs);
-        self.state.effort.charge_ways(units.saturating_add(axes));
-    }
-
-    /// Counts the work of a block that is executed while other ways wait.
-    pub(in crate::interpreter) fn charge_block(&self, weight: u64) {
-        let waiting = self.state.pending.len() as u64;
-        let compared = waiting.saturating_mul(20 * self.state.control.frames.depth() as u64);
-        let units = BLOCK.saturating_add(weight).saturating_add(compared);
-        self.state.effort.charge_ways(units);
     }
 
     /// Takes all ways to the end of the outermost control block that any of them is in, and reports what is unknown
@@ -216,15 +170,5 @@ impl Path {
             frame.waiting.clear();
         }
         self
-    }
-}
-
-impl ControlState {
-    /// Pairs of answers that are compared where ways to this state meet others.
-    fn pairs(&self, reach: &WaySet) -> u64 {
-        let splits = self.possible.iter();
-        let sets = splits.flat_map(|(_, split)| [&split.on, &split.off]);
-        let sets = sets.chain(self.untouched.sets()).chain([reach]);
-        sets.map(WaySet::pairs).fold(0, u64::saturating_add)
     }
 }

@@ -25,7 +25,7 @@ use crate::interpreter::programs::store::ProgramStore;
 use crate::interpreter::values::externals::ExternalNames;
 use crate::interpreter::values::found::{FoundVariables, VariableUse};
 use crate::interpreter::values::value::Value;
-use crate::interpreter::values::work_budget::WorkBudget;
+use crate::interpreter::values::work_budget::{PER_REGION_UNIT, WorkBudget};
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::readings::QuestionSet;
 use crate::syntax::SkipLevels;
@@ -231,7 +231,7 @@ impl Interpreter {
             journal: Journal::default(),
             used: None,
             state,
-            version: 0,
+            version: 1,
             scratch: BlockScratch::default(),
         }
     }
@@ -440,6 +440,20 @@ impl Interpreter {
     pub(in crate::interpreter) fn work_bound(&self) -> u64 {
         let granted = self.programs.granted();
         self.options.limits.work.saturating_add(granted)
+    }
+
+    /// Whether even reading what the ways could change takes too much work.
+    #[inline]
+    pub(in crate::interpreter) fn is_past_regions(&self) -> bool {
+        self.state.effort.ways() > self.options.limits.ways
+            && self.state.effort.ways() > self.ways_bound().saturating_mul(2)
+    }
+
+    #[cold]
+    pub(in crate::interpreter) fn ways_bound(&self) -> u64 {
+        let granted = self.work_bound() - self.options.limits.work;
+        let granted = granted.saturating_mul(PER_REGION_UNIT);
+        self.options.limits.ways.saturating_add(granted)
     }
 
     /// Whether the budget of work is used up.

@@ -72,7 +72,7 @@ fn a_program_may_be_longer_than_the_memory() {
         110_000,
         &comment,
         &[
-            &["check", "long.nc"],
+            &["check", "--fail-on", "error", "long.nc"],
             &["run", "--format", "csv", "long.nc"],
         ],
     );
@@ -86,7 +86,7 @@ fn ten_million_blocks_need_no_more_memory() {
         10_000_000,
         "",
         &[
-            &["check", "long.nc"],
+            &["check", "--fail-on", "error", "long.nc"],
             &["run", "--changes", "long.nc"],
             &["run", "long.nc"],
             &["run", "--format", "ndjson", "long.nc"],
@@ -493,7 +493,16 @@ fn where_threads_cannot_start_the_work_goes_on() {
         let output = limited(
             &bench,
             &limit,
-            &["check", "-j", "64", "a.nc", "b.nc", "c.nc"],
+            &[
+                "check",
+                "-j",
+                "64",
+                "--fail-on",
+                "error",
+                "a.nc",
+                "b.nc",
+                "c.nc",
+            ],
         )
         .output()
         .expect("the tool starts");

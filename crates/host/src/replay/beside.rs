@@ -129,7 +129,7 @@ impl ReplayedAxis {
 
 /// A sample at an end of the recording.
 #[derive(Debug, Clone, Copy)]
-enum Sample {
+enum StateSample {
     First,
     Last,
 }
@@ -163,7 +163,8 @@ impl AxisBeside<'_> {
     /// Numbers of switches of the dry run that may come before the first sample: none, or those before a block that
     /// the sample names, with its own or without (R15.20).
     fn begins(&self) -> Vec<usize> {
-        let steps = (0..self.course.steps.len()).filter(|at| self.is_sampled(*at, Sample::First));
+        let steps =
+            (0..self.course.steps.len()).filter(|at| self.is_sampled(*at, StateSample::First));
         let passed = steps.flat_map(|at| [self.passed(at), self.passed(at + 1)]);
         let mut begins: Vec<usize> = Vec::new();
         for passed in std::iter::once(0).chain(passed) {
@@ -192,10 +193,10 @@ impl AxisBeside<'_> {
     }
 
     /// Whether a step is the block of the first or the last sample.
-    fn is_sampled(&self, at: usize, sample: Sample) -> bool {
+    fn is_sampled(&self, at: usize, sample: StateSample) -> bool {
         let of = |pair: [i64; 2]| match sample {
-            Sample::First => pair[0],
-            Sample::Last => pair[1],
+            StateSample::First => pair[0],
+            StateSample::Last => pair[1],
         };
         let (Some(step), Some(blocks)) = (self.course.steps.get(at), self.recorded.blocks) else {
             return false;
@@ -207,7 +208,9 @@ impl AxisBeside<'_> {
 
     fn other_start(&self) -> Disagreement {
         let steps = 0..self.course.steps.len();
-        let first = steps.clone().find(|at| self.is_sampled(*at, Sample::First));
+        let first = steps
+            .clone()
+            .find(|at| self.is_sampled(*at, StateSample::First));
         let first = first.filter(|at| self.passed(at + 1) > 0);
         let passed = first.map_or(0, |at| self.passed(at + 1));
         let step = first.and_then(|at| self.course.steps.get(at));
@@ -247,7 +250,7 @@ impl AxisBeside<'_> {
                 (Some(change), Some(switch)) => self.reason(change, switch),
                 (Some(_), None) => Some("the dry run has no further change".to_owned()),
                 // The last sample may be taken before its block acts.
-                (None, Some(switch)) if self.is_sampled(switch.at, Sample::Last) => None,
+                (None, Some(switch)) if self.is_sampled(switch.at, StateSample::Last) => None,
                 (None, _) => Some("the recording has no further change".to_owned()),
             };
             if let Some(why) = reason {

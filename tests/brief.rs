@@ -122,28 +122,42 @@ fn the_first_call_that_is_nested_too_deeply_ends_the_run() {
     assert_eq!(on.blocks, 5000);
 }
 
+/// Lines of a program, numbered from 0.
+fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(|number| line(number) + "\n").collect()
+}
+
+/// A program of control blocks inside each other.
+fn nest(count: usize, open: impl Fn(usize) -> String, inner: &str, close: &str) -> String {
+    let opened = lines(count, open);
+    format!("{opened}{inner}\n{}M30", format!("{close}\n").repeat(count))
+}
+
+/// A program of local subprograms, each of which calls the next one.
+fn calls(count: usize, call: impl Fn(usize) -> String) -> String {
+    let programs = lines(count, |n| format!("%L S{n}\n{}\nM17", call(n)));
+    format!("{programs}%L S{count}\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL S0\nM30")
+}
+
+fn while_q(_: usize) -> String {
+    "$WHILE V.E.Q".to_owned()
+}
+
 /// Programs whose ways multiply, small as they are.
 fn many_ways() -> Vec<(&'static str, String)> {
-    let lines = |count: usize, line: &dyn Fn(usize) -> String| -> String {
-        (0..count).map(|number| line(number) + "\n").collect()
-    };
-    let nest = |count: usize, open: &dyn Fn(usize) -> String, inner: &str, close: &str| {
-        let opened = lines(count, open);
-        format!("{opened}{inner}\n{}M30", format!("{close}\n").repeat(count))
-    };
-    let calls = |count: usize, call: &dyn Fn(usize) -> String| {
-        let programs = lines(count, &|n| format!("%L S{n}\n{}\nM17", call(n)));
-        format!("{programs}%L S{count}\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL S0\nM30")
-    };
-    let while_q = |_: usize| "$WHILE V.E.Q".to_owned();
+    [nested_ways(), called_ways(), jumping_ways()].concat()
+}
+
+/// Nested loops.
+fn nested_ways() -> Vec<(&'static str, String)> {
     vec![
-        ("ten loops", nest(10, &while_q, "X1", "$ENDWHILE")),
-        ("a hundred loops", nest(100, &while_q, "X1", "$ENDWHILE")),
+        ("ten loops", nest(10, while_q, "X1", "$ENDWHILE")),
+        ("a hundred loops", nest(100, while_q, "X1", "$ENDWHILE")),
         (
             "loops with conditions",
             nest(
                 12,
-                &|n| format!("$FOR P{n}=0,V.E.N1,1\n$IF V.E.A{n}"),
+                |n| format!("$FOR P{n}=0,V.E.N1,1\n$IF V.E.A{n}"),
                 "X[COMP OFF FRICT]",
                 "$ENDIF\n$ENDFOR",
             ),
@@ -152,37 +166,16 @@ fn many_ways() -> Vec<(&'static str, String)> {
             "one counter",
             nest(
                 12,
-                &|n| format!("$FOR P1=0,V.E.N1,1\n$IF V.E.A{n}\nX[COMP OFF FRICT]\n$ENDIF"),
+                |n| format!("$FOR P1=0,V.E.N1,1\n$IF V.E.A{n}\nX[COMP OFF FRICT]\n$ENDIF"),
                 "Y[COMP OFF FRICT]",
                 "$ENDFOR",
             ),
         ),
         (
-            "calls on both sides",
-            calls(40, &|n| {
-                format!("$IF V.E.A{n}\nLL S{0}\n$ELSE\nLL S{0}\n$ENDIF", n + 1)
-            }),
-        ),
-        (
-            "calls in loops",
-            calls(20, &|n| {
-                format!("$WHILE V.E.A{n}\nLL S{}\n$ENDWHILE", n + 1)
-            }),
-        ),
-        (
-            "calls in cases",
-            calls(30, &|n| {
-                let case = format!("LL S{}\n$BREAK", n + 1);
-                format!(
-                    "$SWITCH V.E.A{n}\n$CASE 1\n{case}\n$CASE 2\n{case}\n$DEFAULT\n{case}\n$ENDSWITCH"
-                )
-            }),
-        ),
-        (
             "repeated until",
             nest(
                 15,
-                &|n| format!("$REPEAT\n$IF V.E.B{n}\nP{n}=P{n}+1\n$ENDIF"),
+                |n| format!("$REPEAT\n$IF V.E.B{n}\nP{n}=P{n}+1\n$ENDIF"),
                 "X1",
                 "$UNTIL V.E.Q",
             ),
@@ -191,36 +184,16 @@ fn many_ways() -> Vec<(&'static str, String)> {
             "done while",
             nest(
                 15,
-                &|n| format!("$DO\n/{} Y[COMP OFF FRICT]", n % 10 + 1),
+                |n| format!("$DO\n/{} Y[COMP OFF FRICT]", n % 10 + 1),
                 "X1",
                 "$ENDDO V.E.Q",
-            ),
-        ),
-        (
-            "jumps back",
-            lines(60, &|n| format!("N{n} X[COMP OFF FRICT]"))
-                + &lines(60, &|n| format!("$IF V.E.A{n} $GOTO N{n}"))
-                + "M30",
-        ),
-        (
-            "jumps forward",
-            lines(2000, &|n| format!("$IF V.E.A{n} $GOTO N9000\nX{n}"))
-                + "N9000 X[COMP OFF FRICT]\nM30",
-        ),
-        (
-            "skip levels in loops",
-            nest(
-                10,
-                &while_q,
-                &lines(10, &|n| format!("/{} P{n}=P{n}+1 X1", n + 1)),
-                "$ENDWHILE",
             ),
         ),
         (
             "counted loops with conditions",
             nest(
                 6,
-                &|n| {
+                |n| {
                     format!(
                         "$FOR P{n}=1,30,1\n$IF V.E.A{n} == P{n}\nX[COMP OFF FRICT]\n$ELSE\nX[COMP ON FRICT]\n$ENDIF"
                     )
@@ -229,19 +202,70 @@ fn many_ways() -> Vec<(&'static str, String)> {
                 "$ENDFOR",
             ),
         ),
+    ]
+}
+
+/// Programs called on several ways.
+fn called_ways() -> Vec<(&'static str, String)> {
+    vec![
+        (
+            "calls on both sides",
+            calls(40, |n| {
+                format!("$IF V.E.A{n}\nLL S{0}\n$ELSE\nLL S{0}\n$ENDIF", n + 1)
+            }),
+        ),
+        (
+            "calls in loops",
+            calls(20, |n| format!("$WHILE V.E.A{n}\nLL S{}\n$ENDWHILE", n + 1)),
+        ),
+        (
+            "calls in cases",
+            calls(30, |n| {
+                let case = format!("LL S{}\n$BREAK", n + 1);
+                format!(
+                    "$SWITCH V.E.A{n}\n$CASE 1\n{case}\n$CASE 2\n{case}\n$DEFAULT\n{case}\n$ENDSWITCH"
+                )
+            }),
+        ),
         (
             "macros that call",
             "\"A\"=\"LL S\"\n".to_owned()
-                + &nest(9, &while_q, "\"A\"\n\"A\"", "$ENDWHILE").replace(
+                + &nest(9, while_q, "\"A\"\n\"A\"", "$ENDWHILE").replace(
                     "M30",
                     "M30\n%L S\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nM17",
                 ),
+        ),
+    ]
+}
+
+/// Jumps, skip levels and ends on several ways.
+fn jumping_ways() -> Vec<(&'static str, String)> {
+    vec![
+        (
+            "jumps back",
+            lines(60, |n| format!("N{n} X[COMP OFF FRICT]"))
+                + &lines(60, |n| format!("$IF V.E.A{n} $GOTO N{n}"))
+                + "M30",
+        ),
+        (
+            "jumps forward",
+            lines(2000, |n| format!("$IF V.E.A{n} $GOTO N9000\nX{n}"))
+                + "N9000 X[COMP OFF FRICT]\nM30",
+        ),
+        (
+            "skip levels in loops",
+            nest(
+                10,
+                while_q,
+                &lines(10, |n| format!("/{} P{n}=P{n}+1 X1", n + 1)),
+                "$ENDWHILE",
+            ),
         ),
         (
             "ends in loops",
             nest(
                 10,
-                &|n| format!("$FOR P{n}=0,50,1\n$IF V.E.A{n}\nM30\n$ENDIF"),
+                |n| format!("$FOR P{n}=0,50,1\n$IF V.E.A{n}\nM30\n$ENDIF"),
                 "X1",
                 "$ENDFOR",
             ),

@@ -630,6 +630,7 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
     let expected = [
         "P-ERR-21301",
         "P-ERR-21947",
+        "P-ERR-70495",
         "FC202",
         "FC205",
         "FC401",

@@ -199,7 +199,7 @@ impl AuditArgs {
         say_left_out(&mut found.left_out, &registry, console);
         unseen.extend(found.left_out.diagnostics(&mut machines));
         console.show(&unseen);
-        let mut counts = self.counts(report.has_warnings(), errors);
+        let mut counts = counts(report.has_warnings(), errors);
         for said in &unseen {
             *counts.entry(said.severity).or_default() += 1;
         }
@@ -241,14 +241,7 @@ impl AuditArgs {
     }
 
     fn status(&self, warnings: bool, errors: bool) -> u8 {
-        FailOn::judging(&self.fail_on).status(&self.counts(warnings, errors))
-    }
-
-    fn counts(&self, warnings: bool, errors: bool) -> BTreeMap<Severity, u64> {
-        let counts = [(Severity::Warning, warnings), (Severity::Error, errors)];
-        counts
-            .map(|(severity, any)| (severity, u64::from(any)))
-            .into()
+        FailOn::judging(&self.fail_on).status(&counts(warnings, errors))
     }
 
     /// Follows the programs in a given order.
@@ -295,6 +288,14 @@ impl AuditArgs {
         let unknown = self.unknown_status(unknown, console);
         Ok(self.status(inherits, errors).max(unknown))
     }
+}
+
+/// Returns whether there are warnings and errors as numbers.
+fn counts(warnings: bool, errors: bool) -> BTreeMap<Severity, u64> {
+    let counts = [(Severity::Warning, warnings), (Severity::Error, errors)];
+    counts
+        .map(|(severity, any)| (severity, u64::from(any)))
+        .into()
 }
 
 impl FixScope {

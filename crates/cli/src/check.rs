@@ -185,12 +185,8 @@ fn check(
     outputs.check()?;
     let in_callers = args.check_all(jobs, (&mut listing, &mut baseline), failures);
     found.left_out.forget_read(&registry);
-    for mut said in found.left_out.diagnostics(&mut machines) {
-        said.reword(Some(command_line));
-        if list((&mut listing, &mut baseline), &said).is_break() {
-            break;
-        }
-    }
+    let missed = found.left_out.diagnostics(&mut machines);
+    list_missed(missed, &mut listing, &mut baseline);
     let read: BTreeSet<String> = registry.files().iter().map(|it| shown_path(it)).collect();
     let is_checked = |file: &str| read.contains(file) || !Path::new(file).exists();
     if let Some(record) = baseline.finish(console, is_checked)? {
@@ -224,6 +220,20 @@ fn check(
         console.remark(&remark);
     }
     Ok(listing.status())
+}
+
+/// Lists the programs that were not looked at and switch compensation (R18.5).
+fn list_missed(
+    missed: impl IntoIterator<Item = Diagnostic>,
+    listing: &mut Lister<'_>,
+    baseline: &mut Baseline,
+) {
+    for mut said in missed {
+        said.reword(Some(command_line));
+        if list((listing, baseline), &said).is_break() {
+            break;
+        }
+    }
 }
 
 /// Reports before everything else that no machine is described (R1.37).

@@ -5,7 +5,7 @@ use clap::Args;
 use super::console::Console;
 use frictcomp_host::{FileRegistry, FolderOptions, IgnoreFiles, LeftOutFiles};
 
-/// FolderSelection of the files of folders.
+/// Options for the files that folders contribute.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Folders")]
 pub(super) struct FolderArgs {

@@ -310,7 +310,8 @@ fn run_once(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let status = fail_on.status(start.session.counts());
     let status = status.max(fail_on.unknown_status(&unknown));
     // Neither a program that stopped nor one that did not run is an all-clear, whatever the reason.
-    let is_cut_short = played.has_stopped || played.summary.unrun > 0;
+    let has_stopped = played.has_stopped && fail_on.counts(Severity::Error);
+    let is_cut_short = has_stopped || played.summary.unrun > 0;
     Ok(if is_cut_short {
         super::exit::FOUND
     } else {

@@ -227,6 +227,10 @@ fn the_exit_status_follows_the_severity() {
     assert_eq!(status("warning", "i.nc"), Some(0));
     assert_eq!(status("info", "i.nc"), Some(1));
     assert_eq!(bench.status(&["run", "missing.nc"]), Some(2));
+    // R18.1: a warning that the control stops.
+    bench.write("s.nc", "N10 #ERROR [ID=1 RC=2]\nN20 M30\n");
+    assert_eq!(bench.status(&["run", "s.nc"]), Some(1));
+    assert_eq!(status("never", "s.nc"), Some(0));
     bench.write(
         "frictcomp.toml",
         &format!("{MACHINE}[lint]\nFC401 = \"error\"\nFC402 = \"off\"\n"),

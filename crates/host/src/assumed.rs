@@ -84,9 +84,10 @@ pub(super) fn assume_axes<'a>(
         if is_described && !is_here && may_be_elsewhere {
             continue;
         }
-        let occurs = match is_described {
-            true => Ok(()),
-            false => check_occurs(name, programs),
+        let occurs = if is_described {
+            Ok(())
+        } else {
+            check_occurs(name, programs)
         };
         match occurs.and_then(|()| enable(machine, name)) {
             Ok(()) => {

@@ -182,9 +182,10 @@ impl Walk<'_> {
                 .as_ref()
                 .filter(|(folder, _)| path.starts_with(folder));
             if is_folder(&entry) {
-                let why = match is_hidden {
-                    true => WhyLeftOut::HiddenFolder,
-                    false => WhyLeftOut::IgnoredFolder,
+                let why = if is_hidden {
+                    WhyLeftOut::HiddenFolder
+                } else {
+                    WhyLeftOut::IgnoredFolder
                 };
                 if around.is_none() {
                     folder = Some((path.to_owned(), why));

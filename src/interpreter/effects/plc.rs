@@ -73,11 +73,10 @@ impl Doubt {
 pub(in crate::interpreter) fn lets_plc_act(command: &str) -> bool {
     let mut words = command.split(' ');
     match words.next() {
-        Some("#TIME" | "#WAIT") => true,
+        // Late M functions are acknowledged at `#EXPL` (tf5200_m_and_h_func/286004619).
+        Some("#TIME" | "#WAIT" | "#EXPL") => true,
         Some("#FLUSH") => words.any(|word| word == "WAIT"),
         Some("#MSG") => words.any(|word| matches!(word, "ACK" | "SYN_ACK")),
-        // Late M functions are acknowledged here (tf5200_m_and_h_func/286004619).
-        Some("#EXPL") => true,
         _ => false,
     }
 }

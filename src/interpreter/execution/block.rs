@@ -142,17 +142,7 @@ impl Interpreter {
         if !stopped {
             self.move_axes(&outcome, at);
         }
-        self.state.effort.grant(at.text);
-        let is_over = !self.is_plain() && self.settle(at);
-        if !self.scratch.changes.is_empty()
-            || self.scratch.new_axes
-            || self.scratch.left_open.is_some()
-        {
-            self.version += 1;
-            self.replace_possible();
-        }
-        self.state.remember_last(at);
-        self.scratch.gather_asked();
+        let is_over = self.account(at);
         let step = if is_over || self.scratch.too_deep {
             Some(ControlStep::End(EndedBy::Budget))
         } else if stopped {
@@ -223,6 +213,21 @@ impl Interpreter {
             None => ControlFlow::Continue(()),
             Some(step) => ControlFlow::Break(NextBlock::Step(step)),
         }
+    }
+
+    /// Accounts for the work and the changes of a block. Returns whether the program is over.
+    #[inline]
+    fn account(&mut self, at: &BlockContext<'_>) -> bool {
+        self.state.effort.grant(at.text);
+        let is_over = !self.is_plain() && self.settle(at);
+        let scratch = &self.scratch;
+        if !scratch.changes.is_empty() || scratch.new_axes || scratch.left_open.is_some() {
+            self.version += 1;
+            self.replace_possible();
+        }
+        self.state.remember_last(at);
+        self.scratch.gather_asked();
+        is_over
     }
 
     /// Ends the way at an error of the control. Whatever the control may have done instead ends with it.

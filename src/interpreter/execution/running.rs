@@ -19,13 +19,7 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         loop {
-            if !self.state.pending.is_empty() && self.choose_path() {
-                self.tell_joined(observer);
-            }
-            if self.is_past_ways() {
-                self.widen(finder);
-                self.tell_joined(observer);
-            }
+            self.choose_way(finder, observer);
             let Some(frame) = self.state.control.frames.running() else {
                 let ending = self.state.control.ending.take();
                 match self.end_path(ending.unwrap_or(EndedBy::EndOfFile)) {
@@ -118,6 +112,18 @@ impl Interpreter {
             if let Some(by) = self.follow_to_end(step, finder) {
                 return RunOutcome::Ended(by);
             }
+        }
+    }
+
+    /// Continues on the way whose block comes first in the text; past their budget, all ways are joined.
+    #[inline]
+    fn choose_way(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) {
+        if !self.state.pending.is_empty() && self.choose_path() {
+            self.tell_joined(observer);
+        }
+        if self.is_past_ways() {
+            self.widen(finder);
+            self.tell_joined(observer);
         }
     }
 

@@ -87,13 +87,7 @@ impl Interpreter {
     ) -> RunOutcome {
         let file: Arc<str> = file.into();
         if let Some(what) = no_program(lines.ahead()) {
-            return match self.announce(None, observer) {
-                ControlFlow::Break(()) => RunOutcome::Paused,
-                ControlFlow::Continue(()) => {
-                    let said = one(not_a_program(&file, what));
-                    self.ended(EndedBy::Error, &said, observer)
-                }
-            };
+            return self.refuse_file(&file, what, observer);
         }
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.scratch.block);
@@ -105,10 +99,7 @@ impl Interpreter {
                 notes.extend(never_begun.take().map(never_run));
             }
             // Both ways of a block that may be skipped are followed, with what comes after them (R14.1).
-            if self.undecided_level(&block).is_some()
-                || (!raw.plain && needs_rest(&raw, &block))
-                || self.may_begin_without_feed(&block)
-            {
+            if self.needs_text(&raw, &block) {
                 let rest = self.take_rest(opening(&raw), file, &mut reader);
                 return self.go_on_with(rest, StreamProgress { stage, notes }, finder, observer);
             }
@@ -181,12 +172,8 @@ impl Interpreter {
                     if returns {
                         let line = raw.line_after();
                         let rest = self.take_rest((String::new(), line), file, &mut reader);
-                        return self.returned(
-                            rest,
-                            StreamProgress { stage, notes },
-                            finder,
-                            observer,
-                        );
+                        let progress = StreamProgress { stage, notes };
+                        return self.returned(rest, progress, finder, observer);
                     }
                     if self.options.stop != StopPolicy::CheckAll {
                         break;
@@ -200,6 +187,29 @@ impl Interpreter {
         self.note_lost(&file, reader.lost_remarks());
         self.scratch.block = block;
         self.after_lines(&file, &StreamProgress { stage, notes }, finder, observer)
+    }
+
+    /// Ends the run at a file that is no program.
+    fn refuse_file(
+        &mut self,
+        file: &Arc<str>,
+        what: &str,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        match self.announce(None, observer) {
+            ControlFlow::Break(()) => RunOutcome::Paused,
+            ControlFlow::Continue(()) => {
+                let said = one(not_a_program(file, what));
+                self.ended(EndedBy::Error, &said, observer)
+            }
+        }
+    }
+
+    /// Whether a block can be executed only with the text after it.
+    fn needs_text(&self, raw: &RawBlock<'_>, block: &Block) -> bool {
+        self.undecided_level(block).is_some()
+            || (!raw.plain && needs_rest(raw, block))
+            || self.may_begin_without_feed(block)
     }
 
     /// All lines were read: a program without any block begins and ends here.

@@ -156,9 +156,10 @@ impl Interpreter {
         if !self.may_part(goals.len(), at) {
             return false;
         }
-        if let Some(kept) = &question.kept {
-            let own = goals.get_mut(kept.sides.trailing_zeros() as usize);
-            own.into_iter().for_each(|goal| goal.values.clear());
+        if let Some(kept) = &question.kept
+            && let Some(own) = goals.get_mut(kept.sides.trailing_zeros() as usize)
+        {
+            own.values.clear();
         }
         if question.kind == ConditionKind::Loop {
             self.state.note_open_loop();

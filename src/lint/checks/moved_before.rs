@@ -32,13 +32,14 @@ pub(super) fn lint(
         inherited.is_settled = executed.branch.is_none();
         return None;
     }
-    if pace == Some(Certainty::Certain) && is_known {
-        if let Some(touch) = inherited.cut(motion, executed) {
-            inherited.is_settled = true;
-            inherited.held = None;
-            let how = format!("moves with friction compensation {}", found.as_str());
-            return Some(said(linter, (axis, &touch), &how, ""));
-        }
+    if pace == Some(Certainty::Certain)
+        && is_known
+        && let Some(touch) = inherited.cut(motion, executed)
+    {
+        inherited.is_settled = true;
+        inherited.held = None;
+        let how = format!("moves with friction compensation {}", found.as_str());
+        return Some(said(linter, (axis, &touch), &how, ""));
     }
     let is_feed = pace.is_some() && is_of_a_kind(motion);
     let outweighs = match &inherited.held {

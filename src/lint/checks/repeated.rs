@@ -18,16 +18,16 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
     let useless = |kind| deed == KindEffect::Off && is_unconfigured(linter, taken, kind);
     let of_axis = &linter.machine.axis(taken.axis).frict_comp_origin;
-    // Somebody believed that the axis is compensated (R18.3).
+    // The program counts on an axis that is not compensated (R18.3).
     let is_mistaken = kinds.contains(Kind::Frict) && useless(Kind::Frict);
     let advised = |said: Diagnostic| {
-        match is_mistaken {
-        true => said.with_help(format!(
+        if !is_mistaken {
+            return said;
+        }
+        said.with_help(format!(
             "P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is 0 ({of_axis}); set it to 1 if the axis is to be \
              compensated"
-        )),
-        false => said,
-    }
+        ))
     };
     if (is_mistaken || memory.commanded) && kinds.iter().all(useless) {
         let message =

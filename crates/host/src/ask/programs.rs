@@ -178,22 +178,27 @@ fn spanning(between: &'static str) -> Script {
     }
 }
 
+/// Returns the instructions for a question that a recording of motion answers.
+fn recorded(question: Question, axis: &AskedAxis) -> Script {
+    let (part, moves) = motion(question, axis);
+    Script {
+        moves,
+        ..by_itself(
+            &format!(
+                "the axis has P-AXIS-00522 = 1, a value list that the control took, and room to move; \
+                 recorded in every CNC cycle are its commanded position or velocity and the objects {}",
+                objects(axis)
+            ),
+            format!(">begin\n{part}M30\n"),
+            "export the recording as CSV, and give it to frictcomp ask --read, with message.txt",
+        )
+    }
+}
+
 /// Returns the instructions for a question; `None` where there is nothing to run.
 fn script(question: Question, axis: &AskedAxis) -> Option<Script> {
     if question.facts().way == Way::Recording {
-        let (part, moves) = motion(question, axis);
-        return Some(Script {
-            moves,
-            ..by_itself(
-                &format!(
-                    "the axis has P-AXIS-00522 = 1, a value list that the control took, and room to move; \
-                     recorded in every CNC cycle are its commanded position or velocity and the objects {}",
-                    objects(axis)
-                ),
-                format!(">begin\n{part}M30\n"),
-                "export the recording as CSV, and give it to frictcomp ask --read, with message.txt",
-            )
-        });
+        return Some(recorded(question, axis));
     }
     Some(match question {
         Question::Reset => spanning("press reset"),

@@ -195,6 +195,8 @@ fn the_example_as_text() {
       Z     unconfigured  unconfigured  -
 
     Passed over: #HSC ×3
+
+    X and Y are left off.
     "#);
 }
 
@@ -240,6 +242,8 @@ fn eight_axes_stay_readable() {
       V     active        active        -
 
     Passed over: #HSC ×3
+
+    Y and C are left off.
     ");
 }
 
@@ -279,6 +283,8 @@ fn axes_are_listed_as_they_occur() {
       Z     unconfigured  unconfigured  -
 
     Passed over: #HSC ×3
+
+    X is left off.
     ");
 }
 

@@ -44,7 +44,7 @@ test("a program that another extension claims is asked about", () => {
 test("languages and their endings are declared before anything runs", () => {
   // R12.12
   const [programs, lists] = manifest.contributes.languages;
-  expect(programs?.extensions).toEqual([".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"]);
+  expect(programs?.extensions).toEqual([".nc", ".cnc", ".cyc", ".sub", ".plc"]);
   expect(lists?.extensions).toEqual([".lis"]);
 });
 

@@ -293,8 +293,8 @@ fn what_the_program_wrote_is_the_answer_until_the_plc_acts() {
 }
 
 #[test]
-#[ignore = "known: program 2116 lacks a state that needs two changes of V.E. at once"]
-fn every_change_of_several_variables_is_followed() {
+#[ignore = "known: program 2116 lacks a possible state"]
+fn no_state_is_missing_in_more_programs() {
     // R2.99
     (1..=8000).for_each(compare);
 }

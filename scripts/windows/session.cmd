@@ -15,7 +15,7 @@ if not errorlevel 1 exit /b 3
 findstr /c:"mill/wrong.nc:2:15" check.txt > nul
 if errorlevel 1 exit /b 3
 
-frictcomp check --enable X --fix mill\mended.nc > fixed.txt
+frictcomp check --enable X --fix --fail-on error mill\mended.nc > fixed.txt
 if errorlevel 1 exit /b 4
 
 frictcomp run --enable X --state state.json MILL\FIRST.NC > first.txt

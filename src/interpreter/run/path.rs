@@ -15,7 +15,7 @@ use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::values::externals::SetAt;
+use crate::interpreter::values::externals::HeldVariable;
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::target::{AssignedPlace as Written, RegionTarget};
 use crate::interpreter::values::value::Value;
@@ -78,8 +78,22 @@ type AssumedRow = (RegionTarget, ValueBefore);
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ValueBefore {
     value: Option<Value>,
-    /// The block that had set it, where the PLC had not acted since (R2.99).
-    set: Option<SetAt>,
+    /// What the program had set in it, where the PLC had not acted since (R2.99).
+    set: Option<HeldVariable>,
+}
+
+impl ValueBefore {
+    /// Whether as much was known of a value, whatever the cause of an unknown one. A variable of the machine that was
+    /// never written is as unknown as one that the PLC may have changed.
+    fn is_like(&self, other: &Self, target: &RegionTarget, memory: &Memory) -> bool {
+        let is_external = matches!(target, RegionTarget::Variable(name) if memory.may_change(name));
+        let is_open = |it: &Self| match &it.value {
+            Some(Value::Unknown(_)) => true,
+            Some(_) => false,
+            None => is_external,
+        };
+        self.set == other.set && (self.value == other.value || (is_open(self) && is_open(other)))
+    }
 }
 
 impl From<Vec<AssumedRow>> for AssumedValues {
@@ -116,7 +130,9 @@ impl AssumedValues {
                     value: memory.variable(name),
                     set: memory.release(name),
                 };
+                let told = before.set.as_ref().and_then(|held| held.with(&value));
                 memory.set_variable(name, value);
+                memory.hold_again(name, told);
                 before
             }
             RegionTarget::Parameter(Owner::Call, _)
@@ -321,10 +337,11 @@ impl Path {
         let (mine, theirs) = (&mut self.track.assumed, &mut other.track.assumed);
         if !(mine.is_empty() && theirs.is_empty()) {
             let common = |(target, before): (&RegionTarget, &ValueBefore)| {
-                let same = theirs.0.get(target) == Some(before);
-                let now = [&self.control.memory, &other.control.memory];
-                let now = now.map(|memory| value_of(memory, target));
-                (same && now[0] == now[1]).then(|| target.clone())
+                let memories = [&self.control.memory, &other.control.memory];
+                let now = memories.map(|memory| value_of(memory, target));
+                let theirs = theirs.0.get(target).filter(|_| now[0] == now[1])?;
+                let is_like = before.is_like(theirs, target, memories[0]);
+                is_like.then(|| target.clone())
             };
             let common: BTreeSet<RegionTarget> = mine.0.iter().filter_map(common).collect();
             mine.undo_but(&common, &mut self.control.memory);

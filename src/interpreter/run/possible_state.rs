@@ -162,8 +162,7 @@ impl PossibleState {
 
     /// Whether there are too many ways to name any.
     fn is_always(&self) -> bool {
-        let mut ways = self.ways.iter().flatten();
-        ways.any(Vec::is_empty)
+        self.ways.as_ref().is_some_and(Vec::is_empty)
     }
 
     fn needs_change(&self) -> bool {
@@ -196,10 +195,14 @@ pub(in crate::interpreter) fn shown(
                 ways.within(reach).beyond(reach)
             }
         });
-        // A state that is possible only if a value changes is marked as such.
+        // A state that is possible only if a value changes is marked as such, one that needs none is the other.
         let size = |ways: &WaySet| {
-            let named = ways.conditions().count();
-            named * usize::from(!all_need_change(&ways_of(ways, conditions)))
+            let named = ways_of(ways, conditions);
+            match named.as_slice() {
+                [] => usize::MAX,
+                named if all_need_change(named) => 0,
+                _ => ways.conditions().count(),
+            }
         };
         let (if_off, if_on) = (state(Membership::Out), state(Membership::In));
         let states = if size(&off) <= size(&on) {

@@ -402,19 +402,19 @@ impl Evaluator<'_> {
     /// A value of a variable that the PLC may write, too (R2.99).
     fn relied_on(&self, name: &str, value: Value, span: Span) -> Value {
         let memory = self.scope.memory;
-        if let Value::Unknown(cause) = &value {
-            if SetVariable::of(cause).is_some() {
-                let written = as_written(span.of(self.text));
-                (self.scope.unknown)(&written, self.shown.unwrap_or(span));
-            }
-            return value;
+        let is_known = !matches!(value, Value::Unknown(_));
+        if let Value::Unknown(cause) = &value
+            && SetVariable::of(cause).is_some()
+        {
+            let written = as_written(span.of(self.text));
+            (self.scope.unknown)(&written, self.shown.unwrap_or(span));
         }
-        if !memory.may_change(name) {
-            return value;
+        let is_held = memory.set_at(name).is_some();
+        if is_held || (is_known && memory.may_change(name)) {
+            self.scope.relied.borrow_mut().push(name.to_owned());
         }
-        self.scope.relied.borrow_mut().push(name.to_owned());
         match self.scope.held {
-            HeldValues::Doubted if memory.set_at(name).is_some() => Value::Unknown(name.into()),
+            HeldValues::Doubted if is_known && is_held => Value::Unknown(name.into()),
             HeldValues::Taken | HeldValues::Doubted => value,
         }
     }

@@ -68,8 +68,8 @@ pub(in crate::interpreter) enum HeldValues {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ExternalVariables {
     pub(in crate::interpreter) names: Arc<ExternalNames>,
-    /// The variables that still have the value that the program set, and the blocks that did.
-    pub(super) held: PersistentMap<String, SetAt>,
+    /// The values of the program that variables may still have.
+    pub(super) held: PersistentMap<String, HeldVariable>,
     /// The block that set every other one to 0.
     pub(super) initialised: Option<SetAt>,
 }
@@ -81,9 +81,9 @@ impl ExternalVariables {
         !self.held.is_empty() || self.initialised.is_some()
     }
 
-    /// Another value takes the place of a held one. Returns the block that had set it.
+    /// Another value takes the place of those that the program set, which are returned.
     #[inline]
-    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<SetAt> {
+    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<HeldVariable> {
         if self.held.is_empty() {
             return None;
         }
@@ -96,17 +96,81 @@ impl ExternalVariables {
         self.names.is_own(name) || self.initialised.is_some() && self.names.may_change(name)
     }
 
-    /// Two ways meet: a variable is held if it is on both. Of two blocks that set it, the first is named.
+    /// Two ways meet: a variable may have the values that the program set on either.
     pub(super) fn join(&mut self, other: &Self) {
         for name in self.held.differing(&other.held) {
-            let both = self.held.get(&name).zip(other.held.get(&name));
-            match both.map(|(mine, theirs)| mine.min(theirs).clone()) {
-                Some(first) => drop(self.held.insert(name, first)),
-                None => drop(self.held.remove(&name)),
+            let both = [&*self, other].map(|it| it.held_or_initial(&name));
+            if let Some(joined) = both.into_iter().flatten().reduce(HeldVariable::join) {
+                self.held.insert(name, joined);
             }
         }
         if self.initialised != other.initialised {
             self.initialised = None;
+        }
+    }
+
+    fn held_or_initial(&self, name: &str) -> Option<HeldVariable> {
+        let initial = || {
+            let at = self.initialised.clone()?;
+            Some(HeldVariable::of(Value::Number(0.0), at))
+        };
+        self.held.get(name).cloned().or_else(initial)
+    }
+}
+
+/// Most values of a variable that are remembered; with more of them, each counts as set.
+const MAX_VALUES: usize = 8;
+
+/// The values that the program set in a variable, one on each way, since the PLC acted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct HeldVariable {
+    /// The first block that set it.
+    first: SetAt,
+    /// Each value, with the first block that set it; none where there are too many.
+    values: Vec<(Value, SetAt)>,
+}
+
+impl HeldVariable {
+    /// A variable that the program has set.
+    pub(in crate::interpreter) fn of(value: Value, at: SetAt) -> Self {
+        Self {
+            first: at.clone(),
+            values: vec![(value, at)],
+        }
+    }
+
+    /// The first block that set it.
+    pub(in crate::interpreter) fn first(&self) -> &SetAt {
+        &self.first
+    }
+
+    /// What remains of it where a condition tells its value.
+    pub(in crate::interpreter) fn with(&self, value: &Value) -> Option<Self> {
+        let mut values = self.values.iter();
+        let at = match values.find(|(known, _)| known == value) {
+            Some((_, at)) => at,
+            None if self.values.is_empty() => &self.first,
+            None => return None,
+        };
+        Some(Self::of(value.clone(), at.clone()))
+    }
+
+    fn join(self, other: Self) -> Self {
+        let is_any = self.values.is_empty() || other.values.is_empty();
+        let mut values = self.values;
+        for (value, at) in other.values {
+            match values.iter_mut().find(|(known, _)| *known == value) {
+                Some((_, known)) if *known > at => *known = at,
+                Some(_) => {}
+                None => values.push((value, at)),
+            }
+        }
+        if is_any || values.len() > MAX_VALUES {
+            values.clear();
+        }
+        Self {
+            first: self.first.min(other.first),
+            values,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::externals::{ExternalNames, SetAt, SetVariable};
+use super::externals::{ExternalNames, HeldVariable, SetAt, SetVariable};
 use super::memory::Memory;
 use super::value::Value;
 
@@ -19,8 +19,11 @@ impl Memory {
 
     /// The program has set a variable, which keeps its value until the PLC acts.
     pub(in crate::interpreter) fn hold(&mut self, name: &str, at: SetAt) {
-        if self.known(name).is_some() && self.externals.names.may_change(name) {
-            self.externals.held.insert(name.to_owned(), at);
+        if let Some(known) = self.known(name)
+            && self.externals.names.may_change(name)
+        {
+            let held = HeldVariable::of(known, at);
+            self.externals.held.insert(name.to_owned(), held);
         }
     }
 
@@ -30,7 +33,8 @@ impl Memory {
         let is_initial = || self.variables.value(name).is_none();
         let initialised = externals.initialised.as_ref();
         let initialised = initialised.filter(|_| externals.names.may_change(name) && is_initial());
-        externals.held.get(name).or(initialised)
+        let held = externals.held.get(name).map(HeldVariable::first);
+        held.or(initialised)
     }
 
     /// The PLC may write variables. Returns those of them that were held.
@@ -39,13 +43,14 @@ impl Memory {
         is_it: impl Fn(&str) -> bool,
     ) -> Vec<String> {
         let held = self.externals.held.iter().filter(|(name, _)| is_it(name));
-        let held: Vec<(String, SetAt)> =
-            held.map(|(name, at)| (name.clone(), at.clone())).collect();
-        for (name, at) in &held {
+        let held: Vec<(String, HeldVariable)> = held
+            .map(|(name, held)| (name.clone(), held.clone()))
+            .collect();
+        for (name, held) in &held {
             self.externals.held.remove(name);
             if let Some(known) = self.known(name) {
                 let given = self.given.get(name).cloned();
-                let unknown = || Value::Unknown(SetVariable::cause(name, &known, at));
+                let unknown = || Value::Unknown(SetVariable::cause(name, &known, held.first()));
                 self.variables.set(name, given.unwrap_or_else(unknown));
             }
         }
@@ -58,10 +63,10 @@ impl Memory {
         self.externals.are_held()
     }
 
-    /// The value that was held before another one took its place is held again.
-    pub(in crate::interpreter) fn hold_again(&mut self, name: &str, at: Option<SetAt>) {
-        if let Some(at) = at {
-            self.externals.held.insert(name.to_owned(), at);
+    /// Values that the program set are held again.
+    pub(in crate::interpreter) fn hold_again(&mut self, name: &str, held: Option<HeldVariable>) {
+        if let Some(held) = held {
+            self.externals.held.insert(name.to_owned(), held);
         }
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::externals::{ExternalVariables, SetAt};
+use super::externals::{ExternalVariables, HeldVariable};
 use super::found::FoundVariables;
 use super::names::{
     Array, NamedVariable, VariableNames, Weight, compare, join_value, parts, weight,
@@ -330,8 +330,8 @@ impl Memory {
         self.unknown_names.get_or_insert_with(|| cause.clone());
     }
 
-    /// Releases a variable that is held. Returns the block that had set it.
-    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<SetAt> {
+    /// Releases a variable that is held. Returns what the program had set.
+    pub(in crate::interpreter) fn release(&mut self, name: &str) -> Option<HeldVariable> {
         self.externals.release(name)
     }
 

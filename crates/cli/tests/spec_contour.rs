@@ -461,3 +461,40 @@ fn a_program_that_drives_no_path_has_no_figures() {
     assert!(text.contains("no path was driven while cutting"), "{text}");
     assert!(!text.contains("µm"), "{text}");
 }
+
+/// Rows of a mould along X with a wave in Z, in which Y only grows.
+fn mould(mode: &str) -> String {
+    let mut text = format!("G90 G01 X0 Y0 Z0 F1500\n{mode}\n");
+    for row in 0..4_u32 {
+        for step in 0..=40 {
+            let x = 2.0 * f64::from(if row % 2 == 0 { step } else { 40 - step });
+            let (y, z) = (0.5 * f64::from(row), (x / 10.0).sin());
+            let _ = writeln!(text, "X{x:.3} Y{y:.3} Z{z:.3}");
+        }
+    }
+    text + "M30\n"
+}
+
+#[test]
+fn rows_that_only_grow_have_no_reversals_across() {
+    // R11.29: and a list without look-ahead, which adds at once after each reversal, does no harm.
+    let counts = ["", "#CONTOUR MODE ON", "#HSC ON [CONTERROR 0.005]"].map(|mode| {
+        let bench = bench(&mould(mode));
+        bench.write(
+            "frictcomp.toml",
+            &MACHINE.replace("name = \"Z\"", "name = \"Z\"\nfrict_comp = true"),
+        );
+        let found = contour(&bench, &["--start", "X0,Y0,Z0"]);
+        let of = |axis: &str| {
+            let reversals = found["reversals"].as_array().expect("a list");
+            reversals.iter().filter(|it| it["axis"] == axis).count()
+        };
+        assert_eq!(of("Y"), 0, "{mode}");
+        let [on, off] = ["all_on", "all_off"].map(|run| number(&found[run]["rms"]));
+        assert!(on < 0.8 * off, "{mode}: {on} {off}");
+        (of("X"), of("Z"))
+    });
+    assert_eq!(counts[0], counts[1]);
+    assert_eq!(counts[0], counts[2]);
+    assert!(counts[0].0 >= 3 && counts[0].1 >= 8, "{counts:?}");
+}

@@ -44,6 +44,8 @@ struct MovingAxis {
     is_main: bool,
     /// The coefficients of the powers of the parameter.
     cubic: [f64; 4],
+    /// The steps from control point to control point.
+    steps: [f64; 3],
     /// The largest change of the position, the slope and the bend with the distance.
     largest: [f64; 3],
 }
@@ -66,9 +68,12 @@ impl MovingAxis {
 
     /// The first, second and third derivatives by the parameter.
     fn derivatives(&self, u: f64) -> [f64; 3] {
-        let [_, b, c, d] = self.cubic;
+        let [_, _, c, d] = self.cubic;
+        let [before, within, after] = self.steps;
+        let rest = 1.0 - u;
         [
-            b + u * (2.0 * c + 3.0 * d * u),
+            // No weight is negative: steps in one direction never give a motion in the other.
+            0.5 * (rest * rest * before + (1.0 + 2.0 * u * rest) * within + u * u * after),
             2.0 * c + 6.0 * d * u,
             6.0 * d,
         ]
@@ -105,6 +110,7 @@ impl SplineSpan {
                     f64::midpoint(p, r) - q,
                     (s - p + 3.0 * (q - r)) / 6.0,
                 ],
+                steps: [q - p, r - q, s - r],
                 largest: [0.0; 3],
             }
         };

@@ -26,6 +26,7 @@ mod segment;
 mod share;
 mod smoothing;
 mod trace;
+mod turns;
 
 pub use cycle::{CycleError, check_cycle};
 pub use frictcomp::interpreter::{Contouring, PositionFrame, Simplification, Simplifications};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::look_ahead::LookAhead;
 use super::segment::PathSegment;
-use super::smoothing::{AxisPositions, SmoothRun};
+use super::smoothing::{AxisPositions, Bend, SmoothRun};
 use super::trace::{Cause, Dwell, Movement, TraceSink};
 use frictcomp::interpreter::{BlockEnd, Contouring, Joining};
 
@@ -63,6 +63,10 @@ enum CornerPassage {
     Joined {
         /// Distance of the curve from its chords, in mm.
         sagitta: f64,
+        /// The bend there.
+        bend: Bend,
+        /// The distance in mm that the mode permits.
+        tolerance: f64,
     },
     /// The corner is rounded.
     Corner(Corner),
@@ -146,10 +150,15 @@ impl Rounding {
                 self.flush(None, sink)?;
                 self.begin(next, None);
             }
-            CornerPassage::Joined { sagitta } => {
+            CornerPassage::Joined {
+                sagitta,
+                bend,
+                tolerance,
+            } => {
                 self.transitions.joined += 1;
                 note(&mut self.transitions.sagitta, sagitta, &next.segment.cause);
-                self.run.push(next.segment.ends().into());
+                let place = next.segment.ends().into();
+                self.run.join(place, (bend, tolerance));
                 self.blocks.push_back(next);
                 while self.blocks.len() > 1 && self.run.is_ready(self.next) {
                     self.hand_on_span(sink)?;
@@ -271,6 +280,21 @@ impl Rounding {
         self.look_ahead.add(segment, sink)
     }
 
+    /// Whether an axis moves the other way in the last block only: a curve through all three blocks may
+    /// pass over its stroke (R11.29).
+    fn is_stroke_between(&self, next: &PathSegment) -> bool {
+        let mut blocks = self.blocks.iter().rev();
+        let (Some(last), Some(before)) = (blocks.next(), blocks.next()) else {
+            return false;
+        };
+        let step =
+            |segment: &PathSegment, axis: usize| segment.ends()[axis] - segment.starts()[axis];
+        (0..next.axes()).any(|axis| {
+            let here = step(&last.segment, axis);
+            here * step(&before.segment, axis) < 0.0 && here * step(next, axis) < 0.0
+        })
+    }
+
     /// Returns the passage of the transition from the last block to the next one.
     fn passage(&self, last: &Straight, next: &PathSegment) -> CornerPassage {
         let Some(contouring) = &last.contouring else {
@@ -302,17 +326,27 @@ impl Rounding {
             .filter(|axis| !self.main[*axis])
             .map(|axis| (two(axis) - one(axis)).abs() * before.min(after))
             .fold(0.0, f64::max);
+        let bend = if kink <= FINE_KINK && bow <= FINE.min(4.0 * tolerance) {
+            Bend::Fine
+        } else {
+            Bend::Coarse
+        };
         let joins = match contouring.joining {
             Joining::WithinTolerance => {
+                let is_lost = bend == Bend::Coarse && self.is_stroke_between(next);
                 let angle = contouring
                     .max_angle_deg
                     .map_or(TURNS_BACK / 2.0, f64::to_radians);
-                kink <= angle && sagitta <= tolerance
+                kink <= angle && sagitta <= tolerance && !is_lost
             }
-            _ => kink <= FINE_KINK && bow <= FINE.min(4.0 * tolerance),
+            _ => bend == Bend::Fine,
         };
         if joins && is_even && tolerance > 0.0 && beside <= 4.0 * tolerance {
-            return CornerPassage::Joined { sagitta };
+            return CornerPassage::Joined {
+                sagitta,
+                bend,
+                tolerance,
+            };
         }
         let angle = contouring.max_angle_deg.map_or(TURNS_BACK, f64::to_radians);
         if kink < STRAIGHT || kink > angle.min(TURNS_BACK) {

@@ -3,9 +3,10 @@
 //! The coordinates of a program are rounded, and a curve through rounded vertices has a curvature
 //! that is mostly noise: with chords of 0.1 mm the last of four decimals bends the path as much as a
 //! radius of 100 mm does. Vertices are therefore weighted means of their neighbours, with weights that keep
-//! straight and evenly curved paths unchanged; they are the control points of a cubic B-spline.
+//! straight and evenly curved paths unchanged; they are the control points of a cubic B-spline. A vertex at
+//! which the path bends by more than its decimals do is not weighed, and no weights reach across it.
 
-use std::collections::VecDeque;
+use super::turns::{AHEAD, AxisCourse, AxisRun, Window};
 
 /// Maximum number of vertices weighed on either side.
 const WIDEST: usize = 12;
@@ -35,56 +36,96 @@ fn weights(half: usize) -> Vec<f64> {
 /// Positions of axes.
 pub(super) type AxisPositions = Box<[f64]>;
 
+/// The share of the tolerance by which the weights may move a vertex.
+const MOVED: f64 = 1.0 / 3.0;
+
+/// A vertex of a run.
+#[derive(Debug)]
+struct Vertex {
+    place: AxisPositions,
+    /// The greatest distance in mm by which it may be moved along an axis.
+    room: f64,
+}
+
+/// Bend of the path at a vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bend {
+    /// Not more than the decimals of the program.
+    Fine,
+    /// More than that.
+    Coarse,
+}
+
 /// The vertices of a run of short lines, from which control points are made as it continues.
 #[derive(Debug)]
 pub(super) struct SmoothRun {
     weights: Vec<Vec<f64>>,
     /// The vertices that are still needed.
-    vertices: VecDeque<AxisPositions>,
-    /// The number of the first of them in the run.
-    first: usize,
+    vertices: Window<Vertex>,
     /// The number of the last vertex, once it is known.
     last: Option<usize>,
-    /// The smooth vertices around the newest span.
-    smooth: VecDeque<AxisPositions>,
-    /// The number of the first of them in the run.
-    first_smooth: usize,
+    /// The vertices without the noise of their decimals.
+    smooth: Window<AxisPositions>,
+    /// The control points of a spline through them.
+    wanted: Window<AxisPositions>,
+    /// The control points, which turn where the vertices do.
+    control: Window<AxisPositions>,
+    /// By axis.
+    courses: Vec<AxisCourse>,
+    /// The last vertex with a coarse bend.
+    coarse: usize,
 }
 
 impl SmoothRun {
     pub(super) fn new() -> Self {
         Self {
             weights: (0..=WIDEST).map(weights).collect(),
-            vertices: VecDeque::new(),
-            first: 0,
+            vertices: Window::default(),
             last: None,
-            smooth: VecDeque::new(),
-            first_smooth: 0,
+            smooth: Window::default(),
+            wanted: Window::default(),
+            control: Window::default(),
+            courses: Vec::new(),
+            coarse: 0,
         }
     }
 
     /// Begins a run at its first vertex.
-    pub(super) fn begin(&mut self, vertex: AxisPositions) {
+    pub(super) fn begin(&mut self, place: AxisPositions) {
+        self.courses = vec![AxisCourse::default(); place.len()];
         self.vertices.clear();
-        self.vertices.push_back(vertex);
-        self.smooth.clear();
-        (self.first, self.first_smooth, self.last) = (0, 0, None);
+        for points in [&mut self.smooth, &mut self.wanted, &mut self.control] {
+            points.clear();
+        }
+        (self.last, self.coarse) = (None, 0);
+        self.vertices.push(Vertex { place, room: 0.0 });
     }
 
     /// Adds the next vertex.
-    pub(super) fn push(&mut self, vertex: AxisPositions) {
-        self.vertices.push_back(vertex);
+    pub(super) fn push(&mut self, place: AxisPositions) {
+        self.vertices.push(Vertex { place, room: 0.0 });
+    }
+
+    /// Adds the next vertex, after one with this bend and tolerance in mm.
+    pub(super) fn join(&mut self, place: AxisPositions, (bend, tolerance): (Bend, f64)) {
+        if let Some(newest) = self.vertices.newest_mut() {
+            newest.room = match bend {
+                Bend::Fine => MOVED * tolerance,
+                Bend::Coarse => 0.0,
+            };
+        }
+        self.push(place);
     }
 
     /// The number of the newest vertex.
     pub(super) fn newest(&self) -> usize {
-        (self.first + self.vertices.len()).saturating_sub(1)
+        self.vertices.newest()
     }
 
     /// Ends the run at another place than its newest vertex.
-    pub(super) fn end(&mut self, vertex: Option<AxisPositions>) {
-        if let (Some(vertex), Some(newest)) = (vertex, self.vertices.back_mut()) {
-            *newest = vertex;
+    pub(super) fn end(&mut self, place: Option<AxisPositions>) {
+        if let (Some(place), Some(newest)) = (place, self.vertices.newest_mut()) {
+            newest.place = place;
         }
         self.last = Some(self.newest());
     }
@@ -92,80 +133,136 @@ impl SmoothRun {
     /// Whether the span after a vertex can be made: all vertices that it depends on are known and
     /// final, which the newest may not be.
     pub(super) fn is_ready(&self, span: usize) -> bool {
-        self.last.is_some() || span + 4 + WIDEST <= self.newest()
+        self.last.is_some() || span + 4 + WIDEST + AHEAD <= self.newest()
     }
 
     pub(super) fn vertex(&self, number: usize) -> &AxisPositions {
-        let at = number.saturating_sub(self.first);
-        &self.vertices[at.min(self.vertices.len() - 1)]
+        &self.vertices.at(number).place
     }
 
     /// The four control points of the span after a vertex, which is never before that of the last call.
     pub(super) fn span(&mut self, number: usize) -> [AxisPositions; 4] {
-        self.smooth_around(number);
+        self.turn_as_vertices(self.within(number + 2));
+        let control = |number: usize| self.control.at(number).clone();
         let before = match number.checked_sub(1) {
-            Some(before) => self.control(before),
-            None => mirrored(self.vertex(0), &self.control(1)),
+            Some(before) => control(before),
+            None => mirrored(self.vertex(0), &control(1)),
         };
         let after = if self.last == Some(number + 1) {
-            mirrored(self.vertex(number + 1), &self.control(number))
+            mirrored(self.vertex(number + 1), &control(number))
         } else {
-            self.control(number + 2)
+            control(number + 2)
         };
-        [
-            before,
-            self.control(number),
-            self.control(number + 1),
-            after,
-        ]
+        [before, control(number), control(number + 1), after]
     }
 
-    /// Forgets the vertices that are not needed for any span from one on.
+    /// Forgets what is not needed for any span from one on.
     pub(super) fn forget_before(&mut self, span: usize) {
-        while self.first + WIDEST + 2 < span {
-            self.vertices.pop_front();
-            self.first += 1;
+        self.vertices.forget_before(span.saturating_sub(WIDEST + 1));
+        self.smooth.forget_before(span.saturating_sub(1));
+        self.wanted.forget_before(span.saturating_sub(1));
+        self.control.forget_before(span.saturating_sub(1));
+    }
+
+    /// A number of a vertex, which is not after the last one.
+    fn within(&self, number: usize) -> usize {
+        self.last.map_or(number, |last| last.min(number))
+    }
+
+    /// Makes the control points up to one, which turn where the vertices do.
+    fn turn_as_vertices(&mut self, to: usize) {
+        for number in self.control.next()..=to {
+            let last = self.within(number + AHEAD);
+            self.want(last);
+            let is_end = self.last == Some(number);
+            let mut point = self.wanted.at(number).clone();
+            for (axis, to) in point.iter_mut().enumerate().filter(|_| !is_end) {
+                let (vertices, wanted) = (&self.vertices, &self.wanted);
+                let run = AxisOfRun {
+                    vertices,
+                    wanted,
+                    axis,
+                    last,
+                };
+                *to = self.courses[axis].next(number, &run);
+            }
+            self.control.push(point);
         }
     }
 
-    /// A control point: the smooth vertex, moved beyond it so that the spline passes through it.
-    fn control(&self, number: usize) -> AxisPositions {
-        let smooth = |number: usize| &self.smooth[number - self.first_smooth];
-        let own = smooth(number);
-        let inner = number >= 2 && self.last.is_none_or(|last| number + 2 <= last);
-        if !inner {
+    /// Makes the control points up to one of a spline through the smooth vertices.
+    fn want(&mut self, to: usize) {
+        for number in self.wanted.next()..=to {
+            for vertex in self.smooth.next()..=self.within(number + 1) {
+                let smooth = self.weighed(vertex);
+                self.smooth.push(smooth);
+            }
+            let wanted = self.through(number);
+            self.wanted.push(wanted);
+        }
+    }
+
+    /// The smooth vertex, moved beyond it so that the spline passes through it.
+    fn through(&self, number: usize) -> AxisPositions {
+        let own = self.smooth.at(number);
+        let rest = self.last.map_or(WIDEST, |last| last.saturating_sub(number));
+        let is_coarse = self.vertices.at(number).room == 0.0;
+        // Next to an end, where the spline does not bend, it would bend more than a fine curve does.
+        let nearest = if is_coarse { 1 } else { 2 };
+        if number.min(rest) < nearest {
             return own.clone();
         }
-        let (before, after) = (smooth(number - 1), smooth(number + 1));
+        let (before, after) = (self.smooth.at(number - 1), self.smooth.at(number + 1));
         let axes = own.iter().zip(before.iter().zip(after.iter()));
-        axes.map(|(own, (before, after))| own - (before - 2.0 * own + after) / 6.0)
+        axes.map(|(own, (before, after))| own - ((before - own) + (after - own)) / 6.0)
             .collect()
     }
 
-    /// Makes the smooth vertices that a span depends on, each once.
-    fn smooth_around(&mut self, span: usize) {
-        while self.first_smooth + 2 < span {
-            self.smooth.pop_front();
-            self.first_smooth += 1;
-        }
-        let last = self.last.map_or(span + 3, |last| last.min(span + 3));
-        for number in self.first_smooth + self.smooth.len()..=last {
-            self.smooth.push_back(self.weighed(number));
-        }
-    }
-
-    fn weighed(&self, number: usize) -> AxisPositions {
+    fn weighed(&mut self, number: usize) -> AxisPositions {
         let rest = self.last.map_or(WIDEST, |last| last.saturating_sub(number));
-        let half = WIDEST.min(number).min(rest);
+        let room = self.vertices.at(number).room;
+        if room == 0.0 {
+            self.coarse = number;
+        }
+        let most = WIDEST.min(number - self.coarse).min(rest);
+        let is_fine = |far: &usize| self.vertices.at(number + far).room > 0.0;
+        let half = (1..=most).take_while(is_fine).count();
+        // The weights may reach a coarse vertex, but not across it.
+        let half = most.min(half + 1);
         let own = self.vertex(number);
-        let mut smooth: AxisPositions = own.iter().map(|x| x * self.weights[half][0]).collect();
+        let mut moved: AxisPositions = vec![0.0; own.len()].into();
         for (at, weight) in self.weights[half].iter().enumerate().skip(1) {
             let sides = [self.vertex(number - at), self.vertex(number + at)];
-            for (axis, sum) in smooth.iter_mut().enumerate() {
-                *sum += weight * (sides[0][axis] + sides[1][axis]);
+            for (axis, sum) in moved.iter_mut().enumerate() {
+                *sum += weight * ((sides[0][axis] - own[axis]) + (sides[1][axis] - own[axis]));
             }
         }
-        smooth
+        let axes = own.iter().zip(&moved);
+        axes.map(|(own, moved)| own + moved.clamp(-room, room))
+            .collect()
+    }
+}
+
+/// A run as one axis sees it.
+struct AxisOfRun<'a> {
+    vertices: &'a Window<Vertex>,
+    wanted: &'a Window<AxisPositions>,
+    axis: usize,
+    last: usize,
+}
+
+impl AxisRun for AxisOfRun<'_> {
+    fn step(&self, vertex: usize) -> f64 {
+        let [from, to] = [vertex, vertex + 1].map(|number| &self.vertices.at(number).place);
+        to[self.axis] - from[self.axis]
+    }
+
+    fn wanted(&self, vertex: usize) -> f64 {
+        self.wanted.at(vertex)[self.axis]
+    }
+
+    fn last(&self) -> usize {
+        self.last
     }
 }
 

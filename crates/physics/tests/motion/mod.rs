@@ -6,6 +6,7 @@ mod forms;
 mod limits;
 mod listed;
 mod start;
+mod turns;
 mod unknown;
 
 use std::ops::ControlFlow;

@@ -11,7 +11,7 @@ use super::exit;
 use super::failure::Failure;
 use super::identify::refusal;
 use super::outputs::{Outputs, write_text};
-use super::recorded_files::recordings_in;
+use super::recorded_files::{copies_among, recordings_in};
 use super::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, read_axis};
@@ -62,7 +62,14 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
         changes: Vec::new(),
         left_out: Vec::new(),
     };
-    for path in &paths {
+    let (dated, undated): (Vec<PathBuf>, Vec<PathBuf>) =
+        paths.iter().cloned().partition(|it| date_of(it).is_some());
+    for (path, copy) in dated.iter().zip(copies_among(&dated)) {
+        if let Some(of) = copy {
+            let reason = format!("it is a copy of `{}`", shown_path(of));
+            report.left_out.push((shown_path(path), reason));
+            continue;
+        }
         match args.dated(path) {
             Ok((dated, unit)) if report.unit.is_empty() || report.unit == unit => {
                 report.unit = unit;
@@ -75,6 +82,11 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
             Err(failure) => report.left_out.push((shown_path(path), failure.message)),
         }
     }
+    let no_date = "its name has no date such as 2026-03-01";
+    let undated = undated
+        .iter()
+        .map(|it| (shown_path(it), no_date.to_owned()));
+    report.left_out.extend(undated);
     report.dates.sort_by(|one, other| one.date.cmp(&other.date));
     if report.dates.len() < 2 {
         let message = format!(
@@ -104,9 +116,7 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
 impl TrendArgs {
     /// Returns the friction of a recording with its date, and the unit of its torque.
     fn dated(&self, path: &Path) -> Result<(DatedFriction, String), Failure> {
-        let name = path.file_name().map(|it| it.to_string_lossy().into_owned());
-        let (date, day) = date_in(&name.unwrap_or_default())
-            .ok_or_else(|| Failure::new("its name has no date such as 2026-03-01"))?;
+        let (date, day) = date_of(path).unwrap_or_default();
         let cycle = self.cycle.seconds()?;
         let recording = read_axis(path, &self.channels.selection(), cycle)?;
         let options = IdentifyOptions {
@@ -132,6 +142,11 @@ impl TrendArgs {
             unit,
         ))
     }
+}
+
+/// Returns the first date in the name of a file, and the days since 1970-01-01.
+fn date_of(path: &Path) -> Option<(String, f64)> {
+    date_in(&path.file_name()?.to_string_lossy())
 }
 
 /// Returns the first date in a name, `2026-03-01`, and the days since 1970-01-01.

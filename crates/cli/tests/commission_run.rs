@@ -441,7 +441,7 @@ fn one_feed_without_effect(folder: &Path) {
     let off = circles(folder, "m/67-circle-3000.nc", &deviations(3000.0, None));
     put(folder, "on3000.csv", &off);
     let (status, text) = run(folder, &[]);
-    let words = "at F3000 off and on hardly differ, and at the next feeds they do";
+    let words = "at F3000 off and on hardly differ on X, and at the next feeds they do";
     assert!(status == Some(1) && text.contains(words), "{text}");
     std::fs::write(path, whole).expect("written");
     // Nor at the fastest feed, which has neighbouring feeds on one side only.
@@ -450,7 +450,7 @@ fn one_feed_without_effect(folder: &Path) {
     let off = circles(folder, "m/69-circle-5000.nc", &deviations(5000.0, None));
     put(folder, "on5000.csv", &off);
     let (status, text) = run(folder, &[]);
-    let words = "at F5000 off and on hardly differ, and at the next feeds they do";
+    let words = "at F5000 off and on hardly differ on X, and at the next feeds they do";
     assert!(status == Some(1) && text.contains(words), "{text}");
     std::fs::write(path, whole).expect("written");
 }

@@ -202,3 +202,39 @@ fn what_did_not_change_is_said_and_one_date_is_no_trend() {
         "{said}"
     );
 }
+
+/// R18.9: a recording given twice is named and does not count as two.
+#[test]
+fn a_recording_given_twice_is_no_second_one() {
+    let twice = folder(&[("2026-03-01.csv", 1.0, 0.0), ("2027-03-01.csv", 1.0, 0.0)]);
+    let (status, said) = call(twice.path(), &["trend", "r"]);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(
+        said.contains("2027-03-01.csv: it is a copy of `r/2026-03-01.csv`"),
+        "{said}"
+    );
+    let [one, other] = ["r/2026-03-01.csv", "r/2027-03-01.csv"];
+    for (arguments, words) in [
+        (
+            vec!["identify", "--circles", one, other],
+            "`r/2027-03-01.csv` is a copy of `r/2026-03-01.csv`",
+        ),
+        (
+            vec!["identify", "--circles", one, one],
+            "`r/2026-03-01.csv` was given twice",
+        ),
+        (
+            vec![
+                "identify",
+                "--recording",
+                "cold=r/2026-03-01.csv",
+                "--recording",
+                "warm=r/2027-03-01.csv",
+            ],
+            "is a copy of",
+        ),
+    ] {
+        let (status, said) = call(twice.path(), &arguments);
+        assert!(status == Some(2) && said.contains(words), "{said}");
+    }
+}

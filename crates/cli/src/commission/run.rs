@@ -18,8 +18,8 @@ use frictcomp_host::{
     FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, MOST_CURRENT, MeasuredAxis, MeasuringProgram, Plan,
-    RecordingResult, Stage, before_after, refuse_strangers, without_effect,
+    BeforeAfter, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis, MeasuringProgram, Plan,
+    RecordingResult, Stage, before_after, feeds_against, refuse_strangers,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -286,10 +286,10 @@ fn rounds(
     for (number, plan) in (2..).zip(second) {
         let is_off = |number: u16| stage_of(plans, number) == Some(Stage::Off);
         let is_on = |number: u16| plan.plan.programs.iter().any(|it| it.number == number);
-        let recorded = before_after(results, is_off, is_on);
+        let recorded = before_after(results, &plan.plan.axes, (is_off, is_on));
         let mut against = None;
         if !recorded.is_empty() {
-            let mut reasons = feeds_against(plan, &recorded, &rounds);
+            let mut reasons = against_feeds(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
             reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
@@ -306,48 +306,20 @@ fn rounds(
     Ok(rounds)
 }
 
-/// Returns the feeds at which the lists of a round leave more than without them, or than those accepted
-/// last, feeds that are not recorded, and lists that show no effect.
-fn feeds_against(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
-    let unit = glitch_unit(&plan.plan);
-    let accepted = earlier.iter().rev().find(|it| it.is_accepted());
-    let at = |recorded: &[BeforeAfter], feed: f64| {
-        let mut recorded = recorded.iter();
-        recorded
-            .find(|it| it.feed.total_cmp(&feed).is_eq())
-            .cloned()
-    };
-    let mut against = Vec::new();
+/// Returns what the recorded feeds say against the lists of a round.
+fn against_feeds(plan: &PlanFile, recorded: &[BeforeAfter], earlier: &[Round]) -> Vec<String> {
     let programs = plan.plan.programs.iter();
-    for &feed in programs.flat_map(MeasuringProgram::reversal_feeds) {
-        let Some(now) = at(recorded, feed) else {
-            against.push(format!("F{feed} is not recorded both off and on"));
-            continue;
-        };
-        let old = accepted.and_then(|round| Some((round.number, at(&round.recorded, feed)?.on)));
-        if now.is_worse() {
-            against.push(format!(
-                "at F{feed} {:.1} {unit} are left, more than the {:.1} {unit} without it",
-                now.on, now.off
-            ));
-        } else if let Some((round, before)) = old.filter(|it| now.on > it.1) {
-            against.push(format!(
-                "at F{feed} {:.1} {unit} are left, more than the {before:.1} {unit} of round {round}",
-                now.on
-            ));
-        }
-    }
-    for feed in without_effect(recorded) {
-        against.push(format!(
-            "at F{feed} off and on hardly differ, and at the next feeds they do: compensation was the same in both"
-        ));
-    }
-    if !recorded.iter().any(BeforeAfter::shows_an_effect) {
-        against.push(
-            "off and on hardly differ at any feed: the lists were not on, or on in both".to_owned(),
-        );
-    }
-    against
+    let feeds: Vec<f64> = programs
+        .flat_map(MeasuringProgram::reversal_feeds)
+        .copied()
+        .collect();
+    let accepted = earlier.iter().rev().find(|it| it.is_accepted());
+    feeds_against(&JudgedRound {
+        feeds: &feeds,
+        recorded,
+        accepted: accepted.map(|it| (it.number, &it.recorded[..])),
+        unit: glitch_unit(&plan.plan),
+    })
 }
 
 /// Returns the lists of a round that differ from the recorded ones, or add too much.

@@ -11,6 +11,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
+use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp::text::shown_path;
 use frictcomp_host::{FileRegistry, OutputFile, read_axis};
@@ -50,6 +51,7 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         Ok::<_, Failure>(read_axis(path, &args.channels.selection(), cycle)?)
     };
     if args.circles {
+        refuse_copies(&args.traces)?;
         let recordings = args
             .traces
             .iter()

@@ -1,10 +1,13 @@
 //! Recordings of one axis in several states: `--recording cold=FILE --recording warm=FILE` (R16.6).
 
+use std::path::PathBuf;
+
 use super::args::IdentifyArgs;
 use crate::console::Console;
 use crate::exit;
 use crate::failure::Failure;
 use crate::outputs::{Outputs, write_text};
+use crate::recorded_files::refuse_copies;
 use crate::result::ResultFormat;
 use frictcomp_host::{FileRegistry, read_axis};
 use frictcomp_recordings::identify::{ComparedStates, IdentifyOptions};
@@ -36,6 +39,8 @@ pub(super) fn run(
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     outputs.print("the result")?;
     outputs.check()?;
+    let paths: Vec<PathBuf> = args.recording.iter().map(|it| it.1.clone()).collect();
+    refuse_copies(&paths)?;
     let cycle = args.cycle.seconds()?;
     let states = args.recording.iter().map(|(name, path)| {
         let recording = read_axis(path, &args.channels.selection(), cycle)?;

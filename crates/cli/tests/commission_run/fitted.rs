@@ -274,16 +274,19 @@ fn check_pictures(folder: &Path) {
     }
 }
 
-/// R16.9: a held-out feed that the recording misses and a value at the bound of its search reject the plant, each with
+/// R16.9, R16.16: a held-out feed at which more is recorded than predicted and a value at the bound of its search reject the plant, each with
 /// exit status 1 if nothing else is open.
 fn a_plant_is_rejected(folder: &Path) {
     let path = folder.join("m/results.json");
     let whole = std::fs::read_to_string(&path).expect("results");
-    let with = |change: &dyn Fn(&mut Value)| {
+    let changed = |change: &dyn Fn(&mut Value)| {
         let mut results: Value = serde_json::from_str(&whole).expect("a record");
         change(&mut results["plants"][0]);
         std::fs::write(&path, results.to_string()).expect("written");
-        let (status, text) = run(folder, &[&PLANT[..], &["--html", "report.html"]].concat());
+        run(folder, &[&PLANT[..], &["--html", "report.html"]].concat())
+    };
+    let with = |change: &dyn Fn(&mut Value)| {
+        let (status, text) = changed(change);
         assert!(
             text.contains("the plant is rejected, and the earlier lists stay:")
                 && !text.contains("tuned list m/lists"),
@@ -294,15 +297,27 @@ fn a_plant_is_rejected(folder: &Path) {
         assert!(page.contains("The plant is rejected by the recordings"));
         text
     };
-    let missed = with(&|plant| {
+    let predicted = |plant: &mut Value, factor: f64| {
         let glitches = plant["predicted_glitches"]
             .as_array_mut()
             .expect("glitches");
         let mut held_out = glitches.iter_mut().filter(|it| it["feed"] == 2400.0);
         let glitch = &mut held_out.next().expect("a glitch")["predicted_glitch"];
-        *glitch = (2.0 * glitch.as_f64().expect("a number")).into();
-    });
+        *glitch = (factor * glitch.as_f64().expect("a number")).into();
+    };
+    let missed = with(&|plant| predicted(plant, 0.5));
     assert!(missed.contains("at F2400"), "{missed}");
+    // R16.16: a machine that does better retires the plant, and its list stays accepted.
+    let (status, better) = changed(&|plant| predicted(plant, 2.0));
+    assert!(
+        better.contains("the machine does better than the plant") && better.contains("accepted: X"),
+        "{better}"
+    );
+    assert!(
+        !better.contains("rejected") && !better.contains("tuned list m/lists"),
+        "{better}"
+    );
+    assert_eq!(status, Some(0), "{better}");
     let bound = with(&|plant| plant["predicted_axes"][1]["speed_gain"]["at_bound"] = true.into());
     let words = "Kp of Y ends at the bound of its search";
     assert!(bound.contains(words), "{bound}");

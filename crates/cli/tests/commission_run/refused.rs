@@ -367,7 +367,6 @@ fn circles_count_with_what_was_driven() {
         ),
         (other.clone(), "not used: it is a copy of `b.csv`"),
         (row(&|it| [it[0] * 10.0, it[1], it[2]]), missing),
-        (worse, "not used: its turns are not alike: at "),
         (
             // In the evaluated turn, as wide as the effect of a reversal.
             rows(&|at| !(pierced..pierced + 60).contains(&at)),
@@ -399,6 +398,11 @@ fn circles_count_with_what_was_driven() {
             "{words}: {said}"
         );
     }
+    // R16.11: turns that differ are said, and the largest counts.
+    put(folder, "c.csv", &worse);
+    let (_, said) = run(folder, &[]);
+    let is_counted = said.contains("turns ccw differ by") && said.contains("the largest of 3");
+    assert!(is_counted && !said.contains(missing), "{said}");
     put(folder, "c.csv", &exchanged);
     let (_, said) = run(folder, &["--role", "c.csv=3"]);
     let words = "not used: it begins clockwise and its program counter-clockwise";
@@ -458,7 +462,7 @@ fn lists_that_are_not_accepted_say_why() {
         "times the measured friction; the limit is 1.3",
         "the friction of Y is not known",
         "F3000 is not recorded both off and on",
-        "off and on hardly differ at any feed: the lists were not on, or on in both",
+        "off and on hardly differ on X at any feed: its list was not on, or on in both",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -63,8 +63,8 @@ pub use learn::{
 pub use method::Method;
 pub use profile::{ANGLES, RadialProfile, UM_PER_M};
 pub use recorded::{
-    CommandedCircle, LeftOut, MIN_POINTS, RecordedCircle, RecordedError, RecordedTrace, Recording,
-    WholeTurns, WorseTurn,
+    CommandedCircle, GlitchOrder, LeftOut, MIN_POINTS, MeasuredGlitch, RecordedCircle,
+    RecordedError, RecordedTrace, Recording, WholeTurns, WorseTurn,
 };
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;

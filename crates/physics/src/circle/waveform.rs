@@ -1,6 +1,5 @@
 //! The deviation of one axis over the time since its reversal.
 
-use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::glitch::straightened;
 use super::profile::{PER_DEGREE, RadialProfile};
@@ -26,20 +25,6 @@ pub struct Waveform {
 }
 
 impl Waveform {
-    /// The reversals of an axis on a recorded turn, at its largest and at its smallest position; `None` if
-    /// the turn has no glitches or no times.
-    pub(in crate::circle) fn reversals(
-        axis: PlaneAxis,
-        turn: &RadialProfile,
-        direction: Direction,
-    ) -> Option<[Self; 2]> {
-        let [x_plus, y_plus, x_minus, y_minus] = Self::at_crossings(turn, direction)?;
-        Some(match axis {
-            PlaneAxis::X => [x_plus, x_minus],
-            PlaneAxis::Y => [y_plus, y_minus],
-        })
-    }
-
     /// The reversals at the four crossings of a recorded turn; `None` if it has no glitches or no times.
     pub(in crate::circle) fn at_crossings(
         profile: &RadialProfile,
@@ -95,6 +80,29 @@ impl Waveform {
             first,
             um: (first..end).map(mean).collect(),
         }
+    }
+
+    /// The number of independent samples in a mean over 8 ms, for samples a number of seconds apart and a turn of
+    /// a number of seconds: a profile has one at each fixed angle at most.
+    pub(in crate::circle) fn samples_of_a_mean(step_s: f64, turn_s: f64) -> f64 {
+        let angle_s = turn_s / 360.0 / f64::from(PER_DEGREE);
+        (2.0 * HALF_MEAN_S / step_s.max(angle_s)).max(1.0)
+    }
+
+    /// The height in µm without the noise of its samples, and its standard error. Each sample becomes the mean over
+    /// as many neighbours as show nothing but noise (Lepski), so that the noise of the flat part does not count as
+    /// height. `None` without samples.
+    pub(in crate::circle) fn without_noise(&self, noise_um: f64) -> Option<(f64, f64)> {
+        let mut sums = vec![0.0];
+        for it in &self.um {
+            sums.push(sums[sums.len() - 1] + it);
+        }
+        let smooth = (0..self.um.len()).map(|at| quiet_mean(&sums, at, noise_um));
+        let smooth: Vec<(f64, f64)> = smooth.collect();
+        let of = |one: &&(f64, f64), other: &&(f64, f64)| one.0.total_cmp(&other.0);
+        let low = smooth.iter().min_by(of)?;
+        let high = smooth.iter().max_by(of)?;
+        Some((high.0 - low.0, low.1.hypot(high.1)))
     }
 
     /// From the least to the largest deviation in µm.
@@ -182,6 +190,35 @@ impl Waveform {
     fn end(&self) -> i32 {
         self.first + i32::try_from(self.um.len()).unwrap_or(i32::MAX)
     }
+}
+
+/// The mean around a sample over the widest part in which it differs from narrower ones by no more than their
+/// noise, and its standard error; from sums up to each sample and the noise of a sample, a mean over 8 ms.
+fn quiet_mean(sums: &[f64], at: usize, noise_um: f64) -> (f64, f64) {
+    /// Means differ by more than noise from this many standard errors on.
+    const APART: f64 = 2.0;
+    /// Samples that have the same noise: 8 ms.
+    const OF_A_MEAN: f64 = 4.0;
+    const WIDEST: usize = 64;
+    let mean = |half: usize| {
+        let (from, to) = (at.saturating_sub(half), (at + half + 1).min(sums.len() - 1));
+        let error = noise_um * (OF_A_MEAN / real(to - from)).min(1.0).sqrt();
+        ((sums[to] - sums[from]) / real(to - from), error)
+    };
+    let mut best = mean(0);
+    let [mut low, mut high] = [-1.0, 1.0].map(|it| best.0 + it * APART * best.1);
+    let mut half = 2;
+    while half <= WIDEST {
+        let wider = mean(half);
+        if !(low..=high).contains(&wider.0) {
+            break;
+        }
+        best = wider;
+        low = low.max(wider.0 - APART * wider.1);
+        high = high.min(wider.0 + APART * wider.1);
+        half *= 2;
+    }
+    best
 }
 
 /// The value at a time on straight lines between points.

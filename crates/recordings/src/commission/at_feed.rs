@@ -1,4 +1,6 @@
-//! The feed of a recording compared with the planned one, and the glitch there.
+//! The feed of a recording compared with the planned one, and the glitches there.
+
+use frictcomp_physics::circle::{Direction, MeasuredGlitch};
 
 /// A measured speed is the planned one within this part.
 pub(super) const ON_FEED: f64 = 0.02;
@@ -12,14 +14,18 @@ const SLOWEST: f64 = 0.8;
 /// … and at no more than this.
 const FASTEST: f64 = 1.25;
 
-/// The glitch of a recording at a feed.
-#[derive(Debug, Clone, Copy)]
+/// The glitches of a recording at a feed.
+#[derive(Debug, Clone)]
 pub(super) struct AtFeed {
     /// The planned feed.
     pub(super) feed: f64,
     pub(super) driven: f64,
-    pub(super) glitch: f64,
+    /// The glitch of each axis, by its place in the plan, in each direction of travel, if it has one.
+    pub(super) glitches: Vec<(GlitchPlace, MeasuredGlitch)>,
 }
+
+/// An axis, by its place in the plan, and the direction of travel on a circle.
+pub(super) type GlitchPlace = (usize, Option<Direction>);
 
 impl AtFeed {
     pub(super) fn is_near(&self) -> bool {

@@ -7,7 +7,8 @@ use super::following::COARSEST_S;
 use crate::identify::{Fit, Identified, Track, along, count};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp_physics::circle::{
-    Direction, Figures, PathFigures, PlaneAxis, RecordedCircle, Recording, recorded_height_um,
+    Crossing, Direction, Figures, MeasuredGlitch, PathFigures, PlaneAxis, RecordedCircle,
+    Recording, recorded_height_um,
 };
 use frictcomp_physics::current::VELOCITY_UNITS_PER_MM_PER_S;
 
@@ -303,14 +304,14 @@ pub struct CirclesFound {
     pub acceleration: f64,
     /// The mean centre of both directions.
     pub centre_mm: [f64; 2],
-    /// The glitches in µm at X+, Y+, X-, Y- of the axes of the plan, for each recorded direction.
-    pub glitches_um: Vec<[f64; 4]>,
-    /// The largest of them.
+    /// The glitches of each recorded direction.
+    pub glitches: Vec<DirectionGlitches>,
+    /// The largest of them, in µm.
     pub worst_um: f64,
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
-    /// The glitch of each axis for comparison with predictions, without noise.
-    pub heights_um: Option<[f64; 2]>,
+    /// The glitch of each axis in µm for comparison with predictions, without noise, with its standard error.
+    pub heights_um: Option<[(f64, f64); 2]>,
     /// Remarks.
     pub notes: Vec<String>,
     /// Reasons why nothing is concluded from it.
@@ -326,13 +327,8 @@ impl CirclesFound {
             .filter_map(RecordedCircle::feed_mm_per_min);
         let measured_feed = feeds.reduce(f64::midpoint);
         let speed = measured_feed.unwrap_or(feed) / 60.0;
-        let figures = [&recording.side.figures.ccw, &recording.side.figures.cw];
-        let shapes = figures
-            .into_iter()
-            .flatten()
-            .filter_map(|it| it.shape.as_ref());
-        let glitches = shapes.map(|shape| shape.glitches.map(|it| it.height_um));
-        let glitches_um: Vec<[f64; 4]> = glitches.collect();
+        let glitches = recording.circles.iter().filter_map(DirectionGlitches::of);
+        let glitches: Vec<DirectionGlitches> = glitches.collect();
         let mut notes = Vec::new();
         let mut against = Vec::new();
         match measured_feed {
@@ -351,9 +347,10 @@ impl CirclesFound {
         against.extend(recording.circles.iter().find_map(gap));
         against.extend(too_round(recording));
         against.extend(recording.circles.iter().filter_map(cut_short));
-        against.extend(recording.circles.iter().filter_map(worse_turn));
         against.extend(driven_otherwise(&recording.circles));
-        if glitches_um.len() < recording.circles.len() {
+        notes.extend(glitches.iter().filter_map(DirectionGlitches::turns_differ));
+        notes.extend(glitches.iter().filter_map(DirectionGlitches::noise));
+        if glitches.len() < recording.circles.len() {
             against
                 .push("it is too fast and small for a glitch to be told from the next".to_owned());
         }
@@ -366,8 +363,11 @@ impl CirclesFound {
             measured_feed,
             acceleration: speed * speed / radius,
             centre_mm: centre_of(&recording.circles),
-            worst_um: glitches_um.iter().flatten().copied().fold(0.0, f64::max),
-            glitches_um,
+            worst_um: glitches
+                .iter()
+                .map(|it| it.largest().1.um)
+                .fold(0.0, f64::max),
+            glitches,
             notes,
             against,
         }
@@ -375,10 +375,15 @@ impl CirclesFound {
 
     /// The glitch at the feed that was driven; `None` if that is not known.
     pub(super) fn at_feed(&self) -> Option<AtFeed> {
+        let of = |it: &DirectionGlitches| {
+            let mut directions = Direction::ALL.into_iter();
+            let direction = directions.find(|one| one.as_str() == it.direction);
+            [0, 1].map(|axis| ((axis, direction), it.of_axis(axis)))
+        };
         self.measured_feed.map(|driven| AtFeed {
             feed: self.feed,
             driven,
-            glitch: self.worst_um,
+            glitches: self.glitches.iter().flat_map(of).collect(),
         })
     }
 
@@ -391,6 +396,60 @@ impl CirclesFound {
     pub fn is_driven_as(&self, other: &Self) -> bool {
         let feeds = self.at_feed().zip(other.at_feed());
         feeds.is_some_and(|(one, other)| one.is_driven_as(&other))
+    }
+}
+
+/// The glitches of a direction of travel over all turns (R16.10).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct DirectionGlitches {
+    /// The direction of travel.
+    pub direction: String,
+    /// The glitches at X+, Y+, X-, Y- of the axes of the plan.
+    pub crossings: [MeasuredGlitch; 4],
+}
+
+impl DirectionGlitches {
+    fn of(circle: &RecordedCircle) -> Option<Self> {
+        Some(Self {
+            direction: circle.direction.as_str().to_owned(),
+            crossings: circle.glitches()?,
+        })
+    }
+
+    /// The larger glitch of an axis, by its place in the plan, at its two crossings.
+    pub fn of_axis(&self, axis: usize) -> MeasuredGlitch {
+        self.crossings[axis % 2].larger(self.crossings[axis % 2 + 2])
+    }
+
+    /// The largest glitch, with its crossing.
+    fn largest(&self) -> (Crossing, MeasuredGlitch) {
+        let each = Crossing::ALL.into_iter().zip(self.crossings);
+        let largest = each.max_by(|one, other| one.1.um.total_cmp(&other.1.um));
+        largest.unwrap_or((Crossing::XPlus, self.crossings[0]))
+    }
+
+    /// States by how much turns of one circle differ, if they differ by more than their errors (R16.11).
+    fn turns_differ(&self) -> Option<String> {
+        let each = Crossing::ALL.into_iter().zip(self.crossings);
+        let most = each.max_by(|one, other| one.1.spread_um.total_cmp(&other.1.spread_um));
+        let (crossing, it) = most.filter(|it| it.1.spread_um > 0.0)?;
+        Some(format!(
+            "turns {} differ by {:.1} µm at {crossing}: the largest of {}, {:.1} µm, counts; their median is {:.1} µm",
+            self.direction, it.spread_um, it.turns, it.um, it.median_um
+        ))
+    }
+
+    /// States how much of the largest glitch was noise, if it was much.
+    fn noise(&self) -> Option<String> {
+        const MUCH: f64 = 0.1;
+        let (crossing, it) = self.largest();
+        (it.noise_um > MUCH * it.um).then(|| {
+            format!(
+                "at {crossing} {} {:.1} µm of noise are taken off the glitch: {:.1} µm are left, ± {:.1} µm",
+                self.direction, it.noise_um, it.um, it.error_um
+            )
+        })
     }
 }
 
@@ -495,12 +554,6 @@ fn cut_short(circle: &RecordedCircle) -> Option<String> {
             circle.direction
         )
     })
-}
-
-/// A turn that leaves more than the one on which all conclusions are based.
-fn worse_turn(circle: &RecordedCircle) -> Option<String> {
-    let worse = circle.whole_turns()?.worse?;
-    Some(format!("its turns are not alike: {worse}"))
 }
 
 fn centre_of(circles: &[RecordedCircle]) -> [f64; 2] {

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use frictcomp_physics::circle::{
     Circle, CircleError, Crossing, Direction, LearnedCircle, PlaneAxis, RecordedCircle,
-    RecordedTwice, WorseTurn,
+    RecordedTwice,
 };
 
 /// Minimum number of feeds: between four up to 1.8 µm remain hidden (R16.4).
@@ -98,14 +98,6 @@ pub enum LearnError {
         /// The glitch in each recording.
         heights_um: [f64; 2],
     },
-    /// A recording with turns that are not alike.
-    #[error("the turns of `{file}` are not alike: {worse}")]
-    Turns {
-        /// Name of the file.
-        file: String,
-        /// The turn that leaves most.
-        worse: WorseTurn,
-    },
     /// Rounds with different feeds.
     #[error("F{0:.0} was not recorded in every round")]
     OtherFeeds(f64),
@@ -142,9 +134,6 @@ impl LearnError {
                 "two recordings of one list on one warm machine agree: look for another machine, another list or a \
                  cold start, and record both again"
             }
-            Self::Turns { .. } => {
-                "turns of one circle on one warm machine agree: look for what happened at that turn, and record it again"
-            }
             Self::OtherFeeds(_) => "record the same feeds in every round",
         }
     }
@@ -162,7 +151,6 @@ impl LearnedCircles {
         cycle_time_s: f64,
     ) -> Result<Self, LearnError> {
         one_machine(turns, reference)?;
-        turns.iter().try_for_each(turns_alike)?;
         let groups = by_feed(turns)?;
         let mut circles = [Vec::new(), Vec::new()];
         for (feed, group) in &groups {
@@ -284,17 +272,6 @@ fn twice<'a>(
         }
     }
     Ok(recordings)
-}
-
-/// Checks that no other turn of a recording leaves more than the evaluated one.
-fn turns_alike(turn: &RecordedTurn) -> Result<(), LearnError> {
-    let worse = turn.circle.whole_turns().and_then(|it| it.worse);
-    worse.map_or(Ok(()), |worse| {
-        Err(LearnError::Turns {
-            file: turn.file.clone(),
-            worse,
-        })
-    })
 }
 
 /// Checks that both recordings leave about the same.

@@ -5,9 +5,11 @@
 //! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
 
 mod at_feed;
+mod compared;
 mod error;
 mod following;
 mod found;
+mod judged;
 mod learned;
 mod plan;
 mod plant_found;
@@ -19,19 +21,19 @@ mod runs;
 mod signature;
 mod strokes;
 
+pub use compared::{BeforeAfter, PlaceCompared, before_after};
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};
-pub use found::{CirclesFound, FrictionFound, IsoFigures, MOST_CURRENT};
+pub use found::{CirclesFound, DirectionGlitches, FrictionFound, IsoFigures, MOST_CURRENT};
+pub use judged::{JudgedRound, feeds_against};
 pub use learned::{LEAST_FEEDS, LearnError, LearnedCircles, RecordedTurn};
 pub use plan::{Plan, Stage};
 pub use plant_found::{
-    ComparedGlitch, PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch, TunedList,
-    against_plant, held_out, with_friction,
+    ComparedGlitch, MissedPrediction, PlantAxis, PlantFound, PredictedGlitch, RecordedGlitch,
+    TunedList, against_plant, held_out, with_friction,
 };
 pub use program::{Measurement, MeasuringProgram, PlanStep, Turning};
 pub use request::{Dynamics, FreeTravel, Installed, MeasuredAxis, PlanRequest};
-pub use results::{
-    BeforeAfter, RecordingOutcome, RecordingResult, before_after, refuse_strangers, without_effect,
-};
+pub use results::{RecordingOutcome, RecordingResult, refuse_strangers};
 pub use signature::{Signature, signature_in};
 pub use strokes::{FeedReversals, RecordedStrokes, StrokesFound};

@@ -18,8 +18,11 @@ const HELD_OUT: usize = 3;
 /// A prediction may miss the recording by this part of it …
 const MISSED: f64 = 0.25;
 
-/// … or by this, in µm.
+/// … or by this, in µm …
 const MISSED_UM: f64 = 0.5;
+
+/// … or by this many standard errors of the recording.
+const MISSED_ERRORS: f64 = 3.0;
 
 /// Predictions that differ by less than this in µm are the same.
 const SAME_UM: f64 = 0.1;
@@ -104,6 +107,9 @@ pub struct RecordedGlitch {
     /// The glitch in µm.
     #[serde(rename = "recorded_glitch")]
     pub um: f64,
+    /// Its standard error.
+    #[serde(rename = "recorded_error")]
+    pub error_um: f64,
 }
 
 /// A recorded glitch at a feed that neither the fit nor the tuning has seen, or with a list that was tuned on the
@@ -173,19 +179,37 @@ impl PlantAxis {
     }
 }
 
+/// A prediction that a recording misses.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum MissedPrediction {
+    /// More is left than predicted: that speaks against plant and list.
+    Worse(String),
+    /// Less is left: that speaks against the plant only (R16.16).
+    Better(String),
+}
+
 impl ComparedGlitch {
-    /// States how far the recording misses the prediction, if that rejects the plant.
-    pub fn missed(&self) -> Option<String> {
+    /// States how far the recording misses the prediction, if it does.
+    pub fn missed(&self) -> Option<MissedPrediction> {
         let (recorded, predicted) = (&self.recorded, self.predicted_um);
-        let is_missed = (predicted - recorded.um).abs() > MISSED_UM.max(MISSED * recorded.um);
-        is_missed.then(|| {
-            format!(
-                "at F{} {predicted:.1} µm were predicted for {} {}, and {:.1} µm are recorded",
-                recorded.feed,
-                recorded.axis,
-                recorded.state(),
-                recorded.um
-            )
+        let most = MISSED_UM
+            .max(MISSED * recorded.um)
+            .max(MISSED_ERRORS * recorded.error_um);
+        if (predicted - recorded.um).abs() <= most {
+            return None;
+        }
+        let words = format!(
+            "at F{} {predicted:.1} µm were predicted for {} {}, and {:.1} µm are recorded",
+            recorded.feed,
+            recorded.axis,
+            recorded.state(),
+            recorded.um
+        );
+        Some(if recorded.um > predicted {
+            MissedPrediction::Worse(words)
+        } else {
+            MissedPrediction::Better(words)
         })
     }
 }
@@ -374,20 +398,31 @@ mod tests {
 
     #[test]
     fn a_prediction_misses_by_a_quarter_and_half_a_um() {
-        // R16.9
-        let missed = |predicted: f64, um: f64| {
+        // R16.9, R16.15, R16.16
+        let missed = |predicted: f64, um: f64, error_um: f64| {
             let recorded = RecordedGlitch {
                 axis: "X".to_owned(),
                 feed: 1000.0,
                 list: None,
                 um,
+                error_um,
             };
-            plant(predicted).compared(vec![recorded])[0]
-                .missed()
-                .is_some()
+            match plant(predicted).compared(vec![recorded])[0].missed() {
+                None => 0,
+                Some(MissedPrediction::Worse(_)) => 1,
+                Some(MissedPrediction::Better(_)) => -1,
+            }
         };
-        assert!(!missed(1.4, 1.0) && missed(1.6, 1.0) && missed(0.4, 1.0));
-        assert!(!missed(12.4, 10.0) && missed(12.6, 10.0) && missed(7.4, 10.0));
+        assert_eq!([1.4, 1.6, 0.4].map(|it| missed(it, 1.0, 0.0)), [0, -1, 1]);
+        assert_eq!(
+            [12.4, 12.6, 7.4].map(|it| missed(it, 10.0, 0.0)),
+            [0, -1, 1]
+        );
+        assert_eq!(
+            [12.6, 7.4].map(|it| missed(it, 10.0, 1.0)),
+            [0, 0],
+            "three errors"
+        );
     }
 
     #[test]

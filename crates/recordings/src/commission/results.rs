@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::at_feed::AtFeed;
 use super::found::{CirclesFound, FrictionFound};
 use super::strokes::StrokesFound;
+use frictcomp_physics::circle::MeasuredGlitch;
 
 /// A recording in the folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -93,7 +94,7 @@ impl RecordingOutcome {
     }
 
     /// The results of reversals at each feed.
-    fn reversals(&self) -> impl Iterator<Item = AtFeed> {
+    pub(super) fn reversals(&self) -> impl Iterator<Item = AtFeed> {
         let circles = match self {
             Self::Circles(found) => found.at_feed(),
             _ => None,
@@ -105,106 +106,10 @@ impl RecordingOutcome {
         let strokes = strokes.iter().map(|it| AtFeed {
             feed: it.feed,
             driven: it.measured_feed,
-            glitch: it.glitch,
+            glitches: vec![((0, None), MeasuredGlitch::of(it.glitch, it.error))],
         });
         circles.into_iter().chain(strokes)
     }
-}
-
-/// Recorded glitches at a feed with compensation off and on: in µm, or 0.001° of a rotary axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct BeforeAfter {
-    /// The planned feed in mm/min or °/min.
-    pub feed: f64,
-    /// The feed that was driven.
-    pub driven: f64,
-    /// The largest glitch with compensation off.
-    pub off: f64,
-    /// The largest glitch with compensation on.
-    pub on: f64,
-}
-
-impl BeforeAfter {
-    /// Whether compensation leaves more than is left without it.
-    pub fn is_worse(&self) -> bool {
-        self.on > self.off
-    }
-
-    /// Whether compensation leaves clearly less than is left without it.
-    pub fn shows_an_effect(&self) -> bool {
-        const LEAST: f64 = 0.05;
-        self.on < self.off * (1.0 - LEAST)
-    }
-
-    /// Whether off and on are alike here, although compensation leaves at most a part of the glitch without it at
-    /// the two neighbouring feeds: it was on in both recordings, or in none.
-    fn stands_out(&self, next: [&Self; 2], part: f64) -> bool {
-        !self.shows_an_effect() && next.iter().all(|it| it.on < it.off * part)
-    }
-}
-
-/// The feeds, slowest first, at which off and on are alike, although at the neighbouring feeds they are not. At the
-/// slowest one they may be: there compensation takes little away.
-pub fn without_effect(recorded: &[BeforeAfter]) -> Vec<f64> {
-    const BETWEEN: f64 = 0.8;
-    const FASTEST: f64 = 0.6;
-    let mut alike = Vec::new();
-    for three in recorded.windows(3) {
-        if three[1].stands_out([&three[0], &three[2]], BETWEEN) {
-            alike.push(three[1].feed);
-        }
-    }
-    if let [.., one, other, fastest] = recorded
-        && fastest.stands_out([one, other], FASTEST)
-    {
-        alike.push(fastest.feed);
-    }
-    alike
-}
-
-/// The feeds that were recorded with compensation off and on, and with no reasons against the recordings, slowest
-/// first. Programs are recognised by their numbers. Of several recordings those count that were driven at the feed of
-/// the program, otherwise those next to it; of those the smallest glitch without and the largest with compensation.
-pub fn before_after(
-    results: &[RecordingResult],
-    is_off: impl Fn(u16) -> bool,
-    is_on: impl Fn(u16) -> bool,
-) -> Vec<BeforeAfter> {
-    let recorded = |is_so: &dyn Fn(u16) -> bool| {
-        let used = results.iter().filter(|it| it.found.against().is_empty());
-        let used = used.filter(|it| it.program.is_some_and(is_so));
-        let shown = used.flat_map(|it| it.found.reversals());
-        shown.filter(AtFeed::is_near).collect::<Vec<AtFeed>>()
-    };
-    let on = recorded(&is_on);
-    let mut pairs: Vec<(f64, BeforeAfter)> = Vec::new();
-    for off in recorded(&is_off) {
-        for on in on.iter().filter(|it| off.is_driven_as(it)) {
-            let pair = BeforeAfter {
-                feed: off.feed,
-                driven: off.driven,
-                off: off.glitch,
-                on: on.glitch,
-            };
-            let beside = off.beside();
-            let known = pairs
-                .iter_mut()
-                .find(|(_, it)| it.feed.total_cmp(&off.feed).is_eq());
-            match known {
-                None => pairs.push((beside, pair)),
-                Some(known) if beside < known.0 => *known = (beside, pair),
-                Some((is_beside, known)) if beside.total_cmp(is_beside).is_eq() => {
-                    known.off = known.off.min(pair.off);
-                    known.on = known.on.max(pair.on);
-                }
-                Some(_) => {}
-            }
-        }
-    }
-    let mut pairs: Vec<BeforeAfter> = pairs.into_iter().map(|it| it.1).collect();
-    pairs.sort_by(|one, other| one.feed.total_cmp(&other.feed));
-    pairs
 }
 
 /// Refuses recordings that cannot belong to the others: the same bytes twice, and circles about another centre

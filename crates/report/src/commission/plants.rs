@@ -30,8 +30,10 @@ pub struct PlantVerdict {
     pub found: PlantFound,
     /// Recorded glitches with their predictions.
     pub compared: Vec<ComparedGlitch>,
-    /// Recorded glitches that it misses: it is rejected.
+    /// Recorded glitches that are worse than predicted: it is rejected, and so are the lists that were tuned on it.
     pub rejected: Vec<String>,
+    /// Recorded glitches that are better than predicted: nothing is predicted with it any more (R16.16).
+    pub retired: Vec<String>,
     /// What its simulation leaves out.
     pub not_modelled: Vec<&'static str>,
 }
@@ -81,13 +83,14 @@ impl Plants {
 }
 
 impl PlantVerdict {
-    /// The tuned lists, unless the plant is rejected.
+    /// Whether recordings miss none of its predictions.
+    pub fn holds(&self) -> bool {
+        self.rejected.is_empty() && self.retired.is_empty()
+    }
+
+    /// The tuned lists, unless the plant is rejected or retired.
     pub fn lists(&self) -> &[TunedList] {
-        if self.rejected.is_empty() {
-            &self.found.lists
-        } else {
-            &[]
-        }
+        if self.holds() { &self.found.lists } else { &[] }
     }
 }
 
@@ -141,6 +144,14 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
             let _ = writeln!(out, "  {}", visible_line(reason));
         }
     }
+    if !verdict.retired.is_empty() {
+        out.push_str(
+            "the machine does better than the plant, with which nothing is predicted from now on:\n",
+        );
+        for reason in &verdict.retired {
+            let _ = writeln!(out, "  {}", visible_line(reason));
+        }
+    }
     for list in verdict.lists() {
         let _ = writeln!(
             out,
@@ -153,7 +164,7 @@ pub(super) fn push_plants(out: &mut String, plants: &Plants) {
             let _ = writeln!(out, "  do not record it: {}", visible_line(reason));
         }
     }
-    if verdict.rejected.is_empty() && verdict.found.lists.is_empty() {
+    if verdict.holds() && verdict.found.lists.is_empty() {
         out.push_str(
             "no list is tuned: no feed is left to hold out; record a fifth feed off and on\n",
         );
@@ -194,7 +205,9 @@ fn push_plant(out: &mut String, verdict: &PlantVerdict) {
         );
     }
     push_compared(out, &verdict.compared);
-    push_glitches(out, found);
+    if verdict.retired.is_empty() {
+        push_glitches(out, found);
+    }
 }
 
 /// What was off, or the beginning of the SHA-256 of the list that was on, as in the file names.

@@ -28,7 +28,7 @@ pub struct Results {
 
 impl Results {
     /// The version that is written.
-    pub const SCHEMA: u32 = 2;
+    pub const SCHEMA: u32 = 3;
 }
 
 /// The list of an axis, or the reasons why it has none.
@@ -125,7 +125,7 @@ impl Shows {
     /// Returns the figure that is compared.
     pub(crate) fn figure(self) -> &'static str {
         match self {
-            Self::Contour => "glitch, the largest of both directions",
+            Self::Contour => "glitch, a mean over 8 ms without noise, the largest of all turns",
             Self::FollowingError => "following error after reversals; motor side, not contour",
         }
     }
@@ -259,10 +259,16 @@ fn push_recording(out: &mut String, report: &ResultsReport, result: &RecordingRe
     );
     match &result.found {
         RecordingOutcome::Circles(found) => {
+            let glitches = found.glitches.iter().flat_map(|it| &it.crossings);
+            let error = glitches
+                .filter(|it| it.um >= found.worst_um)
+                .map(|it| it.error_um);
             let _ = writeln!(
                 out,
-                "  recorded: v²/R {:.2} mm/s², glitch at most {:.1} µm",
-                found.acceleration, found.worst_um
+                "  recorded: v²/R {:.2} mm/s², glitch at most {:.1} ± {:.1} µm",
+                found.acceleration,
+                found.worst_um,
+                error.fold(0.0, f64::max)
             );
         }
         RecordingOutcome::Strokes(found) => {
@@ -288,14 +294,21 @@ fn push_round(out: &mut String, round: &Round) {
     let Some(against) = &round.against else {
         return;
     };
-    let mut table = Table::of_numbers(["feed /min", "driven", "off", "on"]);
+    let table = Table::of_numbers(["feed /min", "driven"]).left("axis");
+    let mut table = table.right("off").right("±").right("on").right("±");
     for pair in &round.recorded {
-        table.row(&[
-            &number(pair.feed),
-            &format_args!("{:.0}", pair.driven),
-            &format_args!("{:.1}", pair.off),
-            &format_args!("{:.1}", pair.on),
-        ]);
+        for place in &pair.places {
+            let direction = place.direction.as_deref().unwrap_or_default();
+            table.row(&[
+                &number(pair.feed),
+                &format_args!("{:.0}", pair.driven),
+                &visible_line(format!("{} {direction}", place.axis).trim_end()),
+                &format_args!("{:.1}", place.off.um),
+                &format_args!("{:.1}", place.off.error_um),
+                &format_args!("{:.1}", place.on.um),
+                &format_args!("{:.1}", place.on.error_um),
+            ]);
+        }
     }
     let _ = write!(
         out,
@@ -312,8 +325,8 @@ fn push_round(out: &mut String, round: &Round) {
         let lists: Vec<String> = round.lists.iter().map(list).collect();
         let _ = writeln!(
             out,
-            "\naccepted: {}; at each of the {} recorded feeds no more is left than without it, nor than with the \
-             lists that were accepted before. Other feeds were not recorded{}",
+            "\naccepted: {}; at each of the {} recorded feeds no axis has more left in either direction than without \
+             it, nor than with the lists that were accepted before, beyond the errors. Other feeds were not recorded{}",
             visible_line(&lists.join(", ")),
             round.recorded.len(),
             round.shows.limit()

@@ -10,6 +10,7 @@ use crate::commission::{AxisVerdict, PlantVerdict, ResultsReport, Round, list_on
 use crate::pictures::{friction_of_axis, glitches_by_feed};
 use crate::svg::Frame;
 use frictcomp::diagnostic::Rounded;
+use frictcomp_physics::circle::MeasuredGlitch;
 use frictcomp_recordings::commission::{
     CirclesFound, FrictionFound, MeasuredAxis, RecordingOutcome,
 };
@@ -98,6 +99,10 @@ fn verdict(report: &ResultsReport) -> Markup {
             p { "The plant is rejected by the recordings, and the earlier lists stay:" }
             ul { @for reason in &plant.rejected { li { (reason) } } }
         }
+        @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.retired.is_empty()) {
+            p { "The machine does better than the plant, with which nothing is predicted from now on:" }
+            ul { @for reason in &plant.retired { li { (reason) } } }
+        }
         @if !missing.is_empty() {
             p { "Not recorded, or not usable: " (missing.join(", ")) "." }
         }
@@ -168,17 +173,26 @@ fn round_circles(round: &Round) -> Markup {
         caption: Caption::Shown(&caption),
         columns: &[
             ColumnHeading::Text("feed /min"),
+            ColumnHeading::Text("axis"),
             ColumnHeading::Number("driven"),
             ColumnHeading::Number(&off),
             ColumnHeading::Number(&on),
             ColumnHeading::Number("left in %"),
         ],
     };
-    let rows = round.recorded.iter().map(|it| {
-        let cells = [it.off, it.on, 100.0 * it.on / it.off].map(|number| Rounded(number, 1));
-        let cells = [Rounded(it.driven, 0)].into_iter().chain(cells);
-        let cells = cells.map(|number| html! { (number.to_string()) });
-        HtmlRow::new(&Rounded(it.feed, 0).to_string(), cells.collect::<Vec<_>>())
+    let rows = round.recorded.iter().flat_map(|feed| {
+        feed.places.iter().map(|it| {
+            let direction = it.direction.as_deref().unwrap_or_default();
+            let place = format!("{} {direction}", it.axis);
+            let part = Rounded(100.0 * it.on.um / it.off.um, 1).to_string();
+            let with_error = |it: &MeasuredGlitch| {
+                format!("{} ± {}", Rounded(it.um, 1), Rounded(it.error_um, 1))
+            };
+            let driven = Rounded(feed.driven, 0).to_string();
+            let cells = [place, driven, with_error(&it.off), with_error(&it.on), part];
+            let cells = cells.map(|text| html! { (text) });
+            HtmlRow::new(&Rounded(feed.feed, 0).to_string(), cells.to_vec())
+        })
     });
     let id = format!("round-{}", round.number);
     html! {

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::outputs::Outputs;
 use frictcomp_host::read_text;
 use frictcomp_recordings::commission::{
-    ComparedGlitch, PlantFound, RecordedGlitch, Stage, against_plant,
+    ComparedGlitch, MissedPrediction, PlantFound, RecordedGlitch, Stage, against_plant,
 };
 use frictcomp_report::assumptions::not_modelled;
 use frictcomp_report::commission::{PlantVerdict, Plants};
@@ -69,9 +69,10 @@ impl Fitting<'_> {
             held_out.extend(on);
         }
         let mut compared = found.compared(held_out);
+        let [worse, mut retired] = missed(&compared);
         let mut rejected = found.against_fit();
-        rejected.extend(missed(&compared));
-        if rejected.is_empty() && later.is_empty() {
+        rejected.extend(worse);
+        if rejected.is_empty() && retired.is_empty() && later.is_empty() {
             self.tuned(&mut found, axes, recorded, last, outputs)?;
         }
         for round in later {
@@ -81,13 +82,16 @@ impl Fitting<'_> {
             self.predict(&mut found, axes, recorded, round.lists())?;
             let tried = glitches(axes, &round.circles, round.shas(), &feeds);
             let tried = found.compared(tried);
-            rejected.extend(missed(&tried));
+            let [worse, better] = missed(&tried);
+            rejected.extend(worse);
+            retired.extend(better);
             compared.extend(tried);
         }
         Ok(PlantVerdict {
             found,
             compared,
             rejected,
+            retired,
             not_modelled: not_modelled([&self.base.x, &self.base.y]),
         })
     }
@@ -106,8 +110,16 @@ impl Fitting<'_> {
     }
 }
 
-fn missed(compared: &[ComparedGlitch]) -> Vec<String> {
-    compared.iter().filter_map(ComparedGlitch::missed).collect()
+/// Returns the recorded glitches that are worse than predicted, and those that are better.
+fn missed(compared: &[ComparedGlitch]) -> [Vec<String>; 2] {
+    let mut found = [Vec::new(), Vec::new()];
+    for missed in compared.iter().filter_map(ComparedGlitch::missed) {
+        match missed {
+            MissedPrediction::Worse(words) => found[0].push(words),
+            MissedPrediction::Better(words) => found[1].push(words),
+        }
+    }
+    found
 }
 
 /// Whether a list of a round was tuned on a plant.
@@ -134,11 +146,12 @@ fn glitches(
         axes.iter()
             .zip(heights)
             .zip(lists)
-            .map(|((axis, um), list)| RecordedGlitch {
+            .map(|((axis, (um, error_um)), list)| RecordedGlitch {
                 axis: axis.name.to_owned(),
                 feed: driven.circles.feed,
                 list: list.map(str::to_owned),
                 um,
+                error_um,
             })
     });
     each.collect()

@@ -9,15 +9,23 @@ use crate::current::Reading;
 use crate::simulation::{DriveParameters, FrictionModel};
 use frictcomp::lists::FrictionList;
 
-/// The recorded glitch of an axis in µm: that of the mean of its reversals, each a mean over 8 ms; `None` if
-/// the turns have no glitches or no times.
-pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<f64> {
-    let reversals = turns
-        .iter()
-        .map(|it| Waveform::reversals(axis, &it.profile, it.direction));
-    let reversals: Vec<[Waveform; 2]> = reversals.collect::<Option<_>>()?;
-    let all: Vec<&Waveform> = reversals.iter().flatten().collect();
-    (!all.is_empty()).then(|| Waveform::mean(&all).height_um())
+/// The recorded glitch of an axis in µm and its standard error: that of the mean of its reversals in all turns, each
+/// a mean over 8 ms, without its noise; `None` if the turns have no glitches or no times.
+pub fn recorded_height_um(axis: PlaneAxis, turns: &[RecordedCircle]) -> Option<(f64, f64)> {
+    let mut reversals: Vec<Waveform> = Vec::new();
+    for turn in turns {
+        reversals.extend(turn.reversals_of(axis)?.into_iter().flatten());
+    }
+    let all: Vec<&Waveform> = reversals.iter().collect();
+    let noise_um = turns.iter().map(RecordedCircle::mean_noise_um);
+    let noise_um = noise_um.reduce(f64::max)?;
+    #[allow(clippy::cast_precision_loss)] // a few turns
+    let count = reversals.len() as f64;
+    let (height_um, error_um) = Waveform::mean(&all).without_noise(noise_um / count.sqrt())?;
+    let each = reversals.iter().filter_map(|it| it.without_noise(noise_um));
+    let squares: f64 = each.map(|it| (it.0 - height_um).powi(2)).sum();
+    let scatter = (squares / (count - 1.0).max(1.0) / count).sqrt();
+    Some((height_um, error_um.max(scatter)))
 }
 
 /// The predicted glitch of an axis in µm with a list or without one.

@@ -34,20 +34,18 @@ pub struct DriveFit {
 }
 
 impl ObservedCircle {
-    /// The reversals of an axis on turns of one circle; `None` if it has no glitches.
+    /// The reversals of an axis on all turns of one circle; `None` if it has no glitches.
     pub fn of(
         axis: PlaneAxis,
         (circle, list): (Circle, Option<FrictionList>),
         turns: &[RecordedCircle],
     ) -> Option<Self> {
-        let reversals = turns
-            .iter()
-            .map(|it| Waveform::reversals(axis, &it.profile, it.direction));
-        let reversals: Vec<[Waveform; 2]> = reversals.collect::<Option<_>>()?;
+        let reversals = turns.iter().map(|it| it.reversals_of(axis));
+        let reversals: Vec<Vec<[Waveform; 2]>> = reversals.collect::<Option<_>>()?;
         (!reversals.is_empty()).then(|| Self {
             circle,
             list,
-            reversals: reversals.into_iter().flatten().collect(),
+            reversals: reversals.into_iter().flatten().flatten().collect(),
         })
     }
 }

@@ -104,13 +104,14 @@ impl RecordedTwice {
     }
 }
 
-/// The mean over turns at both reversals of an axis.
+/// The mean over all turns at both reversals of an axis.
 fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<OppositeReversals> {
     let mut found: [Vec<Waveform>; 2] = [Vec::new(), Vec::new()];
     for turn in turns {
-        let reversals = Waveform::reversals(axis, &turn.profile, turn.direction)?;
-        for (waveforms, of_turn) in found.iter_mut().zip(reversals) {
-            waveforms.push(of_turn);
+        for reversals in turn.reversals_of(axis)? {
+            for (waveforms, of_turn) in found.iter_mut().zip(reversals) {
+                waveforms.push(of_turn);
+            }
         }
     }
     let mean = |waveforms: &Vec<Waveform>| Waveform::mean(&waveforms.iter().collect::<Vec<_>>());

@@ -60,7 +60,7 @@ pub struct LeftOut {
 
 impl RecordedCircle {
     /// The circles of a recording, one for each direction in which it has a full turn. If there is
-    /// more than a turn, the one next to the middle counts.
+    /// more than a turn, the one next to the middle is evaluated; what begins or ends at rest is left out.
     ///
     /// F and D are against the commanded radius `commanded_mm`; G, H and the glitches do not
     /// depend on it.
@@ -78,7 +78,7 @@ impl RecordedCircle {
             return Err(RecordedError::TooFew(points.len()));
         }
         let fit = fit?;
-        let runs = runs(&fit, points);
+        let runs = runs(&fit, &different);
         let mut found = Vec::new();
         let repeated = trace.points_mm.len() - points.len();
         for direction in Direction::ALL {
@@ -122,7 +122,7 @@ impl RecordedCircle {
                 found_mm: fit.radius,
             });
         }
-        let drift = drift(run, &fit, points);
+        let drift = drift((run, &run.steady_around(&turn)), &fit, points);
         let still = |turn: &Range<usize>| match &drift {
             Some(drift) => drift.removed(&points[turn.clone()], run.angles_of(turn)),
             None => points[turn.clone()].to_vec(),
@@ -131,8 +131,10 @@ impl RecordedCircle {
         if drift.is_some() {
             fit = FittedCircle::of(&turned)?;
         }
-        let duration_s = trace.duration_s(turn.start, turn.end - 1);
-        let turn_s = duration_s.map(|duration| duration * TAU / run.between(&turn));
+        // A turn may be too short a time for the feed (R16.10).
+        let steady = run.steady_around(&turn);
+        let duration_s = trace.duration_s(steady.start, steady.end - 1);
+        let turn_s = duration_s.map(|duration| duration * TAU / run.between(&steady));
         let widest_step_s = trace.widest_step_s(&turn);
         let commanded = commanded_mm.unwrap_or(fit.radius) / MM_PER_M;
         let about = |centre: [f64; 2]| {

@@ -3,8 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use super::ends::{LEAST, run_in};
 use super::fit::FittedCircle;
 use super::limits::WIDEST_GAP_DEG;
+use super::trace::RecordedTrace;
 use crate::circle::direction::Direction;
 
 /// The distance back after which a path has turned round, in radians: more than noise and
@@ -17,8 +19,12 @@ const LACKING: f64 = TAU / 360.0;
 /// A turn with at most this multiple of the smallest deviation is as good as the best one.
 const AS_GOOD: f64 = 1.05;
 
-/// The ends of a path on which an axis may still speed up or slow down, in radians.
-const RUN_IN: f64 = TAU / 8.0;
+/// The least angle from the first whole turn to the last one.
+const ROOM: f64 = TAU / 8.0;
+
+/// From one crossing to the next, and from a crossing to the place between two, in radians.
+const QUARTER: f64 = TAU / 4.0;
+const BETWEEN: f64 = TAU / 8.0;
 
 /// Deviations below this make no difference between turns, in mm.
 const ROUND_MM: f64 = 1e-6;
@@ -31,10 +37,15 @@ pub(super) struct PathRun {
     pub(super) points: Range<usize>,
     /// The angle since its first point in the direction of travel, in radians.
     angles: Vec<f64>,
+    /// The angles at both ends on which the machine speeds up or slows down (R16.10).
+    run_in: [f64; 2],
+    /// The angle from X+ to its first point, in radians.
+    begin: f64,
 }
 
 /// Everything on the circle that does not leave it and does not turn round, in the order of time.
-pub(super) fn runs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<PathRun> {
+pub(super) fn runs(fit: &FittedCircle, trace: &RecordedTrace) -> Vec<PathRun> {
+    let points = &trace.points_mm;
     let mut runs = Vec::new();
     let tolerance = fit.tolerance();
     let is_on = |point: &[f64; 2]| fit.outside(*point).abs() <= tolerance;
@@ -49,6 +60,9 @@ pub(super) fn runs(fit: &FittedCircle, points: &[[f64; 2]]) -> Vec<PathRun> {
         let end = length.map_or(points.len(), |length| begin + length);
         split(fit, points, begin..end, &mut runs);
         from = end;
+    }
+    for run in &mut runs {
+        run.run_in = run_in(&run.angles, trace.times_s.get(run.points.clone()));
     }
     runs
 }
@@ -70,6 +84,8 @@ fn split(fit: &FittedCircle, points: &[[f64; 2]], stretch: Range<usize>, runs: &
             angles: (from..=to)
                 .map(|at| sign * (angles[at] - angles[from]))
                 .collect(),
+            run_in: [0.0; 2],
+            begin: fit.angle(points[offset + from]),
         });
     };
     for (at, &angle) in angles.iter().enumerate() {
@@ -121,11 +137,6 @@ impl PathRun {
         self.angles.last().copied().unwrap_or_default()
     }
 
-    /// The angle of each point since the first one, in the direction of travel, in radians.
-    pub(super) fn angles(&self) -> impl Iterator<Item = f64> + '_ {
-        self.angles.iter().copied()
-    }
-
     /// The angles of some of the points, in radians.
     pub(super) fn angles_of(&self, points: &Range<usize>) -> &[f64] {
         &self.angles[points.start - self.points.start..points.end - self.points.start]
@@ -137,20 +148,55 @@ impl PathRun {
         at(turn.end - 1) - at(turn.start)
     }
 
-    /// The points of one full turn: of all turns that deviate least from the circle the one next
+    /// The angles between the ends on which the machine speeds up or slows down; the whole run if no turn would be
+    /// left.
+    fn steady(&self) -> [f64; 2] {
+        let [from, to] = [self.run_in[0], self.covered() - self.run_in[1]];
+        if to - from < TAU - self.lacking() {
+            return [0.0, self.covered()];
+        }
+        [from, to]
+    }
+
+    /// Returns the points around a turn up to the ends on which the machine speeds up or slows down, or to a gap.
+    pub(super) fn steady_around(&self, turn: &Range<usize>) -> Range<usize> {
+        let [from, to] = self.steady();
+        let at = |angle: f64| self.angles.partition_point(|it| *it < angle);
+        let [mut begin, mut end] = [at(from), at(to)];
+        let own = turn.start - self.points.start..turn.end - self.points.start;
+        for hole in self.holes() {
+            if hole < own.start {
+                begin = begin.max(hole + 1);
+            } else {
+                end = end.min(hole + 1);
+            }
+        }
+        self.points.start + begin.min(own.start)..self.points.start + end.max(own.end)
+    }
+
+    /// The points of one full turn: of all turns at constant feed that deviate least from the circle the one next
     /// to the middle of the run. `None` if there is no full turn without a gap.
     pub(super) fn turn(&self, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<Range<usize>> {
         let costs = costs(fit, &points[self.points.clone()]);
         let cost = |turn: &Range<usize>| costs[turn.end - 1] - costs[turn.start];
+        let [from, to] = self.steady();
+        let is_steady = |turn: &Range<usize>| {
+            self.angles[turn.start] >= from && self.angles[turn.end - 1] <= to
+        };
         let mut least = f64::INFINITY;
-        self.each_turn(|turn| least = least.min(cost(&turn)));
+        self.each_turn(|turn| {
+            if is_steady(&turn) {
+                least = least.min(cost(&turn));
+            }
+        });
         let most = AS_GOOD * least + TAU * fit.radius * ROUND_MM.powi(4);
         let middle = self.covered() / 2.0;
         let mut best: Option<(f64, Range<usize>)> = None;
         self.each_turn(|turn| {
             let ends = self.angles[turn.start] + self.angles[turn.end - 1];
             let off = (ends / 2.0 - middle).abs();
-            if cost(&turn) <= most && best.as_ref().is_none_or(|(nearest, _)| off < *nearest) {
+            let is_nearer = best.as_ref().is_none_or(|(nearest, _)| off < *nearest);
+            if is_steady(&turn) && is_nearer && cost(&turn) <= most {
                 best = Some((off, turn));
             }
         });
@@ -159,19 +205,21 @@ impl PathRun {
     }
 
     /// The whole turns without a gap between the ends of the run, evenly spread; the next one may begin before
-    /// one ends.
+    /// one ends. Each begins between two crossings, where there is room for that.
     pub(super) fn turns(&self) -> Vec<Range<usize>> {
-        let room = self.covered() - 2.0 * RUN_IN - TAU;
-        if room < RUN_IN {
+        let [before, after] = self.run_in.map(|it| it.max(LEAST));
+        let room = self.covered() - before - after - TAU;
+        if room < ROOM {
             return Vec::new();
         }
-        let step = room / (room / TAU).ceil();
-        let mut begin = RUN_IN;
+        let begins = begins(before, before + room, self.begin * self.direction.sign());
+        let mut begins = begins.into_iter().peekable();
         let mut turns = Vec::new();
         self.each_turn(|turn| {
-            // The last step ends where the room does, apart from rounding.
-            if begin <= RUN_IN + room + step / 2.0 && self.angles[turn.start] >= begin {
-                begin += step;
+            if begins
+                .next_if(|it| self.angles[turn.start] >= *it)
+                .is_some()
+            {
                 turns.push(self.points.start + turn.start..self.points.start + turn.end);
             }
         });
@@ -230,6 +278,25 @@ impl PathRun {
     pub(super) fn is_full(&self) -> bool {
         self.covered() >= TAU - self.lacking()
     }
+}
+
+/// The angles at which whole turns begin, from the first to the last that is possible: evenly spread, and between
+/// two crossings if there is room. `begin` is the angle from X+ to the beginning in the direction of travel.
+fn begins(from: f64, to: f64, begin: f64) -> Vec<f64> {
+    let between =
+        |angle: f64| ((angle + begin - BETWEEN) / QUARTER).ceil() * QUARTER + BETWEEN - begin;
+    let first = between(from);
+    let quarters = ((to - first) / QUARTER + 1e-9).floor();
+    let [first, step, whole] = if quarters >= 1.0 {
+        [first, QUARTER, quarters * QUARTER]
+    } else {
+        [from, to - from, to - from]
+    };
+    let turns = (whole / TAU).ceil().max(1.0);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // turns of a file
+    let each = 0..=turns as u32;
+    each.map(|at| first + (f64::from(at) * whole / turns / step).round() * step)
+        .collect()
 }
 
 /// The fourth powers of the deviations along the path up to each point: a part off the circle costs by its length,

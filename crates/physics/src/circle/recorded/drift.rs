@@ -1,6 +1,7 @@
 //! The shift between the first and the last turn of a recorded circle (R5.28).
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::cut::PathRun;
 use super::fit::FittedCircle;
@@ -8,6 +9,9 @@ use crate::circle::drift::CircleDrift;
 
 /// Parts of a turn in which two turns are compared.
 const PARTS: u16 = 360;
+
+/// Turns at constant feed that show a shift; the ends at rest are left out of the whole.
+const LEAST_TURNS: f64 = 1.5;
 
 /// Sums over the points in one part of a turn.
 #[derive(Debug, Clone, Copy, Default)]
@@ -32,20 +36,31 @@ impl TurnPart {
 /// The shift between the first and the last turn of a run: what both have in common, such as glitches,
 /// backlash or a periodic error, cancels out. `None` if there are not two turns, or if
 /// they do not show a shift.
-pub(super) fn drift(run: &PathRun, fit: &FittedCircle, points: &[[f64; 2]]) -> Option<CircleDrift> {
-    let covered = run.covered();
-    if covered < 2.0 * TAU - run.lacking() {
+pub(super) fn drift(
+    (run, steady): (&PathRun, &Range<usize>),
+    fit: &FittedCircle,
+    points: &[[f64; 2]],
+) -> Option<CircleDrift> {
+    let angles = run.angles_of(steady);
+    let [begin, .., end] = *angles else {
+        return None;
+    };
+    let covered = end - begin;
+    if run.covered() < 2.0 * TAU - run.lacking() || covered < LEAST_TURNS * TAU {
         return None;
     }
+    // What two turns at constant feed do not both have is left out.
+    let [until, from] = [TAU.min(covered - TAU), TAU.max(covered - TAU)];
     let mut first = vec![TurnPart::default(); usize::from(PARTS)];
     let mut last = first.clone();
-    for (point, angle) in points[run.points.clone()].iter().zip(run.angles()) {
+    for (point, angle) in points[steady.clone()].iter().zip(angles) {
+        let angle = angle - begin;
         let at = part_of(fit.angle(*point));
         let outside = fit.outside(*point);
-        if angle < TAU {
+        if angle < until {
             first[at].add(angle, outside);
         }
-        if angle >= covered - TAU {
+        if angle >= from {
             last[at].add(angle, outside);
         }
     }

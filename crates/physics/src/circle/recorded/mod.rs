@@ -2,14 +2,16 @@
 //!
 //! A recording holds more than the circle: the paths to it and from it, standstill, several turns,
 //! both directions. [`search`] finds the circle that most of the path lies on, whatever else there
-//! is; [`cut`] finds the turns on it, and [`circle`] evaluates one of them; [`turns`] compares it
-//! with the others.
+//! is; [`cut`] finds the turns on it, and [`ends`] where the machine is not at its feed; [`circle`]
+//! evaluates one of the turns, [`turns`] compares it with the others, and [`glitches`] takes all of them.
 
 mod circle;
 mod cut;
 mod drift;
+mod ends;
 mod error;
 mod fit;
+mod glitches;
 mod limits;
 mod recording;
 mod search;
@@ -18,6 +20,7 @@ mod turns;
 
 pub use circle::{LeftOut, RecordedCircle};
 pub use error::RecordedError;
+pub use glitches::{GlitchOrder, MeasuredGlitch};
 pub use limits::MIN_POINTS;
 pub use recording::{CommandedCircle, Recording};
 pub use trace::RecordedTrace;

@@ -5,10 +5,9 @@ use std::fmt;
 use serde::Serialize;
 
 use super::circle::RecordedCircle;
-use super::limits::WIDEST_GAP_DEG;
 use crate::circle::crossing::Crossing;
 use crate::circle::direction::Direction;
-use crate::circle::profile::{Gatherer, RadialProfile};
+use crate::circle::profile::RadialProfile;
 use crate::circle::waveform::Waveform;
 
 /// Part of its glitch by which a turn has to be worse than another one …
@@ -63,7 +62,8 @@ impl RecordedCircle {
         let mut worse: Option<WorseTurn> = None;
         let mut count = 0;
         for points in &self.turns_m {
-            let Some(heights) = self.of_turn(points) else {
+            let profile = self.profile_of(points);
+            let Some(heights) = profile.and_then(|it| heights_um(&it, self.direction)) else {
                 continue;
             };
             count += 1;
@@ -84,16 +84,6 @@ impl RecordedCircle {
             }
         }
         (count > 1).then_some(WholeTurns { count, worse })
-    }
-
-    /// The glitches of a turn in µm; `None` if it has gaps.
-    fn of_turn(&self, points: &[[f64; 2]]) -> Option<[f64; 4]> {
-        let mut gatherer = Gatherer::new(self.radius_mm / 1000.0, WIDEST_GAP_DEG);
-        for [x, y] in points {
-            gatherer.take(*x, *y);
-        }
-        let profile = gatherer.finish(self.turn_s).ok()?;
-        heights_um(&profile, self.direction)
     }
 }
 

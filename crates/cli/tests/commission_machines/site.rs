@@ -1,0 +1,229 @@
+//! A folder of a commissioning, and the machine that executes its programs.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use frictcomp_testing::{Machine, Program, Recorder, Run, ValueList};
+
+/// The channels of the recordings.
+const CHANNELS: [&str; 10] = [
+    "--position",
+    "%.SetPos",
+    "--velocity",
+    "%.SetVelo",
+    "--torque",
+    "%.ActTorque",
+    "--actual-position",
+    "%.ActPos",
+    "--torque-kind",
+    "actual",
+];
+
+const AXES: [&str; 2] = ["X", "Y"];
+
+/// Where the first program begins, in mm.
+const START: [f64; 2] = [50.0, 0.0];
+
+/// What is on in a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stage {
+    Off,
+    /// The lists of a round, from 2 on.
+    On(usize),
+}
+
+/// A folder of a commissioning with its machine.
+pub(crate) struct Site {
+    folder: tempfile::TempDir,
+    pub(crate) machine: Machine,
+    feeds: &'static str,
+    radius: &'static str,
+}
+
+impl Site {
+    /// Five feeds over a decade on a radius of 40 mm.
+    pub(crate) fn quick(machine: Machine) -> Self {
+        Self::planned(machine, "500,1600,2400,3600,5000", "40")
+    }
+
+    /// A folder in which stage 1 is planned.
+    pub(crate) fn planned(machine: Machine, feeds: &'static str, radius: &'static str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let axis = |name: &str| {
+            format!(
+                "[[axis]]\nname = \"{name}\"\nfrict_comp = true\nvalue_list = \"zero.lis\"\nmax_velocity = \
+                 20000\nmax_acceleration = 2\nmax_jerk = 50\n"
+            )
+        };
+        let zero = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\nfrict_comp.table[0].out \
+                    0\n";
+        let write = |name: &str, text: &str| {
+            std::fs::write(folder.path().join(name), text).expect("written");
+        };
+        write("frictcomp.toml", &AXES.map(axis).concat());
+        write("zero.lis", zero);
+        let site = Self {
+            folder,
+            machine,
+            feeds,
+            radius,
+        };
+        site.plan(&[]);
+        std::fs::create_dir(site.folder.path().join("m/recordings")).expect("a folder");
+        site
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn call(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+            .current_dir(self.path())
+            .args(arguments)
+            .output()
+            .expect("the tool starts")
+    }
+
+    fn plan(&self, more: &[&str]) {
+        let plan = [
+            "commission",
+            "plan",
+            "--axis",
+            "X,Y",
+            "--travel",
+            "X0..100,Y-50..50",
+            "--feeds",
+            self.feeds,
+            "--radius",
+            self.radius,
+            "--slowest",
+            "0.5",
+            "-o",
+            "m",
+        ];
+        let output = self.call(&[&plan, more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    }
+
+    /// Plans the next round with lists.
+    pub(crate) fn plan_round(&self, lists: &[PathBuf; 2]) {
+        let [x, y] = [0, 1].map(|at| format!("{}={}", AXES[at], lists[at].display()));
+        self.plan(&["--value-list", &x, "--value-list", &y]);
+    }
+
+    /// Runs the command on what is recorded.
+    pub(crate) fn run(&self, more: &[&str]) -> (Option<i32>, String) {
+        let output = self.call(&[&["commission", "run", "m"], &CHANNELS[..], more].concat());
+        (output.status.code(), said(&output))
+    }
+
+    /// The lists of X and Y of a kind.
+    pub(crate) fn lists(&self, kind: &str) -> [PathBuf; 2] {
+        AXES.map(|axis| {
+            let names = self.names("m/lists", &format!("{axis}-{kind}-"));
+            assert_eq!(names.len(), 1, "{names:?}");
+            Path::new("m/lists").join(&names[0])
+        })
+    }
+
+    /// The provisional lists that the recordings of stage 1 give.
+    pub(crate) fn provisional(&self) -> [PathBuf; 2] {
+        let (_, said) = self.run(&[]);
+        assert!(said.contains("provisional list"), "{said}");
+        self.lists("provisional")
+    }
+
+    fn names(&self, folder: &str, begin: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path().join(folder)).expect("a folder");
+        let names = entries.map(|it| it.expect("an entry").file_name());
+        let names = names.map(|it| it.to_string_lossy().into_owned());
+        let mut names: Vec<String> = names.filter(|it| it.starts_with(begin)).collect();
+        names.sort();
+        names
+    }
+
+    /// The programs of a round, 1 for stage 1, whose names hold some words.
+    pub(crate) fn programs(&self, round: usize, words: &str) -> Vec<String> {
+        let path = self.path().join(format!("m/plan-{round}.json"));
+        let text = std::fs::read_to_string(path).expect("a plan");
+        let plan: serde_json::Value = serde_json::from_str(&text).expect("a plan");
+        let programs = plan["plan"]["programs"].as_array().expect("programs");
+        let files = programs.iter().filter_map(|it| it["file"].as_str());
+        let files = files.filter(|it| it.contains(words));
+        files.map(str::to_owned).collect()
+    }
+
+    /// The lists with which a round is planned.
+    fn loaded(&self, round: usize) -> [ValueList; 2] {
+        let path = self.path().join(format!("m/plan-{round}.json"));
+        let text = std::fs::read_to_string(path).expect("a plan");
+        let plan: serde_json::Value = serde_json::from_str(&text).expect("a plan");
+        [0, 1].map(|at: usize| {
+            let file = plan["lists"][at]["file"].as_str().expect("a list");
+            let text = std::fs::read_to_string(self.path().join(file)).expect("a list");
+            ValueList::parse(&text)
+        })
+    }
+
+    /// What a machine does in a program.
+    pub(crate) fn drive(
+        &self,
+        machine: &Machine,
+        program: &str,
+        lists: [Option<&ValueList>; 2],
+    ) -> Run {
+        let text = std::fs::read_to_string(self.path().join("m").join(program));
+        let program = Program::parse(&text.expect("a program"), AXES, START);
+        machine.run(&program, START, lists)
+    }
+
+    /// Puts a recording of a run into the folder, named as its program.
+    pub(crate) fn put(&self, program: &str, run: &Run, recorder: &Recorder) {
+        let name = program.replace(".nc", ".csv");
+        let path = self.path().join("m/recordings").join(name);
+        std::fs::write(path, recorder.table(run, AXES)).expect("written");
+    }
+
+    /// Records every program of a stage.
+    pub(crate) fn record_all(&self, stage: Stage, recorder: &Recorder) {
+        let round = match stage {
+            Stage::Off => 1,
+            Stage::On(round) => round,
+        };
+        let lists = match stage {
+            Stage::Off => None,
+            Stage::On(round) => Some(self.loaded(round)),
+        };
+        for (seed, program) in (100..).zip(self.programs(round, "")) {
+            let on = [0, 1].map(|at: usize| lists.as_ref().map(|it| &it[at]));
+            let run = self.drive(&self.machine, &program, on);
+            let recorder = Recorder {
+                seed: recorder.seed + seed,
+                ..recorder.clone()
+            };
+            self.put(&program, &run, &recorder);
+        }
+    }
+
+    /// Records the circles of a round again, with the lists of some axes only.
+    pub(crate) fn record_circles(&self, round: usize, is_on: [bool; 2], recorder: &Recorder) {
+        let lists = self.loaded(round);
+        let on = [0, 1].map(|at: usize| is_on[at].then_some(&lists[at]));
+        for (seed, program) in (500..).zip(self.programs(round, "circle")) {
+            let run = self.drive(&self.machine, &program, on);
+            let recorder = Recorder {
+                seed: recorder.seed + seed,
+                ..recorder.clone()
+            };
+            self.put(&program, &run, &recorder);
+        }
+    }
+}
+
+/// What a command said, in one line.
+pub(crate) fn said(output: &Output) -> String {
+    let bytes = [&output.stdout[..], &output.stderr[..]].concat();
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

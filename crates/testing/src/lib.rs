@@ -1,0 +1,35 @@
+//! Machines of their own for tests: they execute measuring programs and are recorded, with every fault as a
+//! parameter. They share no code with the packages that they test, which this package therefore does not use.
+//!
+//! A [`Program`] is read as text, a [`Control`] turns it into commanded positions with ramps of its own and adds
+//! the current of a [`ValueList`], an [`Axis`] follows them in steps of 31.25 µs, and a [`Recorder`] writes what
+//! a recording would hold.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "rows, cycles and times of recordings that the tests make themselves"
+)]
+
+mod axis;
+mod control;
+mod glitches;
+mod guide;
+mod list;
+mod machine;
+mod program;
+mod ramp;
+mod random;
+mod recorder;
+
+pub use axis::{Axis, Coupling};
+pub use control::{Commanded, Control};
+pub use glitches::{TrueGlitches, true_glitches};
+pub use guide::{Guide, Presliding};
+pub use list::ValueList;
+pub use machine::{Machine, Run};
+pub use program::{Move, Program};
+pub use ramp::Ramp;
+pub use random::Random;
+pub use recorder::Recorder;

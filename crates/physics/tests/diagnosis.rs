@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "the recorder serves other tests, too")]
 
+#[path = "diagnosis/confusion.rs"]
+mod confusion;
 #[path = "spec_recorded/recorder.rs"]
 mod recorder;
 #[path = "../../../tests/support/table.rs"]

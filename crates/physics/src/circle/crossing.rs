@@ -34,6 +34,16 @@ frictcomp::words! {
     }
 }
 
+impl PlaneAxis {
+    /// The other axis of the plane.
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::X => Self::Y,
+            Self::Y => Self::X,
+        }
+    }
+}
+
 impl Crossing {
     /// The angle from X+ counter-clockwise.
     pub fn angle_deg(self) -> u16 {

@@ -131,8 +131,8 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
     let evidence = figures.evidence.as_ref();
     let mut advice = Vec::new();
     for &(direction, shape) in &shapes {
-        for glitch in &shape.glitches {
-            let glitch = &evidence.map_or(*glitch, |it| glitch.less(bulge_of_noise(it)));
+        for seen in &shape.glitches {
+            let glitch = &evidence.map_or(*seen, |it| seen.less(bulge_of_noise(it)));
             if let Some(finding) = peak(glitch, compensation)
                 && evidence.is_none_or(|it| is_carried(finding, glitch, it))
             {
@@ -140,7 +140,7 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
                     place: FoundAt::Crossing(glitch.crossing),
                     direction: Some(direction),
                     finding,
-                    size_um: glitch.outward_um - glitch.inward_um,
+                    size_um: size_of_peak(finding, seen),
                     grounds: DiagnosisGrounds {
                         error_um: evidence.map(|it| it.noise_um),
                         unexplained_um: evidence.map(|it| it.rest_um),
@@ -180,12 +180,13 @@ fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> b
         _ => None,
     });
     let play: f64 = play.sum();
-    let other = match evidence.other {
-        Some(
-            OtherShape::Periodic { amplitude_um, .. } | OtherShape::Vibration { amplitude_um, .. },
-        ) => amplitude_um / 2.0_f64.sqrt(),
-        _ => evidence.rest_um,
-    };
+    let sizes = evidence.others().map(|it| match it {
+        OtherShape::Periodic { amplitude_um, .. } | OtherShape::Vibration { amplitude_um, .. } => {
+            amplitude_um / 2.0_f64.sqrt()
+        }
+        OtherShape::Unknown => evidence.rest_um,
+    });
+    let other = sizes.reduce(f64::hypot).unwrap_or(evidence.rest_um);
     if !evidence.has_other_shape() && swings.is_none() {
         return glitch.outward_um - glitch.inward_um > play;
     }
@@ -257,11 +258,12 @@ fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
             _ => 0.0,
         };
         // An unknown shape may contain as much of any term.
-        let unsure = match evidence.other {
-            Some(OtherShape::Unknown) => UNKNOWN * evidence.rest_um,
-            Some(OtherShape::Vibration { .. }) => 2.0 * evidence.rest_um,
-            _ => 0.0,
-        };
+        let unsure = evidence.others().map(|it| match it {
+            OtherShape::Unknown => UNKNOWN * evidence.rest_um,
+            OtherShape::Vibration { .. } => 2.0 * evidence.rest_um,
+            OtherShape::Periodic { .. } => 0.0,
+        });
+        let unsure = unsure.fold(0.0, f64::max);
         term.is_carried() && term.size_um.abs() >= NOTICEABLE_UM.max(least).max(unsure)
     };
     let named = evidence.terms.iter().filter(is_worth).map(|term| {
@@ -286,7 +288,7 @@ fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
     });
     named
         .chain(sticking(evidence))
-        .chain(left_over(evidence))
+        .chain(evidence.others().map(|other| left_over(other, evidence)))
         .collect()
 }
 
@@ -308,12 +310,12 @@ fn sticking(evidence: &CircleEvidence) -> impl Iterator<Item = Diagnosis> + '_ {
 }
 
 /// Returns the finding on the residual that no shape explains.
-fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
+fn left_over(other: OtherShape, evidence: &CircleEvidence) -> Diagnosis {
     let rest = DiagnosisGrounds {
         unexplained_um: Some(evidence.rest_um),
         ..DiagnosisGrounds::default()
     };
-    let (place, finding, size_um, grounds) = match evidence.other? {
+    let (place, finding, size_um, grounds) = match other {
         OtherShape::Periodic {
             axis,
             pitch_mm,
@@ -341,13 +343,13 @@ fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
         ),
         OtherShape::Unknown => (FoundAt::Whole, Finding::OtherShape, evidence.rest_um, rest),
     };
-    Some(Diagnosis {
+    Diagnosis {
         place,
         direction: None,
         finding,
         size_um,
         grounds,
-    })
+    }
 }
 
 /// Returns the causes that a test with compensation suggests, given the one without.
@@ -367,6 +369,15 @@ pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
         }
     }
     advice
+}
+
+/// Returns the size of a peak as the figures show it: of the bulge that the finding names, or of both.
+fn size_of_peak(finding: Finding, glitch: &Glitch) -> f64 {
+    match finding {
+        Finding::Friction | Finding::TooWeak => glitch.outward_um,
+        Finding::TooStrong => -glitch.inward_um,
+        _ => glitch.outward_um - glitch.inward_um,
+    }
 }
 
 /// Returns the finding on the decaying peak of a crossing.

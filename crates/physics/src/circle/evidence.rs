@@ -11,8 +11,9 @@ use super::oscillation::Oscillation;
 use super::pitch;
 use super::profile::{Quality, RadialProfile};
 use super::series::{AngleSeries, beyond_noise};
-use super::shapes::Shapes;
+use super::shapes::{Additions, Shapes};
 use super::swings::stick_slip;
+use super::tails::{self, Tails};
 
 /// Least residual in µm that counts as a shape …
 const LEAST_REST_UM: f64 = 0.15;
@@ -26,6 +27,9 @@ const REST_OF_STEP: f64 = 0.5;
 /// Part of the residual that a shape explains at least.
 const EXPLAINS: f64 = 0.2;
 
+/// A residual that screws leave counts as a shape from this part of what it was.
+const REMAINS: f64 = 0.2;
+
 /// Evidence in a recording, with its limits.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -38,8 +42,14 @@ pub struct CircleEvidence {
     pub rest_um: f64,
     /// The shape of the residual, if it has one.
     pub other: Option<OtherShape>,
+    /// Another one beside it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second: Option<OtherShape>,
     /// The largest swing of X and of Y in µm, if the axis sticks and slips.
     pub stick_slip_um: [Option<f64>; 2],
+    /// What slow peaks leave beyond their reversals.
+    #[serde(skip)]
+    pub(super) tails: Tails,
 }
 
 impl CircleEvidence {
@@ -56,44 +66,25 @@ impl CircleEvidence {
             series.collect::<Option<Vec<AngleSeries>>>()
         };
         let [coarse, fine] = [in_steps(AngleSeries::coarse)?, in_steps(AngleSeries::fine)?];
-        let mut shapes = Shapes::fit(&coarse)?;
+        let rough = in_steps(AngleSeries::rough)?;
         let noise_um = quality.noise_um;
+        let without = Shapes::fit(&coarse, Additions::default())?;
+        let shapes = tails::fit(&paths, (&coarse, &rough), noise_um)?;
         let floor = (REST_OF_NOISE * noise_um)
             .max(LEAST_REST_UM)
             .max(REST_OF_STEP * quality.step_um);
-        let mut left = shapes.less(&fine, None);
-        let mut rest_um = rest(&shapes, &left, noise_um);
-        let mut other = None;
-        if rest_um > floor {
-            let least = EXPLAINS * rest_um * rest_um;
-            let oscillation = Oscillation::search(&shapes.left, &left);
-            let oscillation = oscillation.filter(|it| it.explains > least);
-            let explained = oscillation.map_or(least, |it| it.explains);
-            let periodic = pitch::search(&shapes).filter(|it| it.explains() > explained);
-            other = Some(match (&periodic, oscillation) {
-                (Some(periodic), _) => OtherShape::Periodic {
-                    axis: periodic.screw.axis,
-                    pitch_mm: 1.0 / periodic.screw.frequency,
-                    amplitude_um: periodic.amplitude_um(),
-                },
-                (None, Some(oscillation)) => OtherShape::Vibration {
-                    hertz: oscillation.hertz,
-                    amplitude_um: oscillation.amplitude_um,
-                },
-                (None, None) => OtherShape::Unknown,
-            });
-            if let Some(periodic) = periodic {
-                shapes = shapes.with(&periodic, &coarse)?;
-                left = shapes.less(&fine, Some(&periodic));
-                rest_um = rest(&shapes, &left, noise_um);
-            }
-        }
-        let is_explained = matches!(
-            other,
-            Some(OtherShape::Periodic { .. } | OtherShape::Vibration { .. })
-        );
+        let limits = RestLimits { noise_um, floor };
+        let Explained {
+            shapes,
+            rest_um,
+            others: [other, second],
+        } = explained(shapes, (&coarse, &fine), limits)?;
+        let is_named = |it: OtherShape| it != OtherShape::Unknown;
+        let is_explained = other.is_some_and(is_named);
         let stick_slip_um =
             PlaneAxis::ALL.map(|axis| stick_slip(&paths, axis, noise_um).filter(|_| !is_explained));
+        let shapes = shapes.doubted(&without);
+        let tails = shapes.tails();
         let mut terms = shapes.terms;
         terms.extend(
             paths
@@ -106,14 +97,87 @@ impl CircleEvidence {
             terms,
             rest_um,
             other,
+            second,
             stick_slip_um,
+            tails,
         })
+    }
+
+    /// The shapes of the residual.
+    pub(super) fn others(&self) -> impl Iterator<Item = OtherShape> {
+        [self.other, self.second].into_iter().flatten()
     }
 
     /// Whether there is a residual that noise does not explain.
     pub fn has_other_shape(&self) -> bool {
         self.other.is_some()
     }
+}
+
+/// What counts as a residual.
+#[derive(Debug, Clone, Copy)]
+struct RestLimits {
+    noise_um: f64,
+    /// The least residual that has a shape.
+    floor: f64,
+}
+
+/// Shapes, with the screws that explain what others leave.
+struct Explained {
+    shapes: Shapes,
+    rest_um: f64,
+    others: [Option<OtherShape>; 2],
+}
+
+/// Explains what shapes leave: by one or two screws, by an oscillation, or not.
+fn explained(
+    mut shapes: Shapes,
+    (coarse, fine): (&[AngleSeries], &[AngleSeries]),
+    limits: RestLimits,
+) -> Option<Explained> {
+    let mut left = shapes.less(fine);
+    let mut rest_um = rest(&shapes, &left, limits.noise_um);
+    let at_first = rest_um;
+    let mut last = None;
+    while rest_um > limits.floor.max(REMAINS * at_first) {
+        let least = EXPLAINS * rest_um * rest_um;
+        let oscillation = Oscillation::search(&shapes.left, &left);
+        let oscillation = oscillation.filter(|it| it.explains > least);
+        let beaten = oscillation.map_or(least, |it| it.explains);
+        let mut added = shapes.added();
+        let free = added.screws.iter().position(Option::is_none);
+        let periodic = pitch::search(&shapes).filter(|it| it.explains() > beaten);
+        let (Some(periodic), Some(free)) = (periodic, free) else {
+            last = Some(
+                oscillation.map_or(OtherShape::Unknown, |it| OtherShape::Vibration {
+                    hertz: it.hertz,
+                    amplitude_um: it.amplitude_um,
+                }),
+            );
+            break;
+        };
+        added.screws[free] = Some(periodic.screw);
+        shapes = Shapes::fit(coarse, added)?;
+        left = shapes.less(fine);
+        rest_um = rest(&shapes, &left, limits.noise_um);
+    }
+    let screws = shapes.added().screws.into_iter().enumerate();
+    let mut others = screws.filter_map(|(number, screw)| {
+        screw.map(|screw| OtherShape::Periodic {
+            axis: screw.axis,
+            pitch_mm: 1.0 / screw.frequency,
+            amplitude_um: shapes.amplitude_um(number),
+        })
+    });
+    let mut others = [others.next(), others.next()];
+    if let (Some(last), Some(free)) = (last, others.iter_mut().find(|it| it.is_none())) {
+        *free = Some(last);
+    }
+    Some(Explained {
+        shapes,
+        rest_um,
+        others,
+    })
 }
 
 /// The residual that neither shapes nor noise explain: of the coarse steps, in which noise is smaller, or

@@ -10,8 +10,8 @@ const SIGNIFICANT: f64 = 3.0;
 /// … if it also has this size, in µm.
 const LEAST_TERM_UM: f64 = 0.5;
 
-/// Number of shapes that are fitted at once, including centres and radii.
-pub(super) const SHAPES: usize = 13;
+/// Number of shapes that are fitted at once, including centres, radii, the tails of slow peaks and screws.
+pub(super) const SHAPES: usize = 21;
 
 /// One value for each fitted shape.
 pub(super) type ShapeValues = [f64; SHAPES];

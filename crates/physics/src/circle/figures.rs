@@ -122,10 +122,17 @@ pub(super) enum Nominal {
 impl Figures {
     /// The figures of one or two paths, those of both about a centre.
     pub(super) fn of(paths: &Paths, nominal: Nominal, centre: PathCentre) -> Self {
+        let quality = paths.quality();
+        let evidence = quality.and_then(|it| CircleEvidence::of(paths.iter(), it));
         let one = |direction| {
-            paths
-                .get(direction)
-                .map(|profile| PathFigures::of(profile, direction, nominal))
+            let profile = paths.get(direction)?;
+            let mut figures = PathFigures::of(profile, nominal);
+            let tails = evidence.as_ref().map(|it| it.tails).unwrap_or_default();
+            figures.shape = PathShape::of(profile, direction, tails);
+            if let (Some(shape), Some(evidence)) = (&mut figures.shape, &evidence) {
+                shape.take_terms(direction, &evidence.terms);
+            }
+            Some(figures)
         };
         let (ccw, cw) = (one(Direction::Ccw), one(Direction::Cw));
         let both = paths.ccw.as_ref().zip(paths.cw.as_ref());
@@ -140,9 +147,7 @@ impl Figures {
             g_b_um: both.map(|it| it.deviation * UM_PER_M),
             h_um: both.map(|it| it.hysteresis * UM_PER_M),
             d_um: ds.map(|(ccw, cw)| f64::midpoint(ccw, cw)),
-            evidence: paths
-                .quality()
-                .and_then(|it| CircleEvidence::of(paths.iter(), it)),
+            evidence,
             ccw,
             cw,
         }
@@ -167,7 +172,7 @@ impl Figures {
 }
 
 impl PathFigures {
-    fn of(profile: &RadialProfile, direction: Direction, nominal: Nominal) -> Self {
+    fn of(profile: &RadialProfile, nominal: Nominal) -> Self {
         let (centre, radius) = least_squares(profile);
         let outer = profile.outer().map(|point| point.deviation);
         let inner = profile.inner().map(|point| point.deviation);
@@ -181,7 +186,7 @@ impl PathFigures {
             f_max_um: against(outer.fold(f64::MIN, f64::max)),
             f_min_um: against(inner.fold(f64::MAX, f64::min)),
             d_um: against(radius),
-            shape: PathShape::of(profile, direction),
+            shape: None,
         }
     }
 }

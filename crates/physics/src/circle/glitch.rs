@@ -4,9 +4,12 @@ use serde::Serialize;
 
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
+use super::evidence_shape::{ShapeTerm, Term};
 use super::linear::Normal;
 use super::profile::{ProfilePoint, RadialProfile, UM_PER_M};
 use super::quiet::{Beside, QuietPath};
+use super::tails::{TailPlace, Tails};
+use super::turning::CosineSine;
 use super::window::CrossingWindow;
 
 /// The glitch at one crossing (R5.22).
@@ -87,16 +90,10 @@ pub struct PathShape {
 const SETTLED: f64 = 0.15;
 
 impl PathShape {
-    /// The shape of a path; `None` if its windows reach the next crossings.
-    pub(super) fn of(profile: &RadialProfile, direction: Direction) -> Option<Self> {
-        let window = CrossingWindow::of(profile.turn_s())?;
-        let quiet = QuietPath::of(profile, direction, window)?;
-        let seen = Seen {
-            profile,
-            direction,
-            window,
-            quiet,
-        };
+    /// The shape of a path whose peaks have these tails; `None` if its windows reach the next crossings.
+    pub(super) fn of(profile: &RadialProfile, direction: Direction, tails: Tails) -> Option<Self> {
+        let seen = Seen::of(profile, direction, tails)?;
+        let quiet = seen.without_tails;
         let glitches = Crossing::ALL.map(|crossing| seen.glitch(crossing));
         let [x, y] = quiet.steps;
         let axes = [(PlaneAxis::X, x), (PlaneAxis::Y, y)].map(|(axis, step)| {
@@ -114,11 +111,30 @@ impl PathShape {
             }
         });
         Some(Self {
-            window_deg: window.degrees(),
+            window_deg: seen.window.degrees(),
             glitches,
             axes,
             ellipse_um: quiet.ellipse.map(|amplitude| amplitude * UM_PER_M),
         })
+    }
+
+    /// Takes the steps and ellipses of a recording from the terms that its findings rest on, so that
+    /// figures and findings agree.
+    pub(super) fn take_terms(&mut self, direction: Direction, terms: &[Term]) {
+        let of = |shape: ShapeTerm| {
+            let term = terms.iter().find(|it| it.shape == shape);
+            term.map(|it| it.size_um)
+        };
+        for (shape, axis) in self.axes.iter_mut().zip(PlaneAxis::ALL) {
+            shape.step_um = of(ShapeTerm::Backlash(axis)).unwrap_or(shape.step_um);
+        }
+        // From the short to the long axis an ellipse is twice its amplitude.
+        if let Some(scale) = of(ShapeTerm::Scale) {
+            self.ellipse_um[0] = scale / 2.0;
+        }
+        if let (Some(angle), Some(gain)) = (of(ShapeTerm::Squareness), of(ShapeTerm::Gain)) {
+            self.ellipse_um[1] = f64::midpoint(angle, direction.sign() * gain);
+        }
     }
 
     /// Returns the shape of an axis.
@@ -138,13 +154,7 @@ pub(super) fn straightened(
     profile: &RadialProfile,
     direction: Direction,
 ) -> Option<[Vec<(f64, f64)>; 4]> {
-    let window = CrossingWindow::of(profile.turn_s())?;
-    let seen = Seen {
-        profile,
-        direction,
-        window,
-        quiet: QuietPath::of(profile, direction, window)?,
-    };
+    let seen = Seen::of(profile, direction, Tails::default())?;
     Some(Crossing::ALL.map(|crossing| seen.straightened(crossing)))
 }
 
@@ -154,9 +164,40 @@ struct Seen<'a> {
     direction: Direction,
     window: CrossingWindow,
     quiet: QuietPath,
+    tails: Tails,
+    /// The undisturbed path without the tails.
+    without_tails: QuietPath,
 }
 
-impl Seen<'_> {
+impl<'a> Seen<'a> {
+    fn of(profile: &'a RadialProfile, direction: Direction, tails: Tails) -> Option<Self> {
+        let window = CrossingWindow::of(profile.turn_s())?;
+        let quiet = |tails| QuietPath::of(profile, direction, (window, tails));
+        Some(Self {
+            profile,
+            direction,
+            window,
+            quiet: quiet(Tails::default())?,
+            tails,
+            without_tails: quiet(tails)?,
+        })
+    }
+
+    /// The deviation at a point in m, less the tail of an axis.
+    fn less_tail(&self, axis: PlaneAxis, point: ProfilePoint) -> f64 {
+        let ProfilePoint {
+            cos,
+            sin,
+            deviation,
+        } = point;
+        let place = TailPlace {
+            angle: CosineSine { cos, sin },
+            direction: self.direction,
+            turn_s: self.profile.turn_s().unwrap_or_default(),
+        };
+        deviation - self.tails.of(axis, place) / UM_PER_M
+    }
+
     /// The path in the window of a crossing less the undisturbed path and the line through both sides: the
     /// distance from the crossing in fixed angles, and the deviation in m.
     fn straightened(&self, crossing: Crossing) -> Vec<(f64, f64)> {
@@ -180,12 +221,14 @@ impl Seen<'_> {
         for (way, point) in self.profile.every(crossing, self.direction, ways) {
             let straight = line[0] + line[1] * way;
             height.take(way, point.deviation - self.quiet.smooth(point) - straight);
-            let level = |beside| self.quiet.level(crossing, beside, point) + offset;
+            let level = |beside| self.without_tails.level(crossing, beside, point) + offset;
             let levels = [level(Beside::Before), level(Beside::After)];
             let [low, high] = [levels[0].min(levels[1]), levels[0].max(levels[1])];
+            // The peak of the axis itself stays whole.
+            let deviation = self.less_tail(crossing.axis().other(), point);
             bulge.take(
                 way,
-                (point.deviation - high).max(0.0) + (point.deviation - low).min(0.0),
+                (deviation - high).max(0.0) + (deviation - low).min(0.0),
             );
         }
         Glitch {
@@ -221,8 +264,8 @@ impl Seen<'_> {
             let ways = self.window.decaying();
             let mut mean = Normal::<1>::new();
             for (_, point) in self.profile.fixed(crossing, self.direction, ways) {
-                let level = self.quiet.level(crossing, Beside::After, point) + offset;
-                mean.add([1.0], point.deviation - level);
+                let level = self.without_tails.level(crossing, Beside::After, point) + offset;
+                mean.add([1.0], self.less_tail(axis, point) - level);
             }
             mean.solve().map_or(0.0, |[mean]| mean.abs())
         });
@@ -235,8 +278,9 @@ impl Seen<'_> {
         let mut mean = Normal::<1>::new();
         let ways = CrossingWindow::before();
         for (_, point) in self.profile.fixed(crossing, self.direction, ways) {
-            let level = self.quiet.level(crossing, Beside::Before, point);
-            mean.add([1.0], point.deviation - level);
+            let level = self.without_tails.level(crossing, Beside::Before, point);
+            let other = crossing.axis().other();
+            mean.add([1.0], self.less_tail(other, point) - level);
         }
         mean.solve().map_or(0.0, |[mean]| mean)
     }

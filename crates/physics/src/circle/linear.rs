@@ -21,6 +21,9 @@ impl<const N: usize> Normal<N> {
     /// Takes an equation: the unknowns times `row` make `value`.
     pub(super) fn add(&mut self, row: [f64; N], value: f64) {
         for (at, sums) in self.matrix.iter_mut().enumerate() {
+            if row[at] == 0.0 {
+                continue;
+            }
             for (sum, factor) in sums.iter_mut().zip(row) {
                 *sum += row[at] * factor;
             }

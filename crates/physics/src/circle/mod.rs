@@ -34,6 +34,7 @@ mod series;
 mod shapes;
 mod simulate;
 mod swings;
+mod tails;
 mod test;
 mod tune;
 mod turning;

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::crossing::PlaneAxis;
-use super::evidence_shape::{SHAPES, ShapeValues};
 use super::series::AngleSeries;
 
 use super::turning::CosineSine;
@@ -50,32 +49,16 @@ pub(super) struct Periodic {
 }
 
 impl Periodic {
-    /// The amplitude in µm.
-    pub(super) fn amplitude_um(&self) -> f64 {
-        self.joint.parts[0].hypot(self.joint.parts[1])
-    }
-
     /// The mean square that it explains.
     pub(super) fn explains(&self) -> f64 {
         self.joint.explains
     }
-
-    /// The error in µm at a place of the path.
-    pub(super) fn at(&self, angle: CosineSine, radius_mm: f64) -> f64 {
-        let [cos, sin] = self.screw.columns(angle, radius_mm);
-        self.joint.parts[0] * cos + self.joint.parts[1] * sin
-    }
 }
 
-/// The error of a screw in addition to the shapes.
+/// Two columns in addition to the shapes.
 pub(super) struct Joint {
-    /// The amplitudes of its cosine and its sine.
-    pub(super) parts: [f64; 2],
-    /// Mean square that it explains.
+    /// Mean square that they explain.
     pub(super) explains: f64,
-    inverse: [f64; 3],
-    /// The shares of the cosine and the sine in each shape.
-    pub(super) shares: [ShapeValues; 2],
 }
 
 impl Joint {
@@ -91,15 +74,7 @@ impl Joint {
             inverse[1] * products[0] + inverse[2] * products[1],
         ];
         is_firm.then_some(Self {
-            parts,
             explains: parts[0] * products[0] + parts[1] * products[1],
-            inverse,
-            shares: [[0.0; SHAPES]; 2],
         })
-    }
-
-    /// The variance that an uncertain screw adds to a shape with these shares of it.
-    pub(super) fn spread(&self, [c, s]: [f64; 2]) -> f64 {
-        c * c * self.inverse[0] + 2.0 * c * s * self.inverse[1] + s * s * self.inverse[2]
     }
 }

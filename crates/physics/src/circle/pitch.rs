@@ -3,6 +3,7 @@
 use super::crossing::PlaneAxis;
 use super::periodic::{Periodic, Screw};
 use super::shapes::Shapes;
+use super::turning::CosineSine;
 
 /// Pitches in mm.
 const PITCHES: [f64; 2] = [1.0, 40.0];
@@ -16,13 +17,17 @@ const ALIKE_TURNS: f64 = 3.0;
 /// Frequencies on either side of the best one among which the pitch is sharpened.
 const FINE: i32 = 15;
 
+/// The part of what a screw explains from which a third harmonic of the turn explains it, too: a guide that is
+/// bent, not a screw.
+const BENT: f64 = 0.9;
+
 /// The error of the pitch that explains most of what the shapes leave, in addition to them.
 pub(super) fn search(shapes: &Shapes) -> Option<Periodic> {
     let radius_mm = shapes.left.first()?.radius_mm;
     let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];
     let step = 1.0 / (6.0 * radius_mm);
     let of = |screw: Screw| {
-        let joint = shapes.joint(&screw)?;
+        let joint = shapes.joint(|angle, radius_mm| screw.columns(angle, radius_mm))?;
         Some(Periodic { screw, joint })
     };
     let mut best: Option<(Screw, f64)> = None;
@@ -47,5 +52,8 @@ pub(super) fn search(shapes: &Shapes) -> Option<Periodic> {
         let frequency = best.frequency + f64::from(at) / f64::from(FINE) * step;
         of(Screw { frequency, ..best })
     });
-    near.max_by(|one, other| one.explains().total_cmp(&other.explains()))
+    let found = near.max_by(|one, other| one.explains().total_cmp(&other.explains()))?;
+    let bent = shapes.joint(|CosineSine { cos, sin }, _| [cos * sin * sin, sin * cos * cos]);
+    let of_bent = bent.map_or(0.0, |it| it.explains);
+    (of_bent < BENT * found.explains()).then_some(found)
 }

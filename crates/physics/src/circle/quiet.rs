@@ -9,7 +9,9 @@
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::linear::Normal;
-use super::profile::{ProfilePoint, RadialProfile};
+use super::profile::{ProfilePoint, RadialProfile, UM_PER_M};
+use super::tails::{TailPlace, Tails};
+use super::turning::CosineSine;
 use super::window::CrossingWindow;
 
 /// The undisturbed path, in m.
@@ -33,12 +35,13 @@ pub(super) enum Beside {
 }
 
 impl QuietPath {
-    /// Fits the path between the windows of a profile; `None` if they do not determine it.
+    /// Fits the path between the windows of a profile, less tails of its peaks; `None` if they do not determine it.
     pub(super) fn of(
         profile: &RadialProfile,
         direction: Direction,
-        window: CrossingWindow,
+        (window, tails): (CrossingWindow, Tails),
     ) -> Option<Self> {
+        let turn_s = profile.turn_s().unwrap_or_default();
         let places = Crossing::ALL
             .into_iter()
             .flat_map(|crossing| profile.fixed(crossing, direction, window.quiet()));
@@ -51,6 +54,13 @@ impl QuietPath {
             } = point;
             let [along, across] = second_harmonic(point);
             let [x, y] = PlaneAxis::ALL.map(|axis| lag(axis, point, direction));
+            let angle = CosineSine { cos, sin };
+            let place = TailPlace {
+                angle,
+                direction,
+                turn_s,
+            };
+            let deviation = deviation - tails.at(place) / UM_PER_M;
             normal.add([1.0, cos, sin, along, across, x, y], deviation);
         }
         let [mean, shift_x, shift_y, along, across, step_x, step_y] = normal.solve()?;

@@ -10,6 +10,9 @@ use super::turning::CosineSine;
 /// Fixed angles of a profile in a step of the shapes.
 const COARSE: usize = 10;
 
+/// Fixed angles of a profile in a step in which the decay of tails is sought.
+const ROUGH: usize = 40;
+
 /// Masked part of a turn after every crossing: degrees, or seconds if that is more.
 const MASKED_DEG: f64 = 14.0;
 const MASKED_S: f64 = 0.3;
@@ -48,6 +51,15 @@ impl AngleSeries {
         samples: usize,
     ) -> Option<Self> {
         Self::in_steps(profile, direction, (samples, COARSE))
+    }
+
+    /// The path in longer steps, in which slow shapes are the same.
+    pub(super) fn rough(
+        profile: &RadialProfile,
+        direction: Direction,
+        samples: usize,
+    ) -> Option<Self> {
+        Self::in_steps(profile, direction, (samples, ROUGH))
     }
 
     /// The path in steps of a sample, or of a fixed angle if that is more.

@@ -4,8 +4,9 @@ use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::evidence_shape::{SHAPES, ShapeTerm, ShapeValues, Term};
 use super::linear::Normal;
-use super::periodic::{Joint, Periodic, Screw};
+use super::periodic::{Joint, Screw};
 use super::series::AngleSeries;
+use super::tails::{Decays, TailPlace, Tails, columns};
 use super::turning::CosineSine;
 
 /// Shapes visible in both directions, with their places in a row, and the ratio of each to its unknown.
@@ -28,64 +29,130 @@ const OF_ONE: [(usize, ShapeTerm, f64); 2] = [
 /// Shapes that one direction cannot distinguish from others.
 const UNTOLD: [usize; 3] = [8, 11, 12];
 
+/// The places of the tails of X and of Y in a row.
+const TAILS: [[usize; 2]; 2] = [[13, 14], [15, 16]];
+
+/// The part of what a tail takes from a term that remains uncertain: no peak decays quite exponentially.
+const TAKEN: f64 = 0.05;
+
+/// The places of the cosines and sines of two screws in a row.
+const SCREWS: [[usize; 2]; 2] = [[17, 18], [19, 20]];
+
+/// Shapes that paths may have in addition to those that each is fitted with.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Additions {
+    /// The decays of tails.
+    pub(super) decays: Decays,
+    /// Errors that repeat along an axis.
+    pub(super) screws: [Option<Screw>; 2],
+}
+
+/// The basis of the rows.
+#[derive(Debug, Clone, Copy)]
+struct Basis {
+    is_single: bool,
+    added: Additions,
+}
+
+/// The path in which a row is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    pub(super) direction: Direction,
+    pub(super) turn_s: Option<f64>,
+    pub(super) radius_mm: f64,
+}
+
+impl Course {
+    fn of(series: &AngleSeries) -> Self {
+        Self {
+            direction: series.direction,
+            turn_s: series.turn_s,
+            radius_mm: series.radius_mm,
+        }
+    }
+}
+
 /// Fitted shapes, and the paths less them.
 pub(super) struct Shapes {
     normal: Normal<SHAPES>,
-    is_single: bool,
+    basis: Basis,
     found: ShapeValues,
     pub(super) terms: Vec<Term>,
     pub(super) left: Vec<AngleSeries>,
 }
 
 impl Shapes {
-    pub(super) fn fit(series: &[AngleSeries]) -> Option<Self> {
-        let is_single = series.len() == 1;
+    /// Fits the shapes and some more.
+    pub(super) fn fit(series: &[AngleSeries], added: Additions) -> Option<Self> {
+        let basis = Basis {
+            is_single: series.len() == 1,
+            added,
+        };
         let mut normal = Normal::<SHAPES>::new();
         for one in series {
             for (angle, value) in one.steps() {
-                normal.add(row(angle, one.direction, is_single), value);
+                normal.add(basis.row(angle, Course::of(one)), value);
             }
         }
         normal.hold_unused();
         let shapes = Self {
             found: normal.clone().solve()?,
             normal,
-            is_single,
+            basis,
             terms: Vec::new(),
             left: Vec::new(),
         };
         let spreads = shapes.normal.spreads()?;
-        Some(shapes.judged(series, &spreads, None))
+        Some(shapes.judged(series, &spreads))
     }
 
-    /// The shapes together with a periodic error, which takes from each the part that may belong to either.
-    pub(super) fn with(&self, periodic: &Periodic, series: &[AngleSeries]) -> Option<Self> {
-        let joint = &periodic.joint;
-        let mut found = self.found;
-        let mut spreads = self.normal.spreads()?;
-        for (at, (unknown, spread)) in found.iter_mut().zip(&mut spreads).enumerate() {
-            let shares = joint.shares.map(|it| it[at]);
-            *unknown -= shares[0] * joint.parts[0] + shares[1] * joint.parts[1];
-            *spread += joint.spread(shares);
+    /// The tails of slow peaks.
+    pub(super) fn tails(&self) -> Tails {
+        Tails::new(
+            self.basis.added.decays,
+            TAILS.map(|of_axis| of_axis.map(|at| self.found[at])),
+        )
+    }
+
+    /// The squares of what is left of the paths, added up.
+    pub(super) fn squares(&self) -> f64 {
+        let left = self.left.iter().flat_map(AngleSeries::steps);
+        left.map(|(_, value)| value * value).sum()
+    }
+
+    /// The variance of a step of what is left.
+    pub(super) fn variance(&self) -> f64 {
+        let of_blocks = self.left.iter().map(AngleSeries::block_variance);
+        of_blocks.fold(0.0, f64::max)
+    }
+
+    /// The fitted path at a place, in µm.
+    pub(super) fn at(&self, angle: CosineSine, course: Course) -> f64 {
+        let row = self.basis.row(angle, course);
+        row.iter().zip(self.found).map(|(a, b)| a * b).sum()
+    }
+
+    /// Makes the terms less certain by a part of what they are without the tails.
+    pub(super) fn doubted(mut self, without: &Self) -> Self {
+        if self.basis.added.decays == Decays::default() {
+            return self;
         }
-        let shapes = Self {
-            normal: self.normal.clone(),
-            is_single: self.is_single,
-            found,
-            terms: Vec::new(),
-            left: Vec::new(),
-        };
-        Some(shapes.judged(series, &spreads, Some(periodic)))
+        for (term, other) in self.terms.iter_mut().zip(&without.terms) {
+            let taken = TAKEN * (term.size_um - other.size_um);
+            term.error_um = term.error_um.hypot(taken);
+        }
+        self
     }
 
-    /// The screw's own part of the residual of the shapes.
-    pub(super) fn joint(&self, screw: &Screw) -> Option<Joint> {
+    /// The part of the residual that is explained by two more columns, which are given for an angle and a
+    /// radius in mm.
+    pub(super) fn joint(&self, columns: impl Fn(CosineSine, f64) -> [f64; 2]) -> Option<Joint> {
         let mut sums = [[0.0; SHAPES]; 2];
         let (mut squares, mut products, mut count) = ([0.0; 3], [0.0; 2], 0.0);
         for one in &self.left {
             for (angle, value) in one.steps() {
-                let columns = screw.columns(angle, one.radius_mm);
-                let row = row(angle, one.direction, self.is_single);
+                let columns = columns(angle, one.radius_mm);
+                let row = self.basis.row(angle, Course::of(one));
                 for (sums, column) in sums.iter_mut().zip(columns) {
                     for (sum, part) in sums.iter_mut().zip(row) {
                         *sum += part * column;
@@ -113,21 +180,18 @@ impl Shapes {
             squares[2] - dot(&sums[1], &shares[1]),
         ];
         let mut joint = Joint::new(own, squares, products)?;
-        joint.shares = shares;
         joint.explains /= f64::max(count, 1.0);
         Some(joint)
     }
 
-    fn judged(
-        mut self,
-        series: &[AngleSeries],
-        spreads: &ShapeValues,
-        periodic: Option<&Periodic>,
-    ) -> Self {
-        self.left = self.less(series, periodic);
-        let of_blocks = self.left.iter().map(AngleSeries::block_variance);
-        let of_blocks = of_blocks.fold(0.0, f64::max);
-        let told: &[(usize, ShapeTerm, f64)] = if self.is_single { &OF_ONE } else { &OF_BOTH };
+    fn judged(mut self, series: &[AngleSeries], spreads: &ShapeValues) -> Self {
+        self.left = self.less(series);
+        let of_blocks = self.variance();
+        let told: &[(usize, ShapeTerm, f64)] = if self.basis.is_single {
+            &OF_ONE
+        } else {
+            &OF_BOTH
+        };
         let term = |&(at, shape, factor): &(usize, ShapeTerm, f64)| Term {
             shape,
             size_um: factor * self.found[at],
@@ -137,20 +201,21 @@ impl Shapes {
         self
     }
 
-    /// Paths less the shapes, and less a periodic error.
-    pub(super) fn less(
-        &self,
-        series: &[AngleSeries],
-        periodic: Option<&Periodic>,
-    ) -> Vec<AngleSeries> {
-        let less = |one: &AngleSeries| {
-            one.less(|angle, direction| {
-                let row = row(angle, direction, self.is_single);
-                let of_shapes: f64 = row.iter().zip(self.found).map(|(a, b)| a * b).sum();
-                of_shapes + periodic.map_or(0.0, |it| it.at(angle, one.radius_mm))
-            })
-        };
+    /// Paths less the shapes.
+    pub(super) fn less(&self, series: &[AngleSeries]) -> Vec<AngleSeries> {
+        let less = |one: &AngleSeries| one.less(|angle, _| self.at(angle, Course::of(one)));
         series.iter().map(less).collect()
+    }
+
+    /// What was fitted in addition.
+    pub(super) fn added(&self) -> Additions {
+        self.basis.added
+    }
+
+    /// The amplitude in µm of a screw by its number.
+    pub(super) fn amplitude_um(&self, screw: usize) -> f64 {
+        let [cos, sin] = SCREWS[screw].map(|at| self.found[at]);
+        cos.hypot(sin)
     }
 }
 
@@ -162,32 +227,67 @@ fn steps(angle: CosineSine, turning: f64) -> [f64; 2] {
     ]
 }
 
-fn row(angle: CosineSine, direction: Direction, is_single: bool) -> ShapeValues {
-    let CosineSine { cos, sin } = angle;
-    let turning = direction.sign();
-    let of = |which: f64| if turning * which > 0.0 { 1.0 } else { 0.0 };
-    let [ccw, cw] = [of(1.0), of(-1.0)];
-    let [x, y] = steps(angle, turning);
-    let diagonal = 2.0 * cos * sin;
-    let mut row = [
-        ccw,
-        cw,
-        ccw * cos,
-        ccw * sin,
-        cw * cos,
-        cw * sin,
-        cos * cos - sin * sin,
-        diagonal,
-        turning * diagonal,
-        x,
-        y,
-        0.5 * turning * cos.abs(),
-        -0.5 * turning * sin.abs(),
-    ];
-    if is_single {
-        for at in UNTOLD {
-            row[at] = 0.0;
+impl Basis {
+    fn row(&self, angle: CosineSine, course: Course) -> ShapeValues {
+        let Course {
+            direction,
+            turn_s,
+            radius_mm,
+        } = course;
+        let CosineSine { cos, sin } = angle;
+        let turning = direction.sign();
+        let of = |which: f64| if turning * which > 0.0 { 1.0 } else { 0.0 };
+        let [ccw, cw] = [of(1.0), of(-1.0)];
+        let [x, y] = steps(angle, turning);
+        let diagonal = 2.0 * cos * sin;
+        let mut row = [
+            ccw,
+            cw,
+            ccw * cos,
+            ccw * sin,
+            cw * cos,
+            cw * sin,
+            cos * cos - sin * sin,
+            diagonal,
+            turning * diagonal,
+            x,
+            y,
+            0.5 * turning * cos.abs(),
+            -0.5 * turning * sin.abs(),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ];
+        for (axis, places) in PlaneAxis::ALL.into_iter().zip(TAILS) {
+            let decay_s = self.added.decays[usize::from(axis == PlaneAxis::Y)];
+            let Some((decay_s, turn_s)) = decay_s.zip(turn_s) else {
+                continue;
+            };
+            let place = TailPlace {
+                angle,
+                direction,
+                turn_s,
+            };
+            for (at, part) in places.into_iter().zip(columns(axis, decay_s, place)) {
+                row[at] = part;
+            }
         }
+        for (screw, places) in self.added.screws.iter().zip(SCREWS) {
+            let parts = screw.map(|it| it.columns(angle, radius_mm));
+            for (at, part) in places.into_iter().zip(parts.unwrap_or_default()) {
+                row[at] = part;
+            }
+        }
+        if self.is_single {
+            for at in UNTOLD {
+                row[at] = 0.0;
+            }
+        }
+        row
     }
-    row
 }

@@ -1,7 +1,7 @@
 //! Counts the feed moves that axes make without friction compensation (R13.12).
 
 use crate::comp::{AxisIndex, Kind, State};
-use crate::interpreter::{Certainty, Executed};
+use crate::interpreter::{Certainty, Executed, PathForm};
 use crate::timeline::{FeedMoves, PositionFrame};
 
 /// An axis whose friction compensation is not active.
@@ -79,11 +79,13 @@ impl FeedMoveCounter {
                 Some(Certainty::Certain)
                     if watched.state != State::Unknown && executed.branch.is_none() =>
                 {
-                    let is_line = executed.modal.functions.motion == 1
-                        && executed.also_moved.is_empty()
-                        && executed.word_motion.is_none();
-                    let ends = stood.zip(now).filter(|_| is_line);
-                    let length = ends.map(|(from, to)| ((to - from).abs() * 1e6).round() / 1e6);
+                    let is_plain = executed.also_moved.is_empty() && executed.word_motion.is_none();
+                    let travel = match executed.modal.functions.motion {
+                        1 => stood.zip(now).map(|(from, to)| (to - from).abs()),
+                        _ => travel_on_arc(executed, watched.axis),
+                    };
+                    let travel = travel.filter(|_| is_plain);
+                    let length = travel.map(|travel| (travel * 1e6).round() / 1e6);
                     if length != Some(0.0) {
                         counts.add(watched.state, length);
                     }
@@ -92,6 +94,22 @@ impl FeedMoveCounter {
             }
         }
     }
+}
+
+/// The travel of an axis along the arc or helix of a block, forth and back (R11.31); its length does not
+/// depend on where the origin is.
+fn travel_on_arc(executed: &Executed<'_>, axis: AxisIndex) -> Option<f64> {
+    let way = executed.aside.arc.as_ref()?;
+    let PathForm::Arc(arc) = &way.form else {
+        return None;
+    };
+    let ends = |axis: AxisIndex| Some([way.from[axis.get()]?, way.to[axis.get()]?]);
+    let Some(place) = arc.axes.iter().position(|it| *it == axis) else {
+        return ends(axis).map(|[from, to]| (to - from).abs());
+    };
+    let [one, two] = [ends(arc.axes[0])?, ends(arc.axes[1])?];
+    let shape = arc.between([0, 1].map(|end| [one[end], two[end]])).ok()?;
+    Some(shape.travel()[place])
 }
 
 /// Whether a block moves an axis other than in rapid motion; `None` where it does not.

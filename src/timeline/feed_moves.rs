@@ -16,10 +16,11 @@ pub struct FeedMoves {
     /// Number of moves for which it is unknown whether compensation was active, whether they are made, or whether they
     /// are rapid.
     pub unknown: u64,
-    /// The longest travel of the axis without compensation, in mm or degrees, among the moves of known length.
+    /// The longest travel of the axis without compensation, in mm or degrees, forth and back along an arc, among the
+    /// moves of known length.
     pub longest: Option<f64>,
-    /// Number of moves without compensation whose length is unknown: arcs, and moves whose start or end is unknown or
-    /// not a machine position.
+    /// Number of moves without compensation whose length is unknown: those whose start or end is unknown, and lines
+    /// whose start or end is not a machine position.
     pub unmeasured: u64,
 }
 

@@ -372,6 +372,47 @@ fn an_unknown_cycle_leaves_an_unknown_state() {
 }
 
 #[test]
+fn the_longest_move_counts_arcs() {
+    // R11.31: forth and back along the arc, by either form of its centre, in a plane of its own, and with
+    // the depth of a helix; a shift of the origin that only the machine knows changes no length.
+    let off = "N10 X[COMP OFF FRICT] Y[COMP OFF FRICT] Z[COMP OFF FRICT]\nN20 G00 X10 Y0 Z0\n";
+    for (blocks, lengths) in [
+        ("G03 X10 Y0 I-10 J0 F500", [Some(40.0), Some(40.0), None]),
+        ("G02 X0 Y-10 I-10 J0 F500", [Some(10.0), Some(10.0), None]),
+        ("G03 X0 Y-10 I-10 J0 F500", [Some(30.0), Some(30.0), None]),
+        ("G02 X-10 Y0 R10 F500", [Some(20.0), Some(20.0), None]),
+        (
+            "G02 X10 Y0 Z-3 I-10 J0 F500",
+            [Some(40.0), Some(40.0), Some(3.0)],
+        ),
+        (
+            "G01 X12 F500\nG03 X12 Y0 I1 J0",
+            [Some(4.0), Some(4.0), None],
+        ),
+    ] {
+        let program = format!("{off}{blocks}\nN90 M30\n");
+        let bench = Bench::new(&[("p.nc", &program)]);
+        let machine =
+            ["X", "Y", "Z"].map(|name| format!("[[axis]]\nname = \"{name}\"\nfrict_comp = true\n"));
+        bench.write("frictcomp.toml", &machine.concat());
+        let records = bench.records(&["p.nc"]);
+        let summary = json(records.last().expect("a summary"));
+        for (axis, length) in ["X", "Y", "Z"].iter().zip(lengths) {
+            let found = &summary["uncompensated"][axis];
+            assert_eq!(
+                found["longest"].as_f64(),
+                length,
+                "{blocks} {axis}: {found}"
+            );
+            assert!(
+                found["unmeasured"].as_u64().unwrap_or(0) == 0,
+                "{blocks} {axis}: {found}"
+            );
+        }
+    }
+}
+
+#[test]
 fn unknown_states_are_counted_apart() {
     // R13.12
     let unknown = "N10 $IF V.E.A == 1\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X10 F100\nN50 X20\n\

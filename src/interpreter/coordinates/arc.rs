@@ -1,6 +1,6 @@
 //! The shape of an arc between two places.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::motion::{Arc, Centre, Turn};
 
@@ -27,6 +27,26 @@ pub struct ArcShape {
     pub start: f64,
     /// The angle that it runs through, positive against the clock.
     pub sweep: f64,
+}
+
+impl ArcShape {
+    /// Returns the travel of both axes of the plane along the arc, forth and back, in the unit of the radius:
+    /// four radii each on a full circle.
+    pub fn travel(&self) -> [f64; 2] {
+        let ends = [self.start, self.start + self.sweep];
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        // The first axis turns back at 0 and 180°, the second at 90° and 270°.
+        [(0.0, f64::cos as fn(f64) -> f64), (FRAC_PI_2, f64::sin)].map(|(first, place)| {
+            let mut turn = first + ((low - first) / PI).ceil() * PI;
+            let (mut at, mut travel) = (low, 0.0);
+            while turn < high {
+                travel += (place(turn) - place(at)).abs();
+                at = turn;
+                turn += PI;
+            }
+            self.radius * (travel + (place(high) - place(at)).abs())
+        })
+    }
 }
 
 impl Arc {

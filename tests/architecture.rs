@@ -1,9 +1,6 @@
 //! The direction of imports, and the words that are forbidden in rooms.
 
-#[path = "architecture/circles.rs"]
-mod circles;
-
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -129,8 +126,73 @@ const PACKAGES: [(&str, Option<&str>); 8] = [
 /// Packages that touch no file, no terminal and no environment.
 const PURE: [&str; 4] = [".", "crates/physics", "crates/recordings", "crates/drives"];
 
-/// A file with more lines than this is split.
-const MAX_LINES: usize = 600;
+/// The folders of a room that each of its folders may import from; the files beside the folders are `""`.
+const FOLDERS: [(&str, &str, &[&str]); 24] = [
+    (
+        "interpreter",
+        "blocks",
+        &[
+            "coordinates",
+            "effects",
+            "programs",
+            "run",
+            "unknown",
+            "values",
+        ],
+    ),
+    (
+        "interpreter",
+        "effects",
+        &["coordinates", "programs", "run", "values"],
+    ),
+    (
+        "interpreter",
+        "execution",
+        &["coordinates", "programs", "run", "unknown", "values"],
+    ),
+    ("interpreter", "programs", &["values"]),
+    ("interpreter", "run", &["coordinates", "programs", "values"]),
+    (
+        "interpreter",
+        "unknown",
+        &["coordinates", "effects", "programs", "run", "values"],
+    ),
+    ("interpreter", "values", &["run"]),
+    ("syntax", "", &["ast", "lower"]),
+    ("syntax", "lower", &["ast"]),
+    ("circle", "fitted", &["recorded", "tune"]),
+    ("circle", "learn", &["recorded", "tune"]),
+    ("simulation", "", &["friction"]),
+    ("host", "ask", &["replay"]),
+    (
+        "report",
+        "",
+        &["assumptions", "circle", "commission", "text"],
+    ),
+    ("report", "audit", &["assumptions"]),
+    ("report", "circle", &["assumptions"]),
+    ("report", "commission", &["assumptions"]),
+    ("report", "compare", &["contour"]),
+    ("report", "contour", &["assumptions", "pictures"]),
+    (
+        "report",
+        "html",
+        &[
+            "assumptions",
+            "audit",
+            "circle",
+            "commission",
+            "compare",
+            "contour",
+            "pictures",
+            "svg",
+        ],
+    ),
+    ("report", "pictures", &["circle", "commission", "svg"]),
+    ("report", "text", &["assumptions"]),
+    ("cli", "", &["identify"]),
+    ("cli", "commission", &["identify"]),
+];
 
 /// A source file: its package, its room, its path inside the room, its text.
 struct File {
@@ -350,15 +412,82 @@ fn paths_are_shown_in_one_way() {
     assert_absent(&[".display()"], |_| true);
 }
 
+/// Returns the module path of a file, beginning with its room: `["motion", "plan"]`.
+fn module_path(file: &File) -> Vec<&str> {
+    let below = file.path.strip_suffix(".rs").expect("a Rust file");
+    let below = below.strip_suffix("/mod").unwrap_or(below);
+    below.split('/').collect()
+}
+
+/// Returns the first names after a path in a text, also those of a group in braces.
+fn names_after<'a>(text: &'a str, path: &str) -> BTreeSet<&'a str> {
+    let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let mut names = BTreeSet::new();
+    for (at, _) in text.match_indices(path) {
+        let rest = &text[at + path.len()..];
+        let Some(group) = rest.strip_prefix('{') else {
+            names.extend(rest.split(|letter| !is_name(letter)).next());
+            continue;
+        };
+        let mut depth = 0;
+        let mut begins = true;
+        for (at, letter) in group.char_indices() {
+            if begins && depth == 0 && is_name(letter) {
+                names.extend(group[at..].split(|letter| !is_name(letter)).next());
+            }
+            begins = match letter {
+                ' ' | '\n' => begins,
+                letter => letter == ',',
+            };
+            match letter {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                _ => {}
+            }
+        }
+    }
+    names
+}
+
 #[test]
-fn files_stay_short() {
-    let long: Vec<String> = sources()
+fn folders_of_a_room_import_what_their_row_says() {
+    let files = sources();
+    let mut folders: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for file in &files {
+        let path: Vec<&str> = file.path.split('/').collect();
+        if let [room, folder, _, ..] = path[..] {
+            folders.entry(room).or_default().insert(folder);
+        }
+    }
+    let mut found: BTreeMap<(&str, &str), BTreeSet<&str>> = BTreeMap::new();
+    for file in files
         .iter()
-        .map(|file| (file, file.text.lines().count()))
-        .filter(|(_, lines)| *lines > MAX_LINES)
-        .map(|(file, lines)| format!("{}: {lines} lines", file.shown()))
-        .collect();
-    assert!(long.is_empty(), "{}", long.join("\n"));
+        .filter(|file| folders.contains_key(&*file.room))
+    {
+        let module = module_path(file);
+        let beside = &folders[&*file.room];
+        let own = module.get(1).filter(|name| beside.contains(**name));
+        let text: Vec<&str> = code(file).map(|(_, line)| line).collect();
+        let text = text.join("\n").replace("pub(in ", "");
+        let mut imports = match file.is_whole {
+            true => names_after(&text, "crate::"),
+            false => names_after(&text, &format!("crate::{}::", file.room)),
+        };
+        // The path that leads up to the room, and the path of a file beside the folders to a folder.
+        let up = "super::".repeat(module.len().saturating_sub(1));
+        let up = if up.is_empty() { "self::" } else { &up };
+        imports.extend(names_after(&text, up));
+        let others = imports.into_iter().filter(|name| Some(name) != own);
+        let others = others.filter_map(|name| beside.get(name).copied());
+        let row = (module[0], own.copied().unwrap_or_default());
+        found.entry(row).or_default().extend(others);
+    }
+    found.retain(|_, imports| !imports.is_empty());
+    let rows = FOLDERS.iter();
+    let table =
+        rows.map(|(room, folder, imports)| ((*room, *folder), imports.iter().copied().collect()));
+    assert_eq!(found, table.collect());
 }
 
 #[test]

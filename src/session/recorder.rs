@@ -162,6 +162,7 @@ impl Recorder<'_> {
             motion: executed.motion,
             branch: executed.branch,
             diagnostics: &self.said,
+            reported: executed.diagnostics,
         }))
     }
 

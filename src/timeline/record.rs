@@ -96,6 +96,8 @@ pub struct Row<'a> {
     pub branch: Option<&'a [Vec<WayCondition>]>,
     /// Messages on the block, written right after it.
     pub diagnostics: &'a [Diagnostic],
+    /// Messages of the interpreter on the block, before the user's severities and `allow` comments.
+    pub reported: &'a [Diagnostic],
 }
 
 impl Row<'_> {

@@ -149,6 +149,28 @@ fn what_the_program_wrote_is_the_answer() {
 }
 
 #[test]
+fn values_that_ways_set_stay_apart_where_they_meet() {
+    // R2.99
+    let bench = Bench::on(MACHINE);
+    let set = "$IF V.E.A == 1\nV.E.REQ = 1\n$ELSE\nV.E.REQ = 2\n$ENDIF\n";
+    let ask = |value: u8, then: u8| {
+        format!(
+            "{set}$IF V.E.REQ == {value}\n$SWITCH V.E.REQ\n$CASE {then}\nX[COMP OFF FRICT]\n$ENDSWITCH\n$ENDIF\nM30"
+        )
+    };
+    // The program set it to 2 on one way, and the PLC may change it between the two conditions.
+    let (state, said) = left(&bench, &ask(2, 1));
+    assert_eq!(state, State::Unknown);
+    assert!(
+        said.contains("only if V.E.REQ == 2 (line 6) and V.E.REQ changes between lines 4 and 7"),
+        "{said}"
+    );
+    // No way sets it to 3, which the first condition tells until the PLC acts by design.
+    let (state, said) = left(&bench, &ask(3, 1));
+    assert_eq!(state, State::Active, "{said}");
+}
+
+#[test]
 fn cases_jumps_elements_and_texts_are_conditions_too() {
     // R2.99
     let programs = [

@@ -8,8 +8,9 @@ use frictcomp::Severity;
 use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_host::{
-    Axes, Disk, ExecutedProgram, FileRegistry, FoundPrograms, HostError, Input, LoadedMachine,
-    MachineOptions, Machines, Naming, SingleRun, in_order, main_programs, processors, run_alone,
+    Axes, Disk, ExecutedProgram, FileRegistry, FolderOptions, FoundPrograms, HostError,
+    IgnoreFiles, Input, LoadedMachine, MachineOptions, Machines, Naming, SingleRun, in_order,
+    main_programs, processors, run_alone,
 };
 use pyo3::prelude::*;
 
@@ -22,17 +23,29 @@ use crate::work::{Stop, interruptible};
 
 /// All messages of programs and of the programs below folders.
 ///
-/// Each program runs from the start of the control. ``Error`` if one of them cannot be read.
+/// Each program runs from the start of the control. Below folders, what the patterns of `exclude` name is not taken,
+/// and what ignore files name only with `no_ignore`. ``Error`` if one of the programs cannot be read.
 #[pyfunction]
-#[pyo3(signature = (programs, *, machine=None, limits=None))]
+#[pyo3(signature = (programs, *, machine=None, limits=None, exclude=Vec::new(), no_ignore=false))]
 pub(crate) fn check(
     programs: &Bound<'_, PyAny>,
     machine: Option<&Bound<'_, PyAny>>,
     limits: Option<&Bound<'_, PyLimits>>,
+    exclude: Vec<String>,
+    no_ignore: bool,
 ) -> PyResult<PyMessages> {
+    let ignore_files = if no_ignore {
+        IgnoreFiles::PassedOver
+    } else {
+        IgnoreFiles::Obeyed
+    };
+    let folders = FolderOptions {
+        exclude,
+        ignore_files,
+    };
     let job = CheckJob {
         programs: GivenPrograms::of(programs)?,
-        machine: machine_options(machine)?,
+        machine: machine_options(machine)?.selecting(folders),
         run: limits::brief(limits).with_stop(StopPolicy::CheckAll),
     };
     let said = interruptible(programs.py(), move |stop| job.done(stop))?;

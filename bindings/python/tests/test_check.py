@@ -33,6 +33,18 @@ def test_a_message_names_the_programs_that_reach_it(tmp_path: Path) -> None:
     assert said[0].reached_from_count == 2
 
 
+def test_what_is_not_taken_is_said_and_chosen(tmp_path: Path) -> None:
+    # R18.5
+    (tmp_path / ".ignore").write_text("aside.nc\n")
+    (tmp_path / "main.nc").write_text("N10 X1 F100\nM30\n")
+    (tmp_path / "aside.nc").write_text("N10 X[COMP OFF FRICT]\nN20 M30\n")
+    assert [it.code for it in frictcomp.check(tmp_path)] == ["FC105"]
+    assert "FC105" not in {it.code for it in frictcomp.check(tmp_path, no_ignore=True)}
+    assert [it.code for it in frictcomp.check(tmp_path, exclude=["aside.nc"])] == []
+    with pytest.raises(TypeError):
+        frictcomp.check(tmp_path, exclude="aside.nc")
+
+
 def test_messages_are_a_sequence() -> None:
     messages = frictcomp.check("programs/demo/friction.nc")
     assert [it.code for it in messages] == ["FC401", "FC401"]

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::decode::decode;
 use super::discovery::Machines;
 use super::disk::Disk;
-use super::file_kind::is_known_otherwise;
+use super::file_kind::{CONFIG_NAME, is_known_otherwise};
 use super::lines::LineReader;
 use super::read::open_regular;
 use super::registry::FileRegistry;
@@ -172,12 +172,12 @@ impl LeftOutFiles {
         said
     }
 
-    /// Returns the number of other files, which are no programs.
+    /// Returns the number of other files, which are neither programs nor configurations.
     pub fn others(&self) -> usize {
-        let others = self.files.iter();
-        others
-            .filter(|file| file.why == WhyLeftOut::NoProgram)
-            .count()
+        let is_other = |file: &&LeftOutFile| {
+            file.why == WhyLeftOut::NoProgram && !file.path.ends_with(CONFIG_NAME)
+        };
+        self.files.iter().filter(is_other).count()
     }
 
     /// Returns the programs that were not looked at, counted by kind: `153 programs in ignored folders, 2 .prg`.

@@ -543,10 +543,13 @@ def check(
     *,
     machine: Machine | _Path | None = None,
     limits: Limits | None = None,
+    exclude: Sequence[str] = (),
+    no_ignore: bool = False,
 ) -> Messages:
     """All messages of programs and of the programs below folders.
 
-    Each program runs from the start of the control. ``Error`` if one of them cannot be read.
+    Each program runs from the start of the control. Below folders, what the patterns of ``exclude`` name is not
+    taken, and what ignore files name only with ``no_ignore``. ``Error`` if one of the programs cannot be read.
     """
 
 def audit(

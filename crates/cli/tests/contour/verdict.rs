@@ -460,3 +460,18 @@ fn an_axis_that_is_cut_in_an_unknown_state_is_not_judged() {
     let (status, text, _) = contour(&bench, &["--fail-above", "500", "--set", "V.E.A=1"]);
     assert_eq!(status, Some(0), "{text}");
 }
+
+#[test]
+fn a_message_that_is_allowed_decides_nothing() {
+    // R18.11
+    let lint = format!("{MACHINE}\n[lint]\nFC901 = \"off\"\n");
+    for (comment, machine) in [(" ; frictcomp: allow FC901", MACHINE), ("", lint.as_str())] {
+        let program = format!(
+            "G90 G17 G01 X5 Y0 F2000\n$IF V.E.A == 1{comment}\nN20 G03 X5 Y0 I-5 J0\n$ENDIF\nG00 X5 Y0\nG01 X6\nM30\n"
+        );
+        let bench = bench(&program, machine);
+        let (status, text, said) = contour(&bench, &["--fail-above", "50"]);
+        assert_eq!(status, Some(1), "{text}{said}");
+        assert!(text.contains(" at part.nc:2"), "{text}");
+    }
+}

@@ -340,6 +340,31 @@ fn a_case_says_what_a_value_is_only_where_it_is_asked_for_by_itself() {
     assert_eq!(state, State::Unknown);
 }
 
+#[test]
+fn a_state_on_too_many_ways_is_named_without_them() {
+    // R14.2
+    let mut program = String::new();
+    for number in 0..60 {
+        let word = ["ON", "OFF"][number % 2];
+        let _ = writeln!(
+            program,
+            "$IF V.E.A{number} == 1\nX[COMP {word} FRICT]\n$ENDIF"
+        );
+    }
+    program.push_str("M30\n");
+    let mut session = Bench::on(MACHINE).session();
+    let source = Program::Whole(SourceFile::new("a.nc", program.as_str()));
+    let nothing = &mut |_: &str, _: &str| None;
+    let _ = session.program("a.nc", source, nothing, &mut Messages::default());
+    let [x] = session.interpreter().possible() else {
+        panic!("X is unknown");
+    };
+    assert_eq!(
+        x.in_words("a.nc"),
+        "inactive or active, on more ways than can be named"
+    );
+}
+
 /// A machine that alone has the programs `*.ecy`.
 fn with_external() -> Bench {
     Bench::on(&format!("[machine]\nexternal = [\"*.ecy\"]\n{MACHINE}"))

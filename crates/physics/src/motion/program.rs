@@ -84,6 +84,17 @@ impl<S: TraceSink> ProgramTrace<S> {
         }
     }
 
+    /// Notes stretches that only the machine decides, each once; an `allow` comment does not decide them.
+    fn note_undecided(&mut self, reported: &[Diagnostic]) {
+        for said in reported.iter().filter(|said| is_undecided(said)) {
+            let is_known =
+                |known: &Diagnostic| known.code == said.code && known.place == said.place;
+            if self.undecided.len() < MAX_UNDECIDED && !self.undecided.iter().any(is_known) {
+                self.undecided.push(said.clone());
+            }
+        }
+    }
+
     /// Ends the session: the rest of the trace is given out. `Break` if the sink took no more.
     pub fn finish(&mut self) -> ControlFlow<()> {
         if self.over.is_continue() {
@@ -151,9 +162,7 @@ impl<S: TraceSink> Sink for ProgramTrace<S> {
             Record::Block(ref row) => {
                 self.errors
                     .extend(row.diagnostics.iter().filter(error).cloned());
-                let undecided = row.diagnostics.iter().filter(|said| is_undecided(said));
-                let left = MAX_UNDECIDED.saturating_sub(self.undecided.len());
-                self.undecided.extend(undecided.take(left).cloned());
+                self.note_undecided(row.reported);
                 self.over = self.planner.block(row, &mut self.sink);
             }
             Record::End(ref end) => {

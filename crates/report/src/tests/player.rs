@@ -114,6 +114,7 @@ impl<'a> Player<'a> {
             motion: None,
             branch: None,
             diagnostics: said,
+            reported: &[],
         }))
     }
 

@@ -21,6 +21,10 @@ pub(super) struct MotionChannels {
     /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
+    /// The way of the axis in mm in a turn of its motor, where positions and velocities are recorded in turns,
+    /// degrees or radians of the motor
+    #[arg(long, value_name = "MM", value_parser = parse_lead)]
+    lead: Option<f64>,
 }
 
 impl MotionChannels {
@@ -31,6 +35,7 @@ impl MotionChannels {
             position: self.position.clone(),
             velocity: self.velocity.clone(),
             units: self.unit.clone(),
+            lead_mm: self.lead,
             ..ChannelSelection::default()
         }
     }
@@ -105,4 +110,11 @@ pub(super) fn parse_unit(text: &str) -> Result<(String, Unit), String> {
     let unit = Unit::parse(unit)
         .ok_or_else(|| format!("`{unit}` is not a known unit; known are {}", Unit::NAMED))?;
     Ok((name.trim().to_owned(), unit))
+}
+
+/// Parses the way in a turn, in mm.
+fn parse_lead(text: &str) -> Result<f64, String> {
+    let lead: Option<f64> = text.trim().parse().ok();
+    lead.filter(|it| *it > 0.0 && *it <= 1e6)
+        .ok_or_else(|| "write the mm in a turn, such as `10`".to_owned())
 }

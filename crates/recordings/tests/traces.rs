@@ -12,8 +12,8 @@
 mod layouts;
 
 use frictcomp_recordings::trace::{
-    ChannelQuantity, ChannelSelection, Choice, CncObject, Pick, SelectError, TraceProblem,
-    TraceReader, TraceRecording, Unit,
+    ChannelQuantity, ChannelSelection, Choice, CncObject, NotAligned, Pick, SelectError,
+    TraceProblem, TraceReader, TraceRecording, Unit,
 };
 use layouts::{Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik};
 use proptest::prelude::*;
@@ -234,16 +234,44 @@ proptest! {
 
     #[test]
     fn traces_of_sinumerik_are_read(task in task(), apart in any::<bool>(), piece in 1_usize..500) {
-        // R6.1
+        // R6.1: a signal that ends before others keeps its last value (R6.24).
         let text = sinumerik(&task, apart);
+        let rows = task.signals.iter().map(|it| it.samples.len()).max().unwrap_or(0);
         let recording = read_pieces(text.as_bytes(), piece)
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         prop_assert_eq!(recording.layout().as_str(), "SINUMERIK trace XML");
         for (index, signal) in recording.kept().zip(&task.signals) {
             prop_assert_eq!(&recording.channels()[index.get()].name, &signal.name);
-            prop_assert_eq!(recording.values(index), &signal.samples[..]);
+            let mut samples = signal.samples.clone();
+            let last = *samples.last().expect("a sample");
+            samples.resize(rows, last);
+            prop_assert_eq!(recording.values(index), &samples[..]);
             let times = recording.times_s(index).expect("times");
-            prop_assert_eq!(times.len(), signal.samples.len());
+            prop_assert_eq!(times.len(), rows);
+        }
+    }
+
+    #[test]
+    fn a_trace_of_changes_is_the_whole_one(
+        rows in prop::collection::vec([0_i32..3, 0_i32..3, 0_i32..3], 2..60),
+        interval_us in prop::sample::select(vec![250_u32, 1000, 2000, 4000, 1333]),
+        begin in 0_u32..50,
+        piece in 1_usize..500,
+    ) {
+        // R6.24: to the last digit, times included.
+        let whole = Changes { rows: &rows, interval_us, begin, form: Form::Whole }.text();
+        let changes = Changes { rows: &rows, interval_us, begin, form: Form::Changes }.text();
+        let read = |text: &str| read_pieces(text.as_bytes(), piece)
+            .map_err(|error| TestCaseError::fail(error.to_string()));
+        let (whole, changes) = (read(&whole)?, read(&changes)?);
+        prop_assert!(whole.remarks().is_empty(), "{:?}", whole.remarks());
+        for (at, index) in whole.kept().enumerate() {
+            prop_assert_eq!(whole.values(index), changes.values(index));
+            prop_assert_eq!(whole.times_s(index), changes.times_s(index));
+            prop_assert_eq!(whole.clock(index), changes.clock(index));
+            let unit = whole.channels()[index.get()].unit.as_deref();
+            prop_assert_eq!(unit, Some(["%", "mm/min", "mm"][at]));
+            prop_assert_eq!(changes.channels()[index.get()].unit.as_deref(), unit);
         }
     }
 
@@ -267,6 +295,152 @@ proptest! {
             }
         }
     }
+}
+
+/// Which values a SINUMERIK trace writes.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Whole,
+    /// Only what changed; records in which nothing did are left out.
+    Changes,
+}
+
+/// Three signals of a SINUMERIK trace.
+struct Changes<'a> {
+    rows: &'a [[i32; 3]],
+    interval_us: u32,
+    begin: u32,
+    form: Form,
+}
+
+impl Changes<'_> {
+    fn text(&self) -> String {
+        let seconds = |steps: u32| f64::from(steps * self.interval_us) / 1e6;
+        let mut text = format!(
+            "<traceSession><traceData><dataFrame><frameHeader startTime=\"0\" interval=\"{}\" datapointCount=\"{}\"/>\n",
+            seconds(1),
+            self.rows.len()
+        );
+        // The ids count, not the order.
+        for (id, name, unit) in [(2, "torque", "%"), (1, "v", "mm/min"), (3, "x", "mm")] {
+            text += &format!(
+                "<dataSignal id=\"f{id}\" name=\"/Nck/{name}\" description=\"{name}\" unitsType=\"{unit}\"/>\n"
+            );
+        }
+        let mut before = None;
+        for (step, row) in (self.begin..).zip(self.rows) {
+            let is_written = |at: usize| {
+                self.form == Form::Whole || before.is_none_or(|old: [i32; 3]| old[at] != row[at])
+            };
+            let values = (0..3).filter(|at| is_written(*at));
+            let values: String = values
+                .map(|at| format!(" f{}=\"{}\"", at + 1, row[at]))
+                .collect();
+            if !values.is_empty() {
+                text += &format!("<rec time=\"{}\"{values}/>\n", seconds(step));
+            }
+            before = Some(*row);
+        }
+        text + "</dataFrame></traceData></traceSession>\n"
+    }
+}
+
+#[test]
+fn signals_that_hold_only_changes_are_named() {
+    // R6.24
+    let rows = [[1, 5, 0], [2, 5, 0], [3, 5, 0], [4, 6, 0], [4, 6, 0]];
+    let trace = Changes {
+        rows: &rows,
+        interval_us: 2000,
+        begin: 0,
+        form: Form::Changes,
+    };
+    let recording = read(&trace.text()).expect("a recording");
+    assert_eq!(values(&recording, "x"), [0.0; 5]);
+    assert_eq!(values(&recording, "torque"), [5.0, 5.0, 5.0, 6.0, 6.0]);
+    let remarks = recording.remarks().join("\n");
+    assert!(remarks.contains("`x` 1 times"), "{remarks}");
+    assert!(remarks.contains("`torque` 2 times"), "{remarks}");
+    let more = trace
+        .text()
+        .replace("datapointCount=\"5\"", "datapointCount=\"3\"");
+    let recording = read(&more).expect("a recording");
+    let remarks = recording.remarks().join("\n");
+    assert!(
+        remarks.contains("states 3 samples, but there are 4"),
+        "{remarks}"
+    );
+}
+
+#[test]
+fn numbers_without_a_header_need_a_column_that_counts() {
+    // R6.27
+    let wave = |row: u32| (f64::from(row) / 5.0).sin();
+    let table = |first: &dyn Fn(u32) -> f64| -> String {
+        (0..40)
+            .map(|row| format!("{};{}\n", first(row), wave(row)))
+            .collect()
+    };
+    let recording = read(&table(&|row| f64::from(row))).expect("a recording");
+    let kept: Vec<_> = recording.kept().collect();
+    assert_eq!(kept.len(), 1);
+    assert!(recording.times_s(kept[0]).is_some());
+    for first in [&wave as &dyn Fn(u32) -> f64, &|row: u32| {
+        wave(row + 7) * 3.0
+    }] {
+        let recording = read(&table(first)).expect("a recording");
+        let kept: Vec<_> = recording.kept().collect();
+        assert_eq!(kept.len(), 2);
+        assert_eq!(recording.times_s(kept[0]), None);
+        let picks = ["column 1", "column 2"].map(|name| torque(&recording, name));
+        let error = recording.align(&picks, None).expect_err("no times");
+        assert_eq!(error, NotAligned::NoTimes);
+    }
+}
+
+#[test]
+fn a_separator_within_a_name_is_named() {
+    // R6.27
+    let error = problem("t;v;actual;torque\n0;1;2\n1;2;3\n");
+    let help = error.help().unwrap_or_default();
+    assert!(
+        help.contains("contains the separator, such as `;`"),
+        "{error}: {help}"
+    );
+    let error = problem("t;v;torque\n0;1;2\n1;2\n");
+    let help = error.help().unwrap_or_default();
+    assert!(help.contains("contains the separator"), "{help}");
+}
+
+#[test]
+fn groups_of_unequal_span_share_a_part_or_are_named() {
+    // R6.27: two groups of Scope, with their own times in ms.
+    let export = |from: i32| {
+        let rows: String = (0..40)
+            .map(|row| format!("{row}\t1\t{}\t2\n", row + from))
+            .collect();
+        format!("Name\tv\tName\ttorque\n\n{rows}")
+    };
+    let align = |text: &str| {
+        let recording = read(text).expect("a recording");
+        let picks = ["v", "torque"].map(|name| torque(&recording, name));
+        recording.align(&picks, None)
+    };
+    let same = align(&export(0)).expect("aligned");
+    let remarks = same.remarks.join("\n");
+    assert!(!remarks.contains("different times"), "{remarks}");
+    let part = align(&export(10)).expect("aligned");
+    let remarks = part.remarks.join("\n");
+    assert!(
+        remarks.contains("`v` (0 to 0.039 s), `torque` (0.01 to 0.049 s); the 0.029 s"),
+        "{remarks}"
+    );
+    assert_eq!(part.times_s.len(), 30);
+    let error = align(&export(100)).expect_err("apart").to_string();
+    assert!(
+        error.contains("`torque` (0.1 to 0.139 s) and of `v` (0 to 0.039 s)"),
+        "{error}"
+    );
 }
 
 #[test]

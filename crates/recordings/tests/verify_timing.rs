@@ -84,6 +84,41 @@ fn assert_no_false_verdict(bench: &Bench, timing: &Timing) {
 }
 
 #[test]
+fn the_exact_list_is_right_on_slow_circles() {
+    // R5.36: the contact builds up over a way, which takes long there.
+    for bench in [STIFF, MID, SOFT, SLOW] {
+        for feed in [300.0, 800.0, 2000.0] {
+            for share in [0.0, 1.0] {
+                let bench = Bench {
+                    feed,
+                    share,
+                    noise: (0.03, 1.0),
+                    ..bench
+                };
+                let found = verified(&bench);
+                let low = found
+                    .ranges
+                    .iter()
+                    .map(|it| it.scale)
+                    .fold(f64::MAX, f64::min);
+                let high = found
+                    .ranges
+                    .iter()
+                    .map(|it| it.scale)
+                    .fold(f64::MIN, f64::max);
+                assert!(found.is_away_from_reversals);
+                assert!(low > 0.97 && high < 1.03, "{bench:?}: {:?}", found.ranges);
+                let said = found.verdict();
+                assert!(
+                    !said.iter().any(|it| it.contains('%')),
+                    "{bench:?}: {said:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn the_part_of_a_list_that_acted_is_found() {
     // R6.22: to 0.03, at stiff contacts and soft ones.
     for (bench, feed, share) in [

@@ -9,7 +9,9 @@ use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
-use frictcomp_recordings::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
+use frictcomp_recordings::identify::{
+    AxisRecording, BranchPoint, Branches, Fit, FrictionCurve, Identified, TraceFinding,
+};
 
 /// A recording and the friction identified in it.
 #[derive(Debug, Clone)]
@@ -77,13 +79,18 @@ pub fn render_text(report: &IdentifyReport) -> String {
         out.push('\n');
     }
     push_pairs(&mut out, found);
-    let _ = writeln!(
-        out,
-        "\noffset (weight, asymmetry): {} {}",
-        Rounded(found.offset, 3),
-        report.unit()
-    );
-    out.push_str(offset_words(found));
+    match found.branches() {
+        Some(branches) => push_branches(&mut out, &branches, report.unit()),
+        None => {
+            let _ = writeln!(
+                out,
+                "\noffset (weight, asymmetry): {} {}",
+                Rounded(found.offset, 3),
+                report.unit()
+            );
+            out.push_str(offset_words(found));
+        }
+    }
     push_curve(&mut out, found);
     let mut table = Table::of_numbers(["in", "out"]);
     table.row(&[&"µm/s", &report.unit()]);
@@ -121,6 +128,42 @@ fn push_pairs(out: &mut String, found: &Identified) {
     let _ = write!(out, "{table}");
 }
 
+/// Both directions, where an offset does not make them one (R6.25).
+fn push_branches(out: &mut String, branches: &Branches, unit: &str) {
+    let mut table = Table::of_numbers(["speed", "forth", "back"]);
+    table.row(&[&"mm/s", &unit, &unit]);
+    for point in &branches.points {
+        table.row(&[
+            &format_args!("{:.3}", point.speed),
+            &Rounded(point.forth, 3),
+            &Rounded(point.back, 3),
+        ]);
+    }
+    let _ = write!(
+        out,
+        "\nfriction depends on the direction: the common part of both changes by {} ± {} {unit} from the slowest to \
+         the fastest speed\n\n{table}\n\
+         Neither a value list nor `getriebe[i].torque_offset` (P-AXIS-00324) can hold that: the list has one output \
+         for both directions, and the offset does not change with the speed. The list below is the compromise, \
+         their mean.",
+        Rounded(branches.change, 3),
+        Rounded(branches.error, 3),
+    );
+    if let Some((speed, cost)) = branches.cost() {
+        let [forth, back] = if cost > 0.0 {
+            ["little", "much"]
+        } else {
+            ["much", "little"]
+        };
+        let _ = write!(
+            out,
+            " It costs most at {speed:.3} mm/s: {} {unit} too {forth} forth, as many too {back} back.",
+            Rounded(cost.abs(), 3)
+        );
+    }
+    out.push('\n');
+}
+
 /// Returns the use of an offset, in words.
 fn offset_words(found: &Identified) -> &'static str {
     if found.is_offset_small() {
@@ -152,7 +195,10 @@ struct IdentifyDocument<'a> {
     schema: u32,
     axis: Option<&'a str>,
     points: Vec<PointRecord>,
-    offset: f64,
+    /// `None` where both directions differ by more than it.
+    offset: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    branches: Vec<BranchRecord>,
     fit: Option<FitRecord>,
     pairs: Vec<PairRecord>,
     unit: &'a str,
@@ -193,6 +239,13 @@ struct PairRecord {
 }
 
 #[derive(Serialize)]
+struct BranchRecord {
+    v: f64,
+    forth: f64,
+    back: f64,
+}
+
+#[derive(Serialize)]
 struct RippleRecord {
     period_mm: f64,
     amplitude: f64,
@@ -222,6 +275,12 @@ pub(super) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
         fv: fit.viscous,
         chi_square: fit.chi_square,
     };
+    let branches = found.branches();
+    let branch = |point: &BranchPoint| BranchRecord {
+        v: point.speed * PER_MM,
+        forth: point.forth,
+        back: point.back,
+    };
     IdentifyDocument {
         schema: 1,
         axis: report.axis.as_deref(),
@@ -233,7 +292,13 @@ pub(super) fn record(report: &IdentifyReport) -> impl Serialize + '_ {
                 out: point.output,
             })
             .collect(),
-        offset: found.offset,
+        offset: branches.is_none().then_some(found.offset),
+        branches: branches
+            .map(|it| it.points)
+            .unwrap_or_default()
+            .iter()
+            .map(branch)
+            .collect(),
         fit: found.used_fit().map(fit),
         pairs: found
             .pairs

@@ -9,7 +9,7 @@ use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp::diagnostic::Rounded;
-use frictcomp_recordings::identify::{AxisRecording, Timing, TraceFinding, Verified};
+use frictcomp_recordings::identify::{AxisRecording, CONTACT_MM, Timing, TraceFinding, Verified};
 
 /// A recording, and the fit of a value list to it.
 #[derive(Debug, Clone)]
@@ -57,6 +57,13 @@ pub fn render_text(report: &VerifyReport) -> String {
         Rounded(verified.inertia, 6),
         verified.residual
     );
+    if verified.is_away_from_reversals && !verified.reversals.is_empty() {
+        let _ = writeln!(
+            out,
+            "the scales are those of the motion from {CONTACT_MM} mm after each reversal on: nearer, the contact still \
+             builds up its friction, which is no error of the list"
+        );
+    }
     if !verified.reversals.is_empty() {
         const SHOWN: usize = 20;
         let mut table = Table::of_numbers(["reversal s", "recorded", "predicted"]);

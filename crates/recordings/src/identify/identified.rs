@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::branches::Branches;
 use super::curve::{Fit, FrictionCurve};
 use super::finding::TraceFinding;
 use super::measured::Measured;
@@ -122,6 +123,12 @@ impl Identified {
             max_points: points.max(DEFAULT_MAX_POINTS),
             table: self.points.clone(),
         }
+    }
+
+    /// Both directions where they differ by more than an offset (R6.25): neither a value list nor an offset holds
+    /// that.
+    pub fn branches(&self) -> Option<Branches> {
+        Branches::of(&self.pairs)
     }
 
     /// Whether the offset is less than a hundredth of the friction.

@@ -5,6 +5,7 @@
 //! Speeds are in mm/s or °/s, torque and friction in drive units.
 
 mod around;
+mod branches;
 mod circles;
 mod clipped;
 mod curve;
@@ -29,6 +30,7 @@ mod unit_doubts;
 mod verify;
 mod warnings;
 
+pub use branches::{BranchPoint, Branches};
 pub use circles::{OnCircles, identify_circles, identify_measured_circles};
 pub use curve::{Fit, FrictionCurve};
 pub(crate) use curve::{along, solve_linear};
@@ -46,4 +48,4 @@ pub use support::RequestedPoints;
 pub use timing::{ActingShare, Timing};
 pub use track::{Track, TrackError};
 pub use trend::{FrictionChange, FrictionLevels, FrictionParameter, Level, friction_changes};
-pub use verify::{Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};
+pub use verify::{CONTACT_MM, Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};

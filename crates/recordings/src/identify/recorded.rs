@@ -228,11 +228,24 @@ impl AxisChannels {
                         "`{name}` has no known unit and is taken in {}",
                         quantity.own_unit()
                     ),
-                    format!("name it, as in `{name}=mm/s`, where that is not so"),
+                    format!(
+                        "name it, as in `{name}={}`, where that is not so",
+                        example(quantity)
+                    ),
                 )
             })
         };
         self.picks().filter_map(finding).collect()
+    }
+}
+
+/// A unit of a quantity, for an example.
+fn example(quantity: ChannelQuantity) -> &'static str {
+    match quantity {
+        ChannelQuantity::Time => "ms",
+        ChannelQuantity::Position => "mm",
+        ChannelQuantity::Velocity => "mm/s",
+        ChannelQuantity::Torque => "%",
     }
 }
 

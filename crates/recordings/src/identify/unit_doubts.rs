@@ -21,7 +21,26 @@ const UM: f64 = 1000.0;
 const POSITION_UNITS: f64 = 10_000.0;
 
 /// Units in which motion is recorded, the most usual first.
-const UNITS: [&str; 8] = ["mm/s", "µm/s", "mm/min", "m/min", "m/s", "mm", "µm", "nm"];
+const UNITS: [&str; 18] = [
+    "mm/s",
+    "µm/s",
+    "mm/min",
+    "m/min",
+    "m/s",
+    "mm",
+    "µm",
+    "nm",
+    "deg/s",
+    "0.001deg/s",
+    "rpm",
+    "rad/s",
+    "turn/s",
+    "deg",
+    "0.0001deg",
+    "rad",
+    "turn",
+    "m",
+];
 
 /// FC524 if the fastest speed is one that no axis or no recording of friction has.
 pub(super) fn improbable_speed(
@@ -45,6 +64,10 @@ pub(super) fn improbable_speed(
     let other = |name: &&&str| {
         Unit::parse(name).is_some_and(|unit| {
             unit.quantity == pick.unit.quantity
+                && pick
+                    .unit
+                    .motion
+                    .is_none_or(|motion| unit.motion == Some(motion))
                 && USUAL.contains(&(speed * unit.factor / pick.unit.factor))
         })
     };

@@ -32,6 +32,8 @@ pub struct Verified {
     pub residual: f64,
     /// The reversals of the recording.
     pub reversals: Vec<Reversal>,
+    /// Whether only motion farther than [`CONTACT_MM`] from the last reversal counts for the scales.
+    pub is_away_from_reversals: bool,
 }
 
 /// A range of speeds with its scale.
@@ -73,6 +75,10 @@ const AVERAGED_S: f64 = 0.01;
 /// Seconds after a reversal in which samples do not count for the scale.
 const AFTER_S: f64 = 0.05;
 
+/// The way after a reversal in mm or degrees in which samples do not count for the scale, either: the contact
+/// builds up its friction over a way, on slow circles for longer than [`AFTER_S`] (R5.36).
+pub const CONTACT_MM: f64 = 0.15;
+
 /// A range with fewer samples has no scale.
 const FEWEST: f64 = 100.0;
 
@@ -112,7 +118,13 @@ pub fn verify_followed(
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);
     }
-    let used = motion.used(samples_in(AFTER_S, samples.step_s));
+    let after = samples_in(AFTER_S, samples.step_s);
+    let mut used = motion.used(after, (&samples.positions, CONTACT_MM));
+    let is_away_from_reversals = count(used.len()) >= FEWEST;
+    if !is_away_from_reversals {
+        // Strokes that are too short: all there is.
+        used = motion.used(after, (&samples.positions, 0.0));
+    }
     let whole = regress(&samples, &motion, &used, |_| 0);
     let ranges = regress(&samples, &motion, &used, range_of);
     let [Some(whole), Some(ranges)] = [whole, ranges] else {
@@ -173,6 +185,7 @@ pub fn verify_followed(
             .iter()
             .filter_map(|&at| motion.reversal(&samples, &rest, at))
             .collect(),
+        is_away_from_reversals,
     })
 }
 
@@ -290,17 +303,19 @@ impl PredictedMotion {
             .collect()
     }
 
-    /// The samples in motion, without those shortly after a change of direction.
-    fn used(&self, after: usize) -> Vec<usize> {
+    /// The samples in motion, without those shortly after a change of direction: some samples, and some way.
+    fn used(&self, after: usize, (positions, way): (&[f64], f64)) -> Vec<usize> {
         let mut since = 0;
+        let mut from = positions[0];
         let mut used = Vec::new();
         for at in 1..self.signs.len() {
-            since = if self.signs[at] * self.signs[at - 1] > 0.0 {
-                since + 1
+            if self.signs[at] * self.signs[at - 1] > 0.0 {
+                since += 1;
             } else {
-                0
-            };
-            if since >= after && self.velocities[at].abs() > REST {
+                (since, from) = (0, positions[at]);
+            }
+            let is_away = since >= after && (positions[at] - from).abs() >= way;
+            if is_away && self.velocities[at].abs() > REST {
                 used.push(at);
             }
         }

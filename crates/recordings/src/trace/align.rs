@@ -8,6 +8,7 @@ use super::channel::ChannelIndex;
 use super::clock::Clock;
 use super::recording::TraceRecording;
 use super::select::Pick;
+use frictcomp::diagnostic::ReadableNumber;
 
 /// Samples of several channels at the same times.
 #[derive(Debug, Clone, Default)]
@@ -39,9 +40,9 @@ pub enum NotAligned {
         after_s: f64,
     },
     /// Channels that were recorded one after the other.
-    #[error("the channels `{one}` and `{other}` have no time in common")]
+    #[error("the groups of {one} and of {other} have no time in common")]
     Apart {
-        /// A channel.
+        /// A channel with the times of its group.
         one: String,
         /// Another one.
         other: String,
@@ -101,10 +102,11 @@ impl TraceRecording {
             && begin.first() > end.last()
         {
             return Err(NotAligned::Apart {
-                one: self.name(begin.channel),
-                other: self.name(end.channel),
+                one: self.span(begin),
+                other: self.span(end),
             });
         }
+        aligned.remarks.extend(self.unequal_spans(&tracks));
         let from = begin.map_or(f64::NEG_INFINITY, TimedChannel::first);
         let to = end.map_or(f64::INFINITY, TimedChannel::last);
         let slower = |track: &&TimedChannel| {
@@ -138,6 +140,44 @@ impl TraceRecording {
             .map(|track| track.at(&aligned.times_s))
             .collect();
         Ok(aligned)
+    }
+
+    /// A channel with the times of its group.
+    fn span(&self, track: &TimedChannel<'_>) -> String {
+        format!(
+            "`{}` ({} to {} s)",
+            self.name(track.channel),
+            readable(track.first()),
+            readable(track.last())
+        )
+    }
+
+    /// What is said about groups of channels that were not recorded over the same time (R6.27).
+    fn unequal_spans(&self, tracks: &[TimedChannel<'_>]) -> Option<String> {
+        /// The greatest difference of the ends of channels that were recorded together, in steps.
+        const TOGETHER: f64 = 3.0;
+        let step_s = tracks.iter().map(|it| it.step_s).fold(0.0, f64::max);
+        let mut groups: Vec<&TimedChannel<'_>> = Vec::new();
+        for track in tracks {
+            let is_same = |it: &&TimedChannel<'_>| {
+                let ends = [it.first() - track.first(), it.last() - track.last()];
+                ends.iter().all(|apart| apart.abs() <= TOGETHER * step_s)
+            };
+            if !groups.iter().any(is_same) {
+                groups.push(track);
+            }
+        }
+        if groups.len() < 2 {
+            return None;
+        }
+        let from = groups.iter().map(|it| it.first()).fold(f64::MIN, f64::max);
+        let to = groups.iter().map(|it| it.last()).fold(f64::MAX, f64::min);
+        let spans: Vec<String> = groups.iter().map(|it| self.span(it)).collect();
+        Some(format!(
+            "the groups were recorded over different times: {}; the {} s that all of them have are used",
+            spans.join(", "),
+            readable(to - from)
+        ))
     }
 
     fn name(&self, channel: ChannelIndex) -> String {
@@ -200,6 +240,11 @@ impl TraceRecording {
             step_s,
         })
     }
+}
+
+/// A time without the rounding error of a difference.
+fn readable(seconds: f64) -> ReadableNumber {
+    ReadableNumber((seconds * 1e6).round() / 1e6)
 }
 
 fn milliseconds(seconds: f64) -> f64 {

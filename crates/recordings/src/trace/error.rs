@@ -127,6 +127,10 @@ impl TraceProblem {
                 "export with the separator tab or `;`, or with a decimal point"
             }
             Self::MixedDecimals { .. } => "export with one decimal mark",
+            Self::Row { cells, columns, .. } if columns > cells => {
+                "every row has a cell for each column; where a name in the header contains the separator, \
+                 such as `;`, put that name in quotes"
+            }
             Self::Row { .. } => "every row has a cell for each column",
             Self::Number { .. } => "write numbers with a decimal point",
             Self::Switch { .. } => "write `on` or `off`",

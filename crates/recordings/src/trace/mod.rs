@@ -12,6 +12,7 @@ mod columns;
 mod csv;
 mod error;
 mod head;
+mod held;
 mod plain;
 mod reader;
 mod recording;

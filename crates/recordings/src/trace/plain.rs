@@ -118,7 +118,8 @@ fn is_unit(cell: &str) -> bool {
     bare.is_empty() || bare == "-" || Unit::parse(bare).is_some()
 }
 
-/// The columns of numbers without names: the first one is the time, and so is each that counts like it.
+/// The columns of numbers without names: the first one is the time if it counts, and so is each that counts like
+/// it.
 pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> TableColumns {
     let separator = separator.unwrap_or_else(|| separator_of(&rows[0].bytes));
     let table: Vec<Vec<String>> = rows
@@ -135,16 +136,22 @@ pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> Table
         numbers.collect()
     };
     let first = numbers(0);
+    let has_times = count > 1 && counts(&first);
     let mut columns = TableColumns {
         layout: WITHOUT_NAMES,
         separator,
         count,
         described: Vec::new(),
         groups: Vec::new(),
-        remark: Some("the file has no header: its first column is taken as the time in ms"),
+        remark: Some(if has_times {
+            "the file has no header: its first column is taken as the time in ms"
+        } else {
+            "the file has no header, and its first column does not count as times do"
+        }),
     };
     for at in 0..count {
-        if count > 1 && (at == 0 || counts_like(&numbers(at), &first)) {
+        let is_time = has_times && (at == 0 || counts_like(&numbers(at), &first));
+        if is_time {
             columns.groups.push(ColumnGroup {
                 time: Some(at),
                 scale: TimeScale::Scope,
@@ -167,6 +174,18 @@ pub(super) fn headless(rows: &[FileLine], separator: Option<Separator>) -> Table
         });
     }
     columns
+}
+
+/// Whether numbers rise as times do: in steps that are alike.
+fn counts(numbers: &[f64]) -> bool {
+    /// The greatest step as a multiple of the least: a few samples may be missing.
+    const ALIKE: f64 = 20.0;
+    let steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+    let [least, most] = steps.fold([f64::INFINITY, 0.0_f64], |[least, most], step| {
+        [least.min(step), most.max(step)]
+    });
+    // Times are repeated where channels of several tasks end.
+    numbers.len() < 3 || least > 0.0 && most <= ALIKE * least
 }
 
 /// Whether numbers rise in equal steps from the start of the times, as times do.

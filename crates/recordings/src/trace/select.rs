@@ -26,6 +26,8 @@ pub struct ChannelSelection {
     pub following_error: Option<String>,
     /// Units of channels that the file does not name, or names wrongly.
     pub units: Vec<(String, Unit)>,
+    /// The way of the axis in mm in a turn of its motor, where positions and velocities are those of the motor.
+    pub lead_mm: Option<f64>,
 }
 
 /// A channel that was found, with the conversion of its samples to the units of lists and traces.
@@ -286,9 +288,13 @@ impl ChannelSelection {
             });
         }
         let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);
+        let along = |unit: Unit| {
+            self.lead_mm
+                .map_or(unit, |lead_mm| unit.along_path(lead_mm))
+        };
         Ok(Pick {
             channel,
-            unit: unit.unwrap_or(Unit::own(quantity)),
+            unit: unit.map_or(Unit::own(quantity), along),
             is_unit_assumed: unit.is_none(),
         })
     }

@@ -56,7 +56,7 @@ use AxisMotion::{Linear, Rotary};
 use ChannelQuantity::{Position, Time, Torque, Velocity};
 
 /// The units as [`plain`] writes them.
-const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
+const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 50] = [
     ("s", Time, 1.0, None),
     ("ms", Time, 1e-3, None),
     ("us", Time, 1e-6, None),
@@ -73,6 +73,10 @@ const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
     ("mdeg", Position, 10.0, Some(Rotary)),
     ("0.001deg", Position, 10.0, Some(Rotary)),
     ("0.0001deg", Position, 1.0, Some(Rotary)),
+    ("rad", Position, 1e4 * DEGREES, Some(Rotary)),
+    ("mrad", Position, 10.0 * DEGREES, Some(Rotary)),
+    ("turn", Position, 360e4, Some(Rotary)),
+    ("rev", Position, 360e4, Some(Rotary)),
     ("m/s", Velocity, 1e6, Some(Linear)),
     ("mm/s", Velocity, 1e3, Some(Linear)),
     ("um/s", Velocity, 1.0, Some(Linear)),
@@ -87,9 +91,16 @@ const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
     ("1/min", Velocity, 6e3, Some(Rotary)),
     ("u/min", Velocity, 6e3, Some(Rotary)),
     ("rev/s", Velocity, 360e3, Some(Rotary)),
+    ("rev/min", Velocity, 6e3, Some(Rotary)),
+    ("turn/s", Velocity, 360e3, Some(Rotary)),
+    ("1/s", Velocity, 360e3, Some(Rotary)),
+    ("rad/s", Velocity, 1e3 * DEGREES, Some(Rotary)),
+    ("mrad/s", Velocity, DEGREES, Some(Rotary)),
+    ("rad/min", Velocity, 1e3 / 60.0 * DEGREES, Some(Rotary)),
     ("%", Torque, 10.0, None),
     ("0.1%", Torque, 1.0, None),
     ("\u{2030}", Torque, 1.0, None),
+    ("permille", Torque, 1.0, None),
     ("a", Torque, 1.0, None),
     ("ma", Torque, 1.0, None),
     ("n", Torque, 1.0, None),
@@ -98,13 +109,17 @@ const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
     ("ncm", Torque, 1.0, None),
 ];
 
+/// Degrees of a radian.
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
 /// Units of torque that are parts of the rated value of the drive.
-const OF_THE_DRIVE: [&str; 3] = ["%", "0.1%", "\u{2030}"];
+const OF_THE_DRIVE: [&str; 4] = ["%", "0.1%", "\u{2030}", "permille"];
 
 impl Unit {
     /// The known units, for a sentence.
-    pub const NAMED: &str = "s, ms, us, m, mm, um, 0.1um, nm, inch, deg, 0.0001deg, m/s, mm/s, um/s, m/min, \
-                             mm/min, deg/s, 0.001deg/s, rpm, %, 0.1%, A, mA, N, kN, Nm, Ncm";
+    pub const NAMED: &str = "s, ms, us, m, mm, um, 0.1um, nm, inch, deg, 0.0001deg, rad, turn, m/s, mm/s, um/s, \
+                             m/min, mm/min, deg/s, 0.001deg/s, rad/s, turn/s, rev/s, rpm, 1/min, %, 0.1%, permille, A, mA, \
+                             N, kN, Nm, Ncm";
 
     /// The unit of a text such as `mm/s`, `µm`, `%`, `V (Voltage)`. `Nm` is a torque, `nm` a length.
     pub fn parse(text: &str) -> Option<Self> {
@@ -116,6 +131,19 @@ impl Unit {
             motion,
             is_of_the_drive: quantity != Torque || OF_THE_DRIVE.contains(&name),
         })
+    }
+
+    /// The unit of the path of an axis that moves `lead_mm` in a turn of its motor, where this is one of the
+    /// motor's turns.
+    pub fn along_path(self, lead_mm: f64) -> Self {
+        match (self.motion, self.quantity) {
+            (Some(Rotary), Position | Velocity) => Self {
+                factor: self.factor * lead_mm / 360.0,
+                motion: Some(Linear),
+                ..self
+            },
+            _ => self,
+        }
     }
 
     /// The unit in which a quantity is recorded by the CNC itself.
@@ -143,6 +171,11 @@ fn plain(text: &str) -> String {
         .replace("degrees", "deg")
         .replace("degree", "deg")
         .replace("grad", "deg")
+        .replace("radians", "rad")
+        .replace("radian", "rad")
+        .replace("turns", "turn")
+        .replace("revs", "rev")
+        .replace("per-mille", "permille")
         .replace('\u{b0}', "deg")
         .replace("sec", "s")
 }
@@ -176,7 +209,7 @@ mod tests {
 
     #[test]
     fn units_are_known_in_every_way_of_writing() {
-        // R6.3
+        // R6.3 R6.26
         for (text, quantity, factor) in [
             ("mm/s (Velocity)", Velocity, 1e3),
             ("m / min", Velocity, 1e6 / 60.0),
@@ -188,12 +221,37 @@ mod tests {
             ("nm", Position, 1e-2),
             ("%", Torque, 10.0),
             ("ms", Time, 1e-3),
+            ("rad/s", Velocity, 180e3 / std::f64::consts::PI),
+            ("Rad / sec", Velocity, 180e3 / std::f64::consts::PI),
+            ("radians", Position, 180e4 / std::f64::consts::PI),
+            ("turns/s", Velocity, 360e3),
+            ("rev/s", Velocity, 360e3),
+            ("deg/s", Velocity, 1e3),
+            ("1/min", Velocity, 6e3),
+            ("Nm", Torque, 1.0),
+            ("N", Torque, 1.0),
+            ("A", Torque, 1.0),
+            ("\u{2030}", Torque, 1.0),
+            ("permille", Torque, 1.0),
         ] {
             let unit = Unit::parse(text).unwrap_or_else(|| panic!("{text}"));
             assert_eq!((unit.quantity, unit.factor), (quantity, factor), "{text}");
         }
         assert_eq!(Unit::parse("(None)"), None);
         assert_eq!(Unit::parse("V (Voltage)"), None);
+    }
+
+    #[test]
+    fn a_turn_of_the_motor_is_a_lead_of_the_path() {
+        // R6.26
+        let of = |unit: &str, lead| Unit::parse(unit).expect("a unit").along_path(lead);
+        // 10 mm a turn, one turn a second: 10 mm/s.
+        assert!((of("turn/s", 10.0).factor - 1e4).abs() < 1e-6);
+        assert!((of("rpm", 10.0).factor - 1e4 / 60.0).abs() < 1e-6);
+        // Half a turn is π rad, and 5 mm.
+        assert!((of("rad", 10.0).factor * std::f64::consts::PI - 5e4).abs() < 1e-6);
+        assert_eq!(of("mm/s", 10.0), Unit::parse("mm/s").expect("a unit"));
+        assert_eq!(of("Nm", 10.0), Unit::parse("Nm").expect("a unit"));
     }
 
     #[test]

@@ -1,8 +1,11 @@
 //! The XML that the trace of a SINUMERIK control writes.
 //!
 //! Signals are described by elements with a `key`, a `name` and a `description`; a `dataFrame` names
-//! the signals of its records in their order, and each `rec` has a `time` in s and the values `f1`,
-//! `f2` and so on. The bytes come piece by piece: an unfinished element waits for the next piece.
+//! the signals of its records, and each `rec` has a `time` in s and the values `f1`, `f2` and so on: those
+//! of the signals with these ids, or in their order. A value that a record leaves out is the last one
+//! (R6.24). The bytes come piece by piece: an unfinished element waits for the next piece.
+
+use std::collections::HashMap;
 
 use quick_xml::Reader;
 use quick_xml::escape::unescape;
@@ -12,7 +15,9 @@ use super::cell::{CellValue, of_old_systems, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::error::TraceProblem;
-use super::recording::{ChannelSamples, Layout, RowForm, TraceRecording};
+use super::held::{Grid, HeldSignal, StatedSamples, Written, remarks};
+use super::recording::{Layout, RowForm, TraceRecording};
+use super::unit::Unit;
 
 /// The XML of a SINUMERIK trace.
 const LAYOUT: Layout = Layout::new("SINUMERIK trace XML", RowForm::Whole);
@@ -37,7 +42,13 @@ pub(super) struct Xml {
     columns: Vec<RecordedSignal>,
     /// Index of the first column of the present frame.
     frame: usize,
+    /// Column of each value of the records of the frame, where a signal has its number as id.
+    places: HashMap<usize, usize>,
+    grid: Grid,
+    stated: StatedSamples,
     records: usize,
+    records_of_frame: usize,
+    remarks: Vec<String>,
     /// The bytes are letters of an old code page.
     is_legacy: bool,
 }
@@ -46,6 +57,8 @@ pub(super) struct Xml {
 #[derive(Debug, Clone, Default)]
 struct Signal {
     key: String,
+    /// The number of its value in the records, from 0.
+    place: Option<usize>,
     name: String,
     description: String,
     unit: String,
@@ -55,8 +68,12 @@ struct Signal {
 #[derive(Debug, Default)]
 struct RecordedSignal {
     signal: Signal,
-    times: Vec<f64>,
-    samples: ChannelSamples,
+    held: HeldSignal,
+}
+
+/// The number, from 0, of a value that is written as `f1`, `f2` and so on.
+fn number_of_value(key: &str) -> Option<usize> {
+    key.strip_prefix('f')?.parse::<usize>().ok()?.checked_sub(1)
 }
 
 impl Xml {
@@ -163,10 +180,16 @@ impl Xml {
                     });
                 }
                 self.records += 1;
-                self.record(element, before)
+                self.records_of_frame += 1;
+                self.record(element, before, demand)
             }
             "dataFrame" => {
+                self.end_frame(demand)?;
                 self.frame = self.columns.len();
+                self.places.clear();
+                self.grid = Grid::default();
+                self.records_of_frame = 0;
+                self.head(element);
                 Ok(())
             }
             "dataSignal" => {
@@ -180,8 +203,53 @@ impl Xml {
                 }
                 Ok(())
             }
-            _ => Ok(()),
+            _ => {
+                self.head(element);
+                Ok(())
+            }
         }
+    }
+
+    /// Takes what an element of the head says about the samples.
+    fn head(&mut self, element: &BytesStart<'_>) {
+        for attribute in element.attributes().with_checks(false).flatten() {
+            let number: Option<f64> = attribute.value.trim().parse().ok();
+            let number = number.filter(|it| *it > 0.0 && it.is_finite());
+            match (attribute.key.local_name().as_ref(), number) {
+                ("interval", Some(seconds)) => self.stated.interval_s = Some(seconds),
+                ("datapointCount", Some(count)) => {
+                    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates
+                    let count = count as usize;
+                    self.stated.count = Some(count);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Ends a frame: its signals keep their values up to the stated number of samples.
+    fn end_frame(&mut self, demand: &Demand<'_>) -> Result<(), TraceProblem> {
+        if self.records_of_frame == 0 {
+            return Ok(());
+        }
+        let rest: Vec<f64> = {
+            let left = demand.most_rows.saturating_sub(self.grid.count);
+            self.grid.rest(self.stated).take(left + 1).collect()
+        };
+        for time in rest {
+            self.grid.push(time, demand.most_rows)?;
+            for column in &mut self.columns[self.frame..] {
+                column.held.take(time, None);
+            }
+        }
+        let named: Vec<Channel> = (self.frame..self.columns.len())
+            .map(|at| self.channel(at, &self.columns[at].signal))
+            .collect();
+        let signals = named.iter().zip(&self.columns[self.frame..]);
+        let signals = signals.map(|(channel, column)| (channel.name.as_str(), &column.held));
+        let said = remarks(signals, (self.records_of_frame, &self.grid), self.stated);
+        self.remarks.extend(said);
+        Ok(())
     }
 
     fn recorded(&mut self, signal: Signal, before: &str) -> Result<(), TraceProblem> {
@@ -189,6 +257,9 @@ impl Xml {
             let reason = format!("there are more than {MOST_SIGNALS} signals");
             return Err(self.damaged(before, reason));
         }
+        let own = self.columns.len() - self.frame;
+        let place = signal.place.unwrap_or(own);
+        self.places.entry(place).or_insert(self.columns.len());
         self.columns.push(RecordedSignal {
             signal,
             ..RecordedSignal::default()
@@ -200,31 +271,43 @@ impl Xml {
         let mut signal = Signal::default();
         for attribute in element.attributes() {
             let attribute = attribute.map_err(|error| self.damaged(before, error.to_string()))?;
-            let field = match attribute.key.local_name().as_ref() {
-                "key" | "id" => &mut signal.key,
-                "name" => &mut signal.name,
-                "description" => &mut signal.description,
-                "unit" | "units" => &mut signal.unit,
-                _ => continue,
-            };
-            *field = match unescape(&attribute.value) {
+            let value = match unescape(&attribute.value) {
                 Ok(plain) => plain.trim().to_owned(),
                 Err(error) => return Err(self.damaged(before, error.to_string())),
             };
+            match attribute.key.local_name().as_ref() {
+                "key" => signal.key = value,
+                "id" => {
+                    signal.place = number_of_value(&value);
+                    if signal.key.is_empty() {
+                        signal.key = value;
+                    }
+                }
+                "name" => signal.name = value,
+                "description" => signal.description = value,
+                "unit" | "units" => signal.unit = value,
+                // Either the name of a unit, or a number whose meaning is not public.
+                "unitsType" if signal.unit.is_empty() && Unit::parse(&value).is_some() => {
+                    signal.unit = value;
+                }
+                _ => {}
+            }
         }
         Ok(signal)
     }
 
-    fn record(&mut self, element: &BytesStart<'_>, before: &str) -> Result<(), TraceProblem> {
+    fn record(
+        &mut self,
+        element: &BytesStart<'_>,
+        before: &str,
+        demand: &Demand<'_>,
+    ) -> Result<(), TraceProblem> {
         let mut time = None;
-        let mut found: Vec<(usize, f64)> = Vec::new();
+        let mut found: Vec<(usize, Written)> = Vec::new();
         for attribute in element.attributes().with_checks(false) {
             let attribute = attribute.map_err(|error| self.damaged(before, error.to_string()))?;
             let key = attribute.key.local_name();
-            let index = key
-                .as_ref()
-                .strip_prefix("f")
-                .and_then(|digits| digits.parse::<usize>().ok()?.checked_sub(1));
+            let index = number_of_value(key.as_ref());
             let is_time = key.as_ref() == "time";
             if !is_time && index.is_none() {
                 continue;
@@ -241,30 +324,43 @@ impl Xml {
                 }
             };
             match index {
-                Some(index) => found.push((index, number)),
+                Some(index) if number.is_nan() => found.push((index, Written::Missing)),
+                Some(index) => found.push((index, Written::Value(number))),
                 None => time = Some(number),
             }
         }
         let Some(time) = time.filter(|time| time.is_finite()) else {
             return Err(self.damaged(before, "a record has no time".to_owned()));
         };
-        for (index, number) in found {
-            while self.columns.len() <= self.frame + index.min(MOST_SIGNALS) {
+        let mut written: HashMap<usize, Written> = HashMap::new();
+        for (index, value) in found {
+            while !self.places.contains_key(&index) {
                 self.recorded(Signal::default(), before)?;
             }
-            let column = &mut self.columns[self.frame + index];
-            if number.is_nan() {
-                column.samples.missing.count += 1;
-                continue;
+            written.insert(self.places[&index], value);
+        }
+        let without: Vec<f64> = {
+            let left = demand.most_rows.saturating_sub(self.grid.count);
+            self.grid.until(time, self.stated).take(left + 1).collect()
+        };
+        for time in without {
+            self.grid.push(time, demand.most_rows)?;
+            for column in &mut self.columns[self.frame..] {
+                column.held.take(time, None);
             }
-            column.times.push(time);
-            column.samples.values.push(number);
+        }
+        self.grid.push(time, demand.most_rows)?;
+        for (at, column) in self.columns.iter_mut().enumerate().skip(self.frame) {
+            column.held.take(time, written.get(&at).copied());
         }
         Ok(())
     }
 
     /// The requested signals.
-    pub(super) fn finish(self, demand: &mut Demand<'_>) -> Result<TraceRecording, TraceProblem> {
+    pub(super) fn finish(
+        mut self,
+        demand: &mut Demand<'_>,
+    ) -> Result<TraceRecording, TraceProblem> {
         if !self.waiting.trim_ascii().is_empty() {
             let reason = "the file ends within an element".to_owned();
             return Err(self.damaged("", reason));
@@ -272,6 +368,7 @@ impl Xml {
         if self.records == 0 {
             return Err(TraceProblem::NoRows);
         }
+        self.end_frame(demand)?;
         let channels: Vec<Channel> = self
             .columns
             .iter()
@@ -293,15 +390,19 @@ impl Xml {
                 samples.push(None);
                 continue;
             }
-            let mut found = column.samples;
-            let known = clocks.iter().position(|clock| *clock == column.times);
+            let HeldSignal {
+                times,
+                samples: mut found,
+                ..
+            } = column.held;
+            let known = clocks.iter().position(|clock| *clock == times);
             found.clock = Some(known.unwrap_or(clocks.len()));
             if known.is_none() {
-                clocks.push(column.times);
+                clocks.push(times);
             }
             samples.push(Some(found));
         }
-        let mut remarks = Vec::new();
+        let mut remarks = self.remarks;
         if choice.time != TimeSource::Layout {
             remarks.push("the times are those of the records".to_owned());
         }

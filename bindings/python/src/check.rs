@@ -43,9 +43,11 @@ pub(crate) fn check(
         exclude,
         ignore_files,
     };
+    let mut machine = machine_options(machine)?;
+    machine.folders = folders;
     let job = CheckJob {
         programs: GivenPrograms::of(programs)?,
-        machine: machine_options(machine)?.selecting(folders),
+        machine,
         run: limits::brief(limits).with_stop(StopPolicy::CheckAll),
     };
     let said = interruptible(programs.py(), move |stop| job.done(stop))?;

@@ -1,6 +1,7 @@
 //! `frictcomp commission`: from measuring programs to a proven list.
 
 mod channels;
+mod closer;
 mod friction;
 mod grounds;
 mod plan;

@@ -18,8 +18,9 @@ use frictcomp_host::{
     FileRegistry, find_plant, memory_for_simulation, read_text, sha256_of, sha256_of_text,
 };
 use frictcomp_recordings::commission::{
-    BeforeAfter, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis, MeasuringProgram, Plan,
-    RecordingResult, Stage, before_after, feeds_against, refuse_strangers,
+    BeforeAfter, CirclesFound, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
+    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Stage, before_after, feeds_against,
+    refuse_strangers, torque_shows,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -56,7 +57,12 @@ pub(crate) fn run(args: &CommissionRunArgs, console: Console) -> Result<u8, Fail
             continue;
         }
         let of_plans: Vec<&Plan> = plans.iter().map(|it| &it.plan).collect();
-        let (program, found) = args.reading.read(path, &of_plans);
+        let (program, mut found) = args.reading.read(path, &of_plans);
+        if let (RecordingOutcome::Circles(circles), Some(plan)) =
+            (&mut found, plan_of(&plans, program))
+        {
+            args.reading.look_closer(path, plan, (circles, &registry));
+        }
         results.push(RecordingResult {
             file,
             sha256,
@@ -291,6 +297,7 @@ fn rounds(
         if !recorded.is_empty() {
             let mut reasons = against_feeds(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
+            reasons.extend(not_on(plan, number, (results, fitted)));
             reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
         }
@@ -362,6 +369,59 @@ fn lists_against(
         }
     }
     Ok(against)
+}
+
+/// Returns the axes of circles of which neither the torque nor the positions show that the list was on (R16.13).
+fn not_on(
+    plan: &PlanFile,
+    number: usize,
+    (results, fitted): (&[RecordingResult], &Plants),
+) -> Vec<String> {
+    let is_own = |it: &&RecordingResult| {
+        let mut programs = plan.plan.programs.iter();
+        it.found.is_used() && programs.any(|program| it.program == Some(program.number))
+    };
+    let circles = results
+        .iter()
+        .filter(is_own)
+        .filter_map(|it| match &it.found {
+            RecordingOutcome::Circles(circles) => Some(circles),
+            _ => None,
+        });
+    let circles: Vec<&CirclesFound> = circles.collect();
+    if circles.is_empty() {
+        return Vec::new();
+    }
+    let plant = fitted.verdicts.iter().find(|it| it.found.round == number);
+    let axes = plan.plan.axes.iter().take(2).enumerate();
+    let listed = axes.filter(|(_, axis)| plan.lists.iter().any(|it| it.axis == axis.name));
+    let against = listed.filter_map(|(at, axis)| {
+        let shares: Vec<[f64; 2]> = circles.iter().filter_map(|it| it.shares[at]).collect();
+        if torque_shows(&shares) {
+            return None;
+        }
+        let found = plant.and_then(|it| it.found.axes.iter().find(|it| it.axis == axis.name));
+        match found.filter(|it| it.share_on.is_some()) {
+            Some(found) => found.not_on(),
+            None => Some(format!(
+                "neither torque nor positions show that the list of {} was on: record actual torque and commanded \
+                 position, or give `--plant`",
+                axis.name
+            )),
+        }
+    });
+    against.collect()
+}
+
+/// Returns the plan of a program.
+fn plan_of(plans: &[PlanFile], program: Option<u16>) -> Option<&PlanFile> {
+    let has = |plan: &&PlanFile| {
+        plan.plan
+            .programs
+            .iter()
+            .any(|it| Some(it.number) == program)
+    };
+    plans.iter().find(has)
 }
 
 /// Returns what the recordings show about the plants on which the lists of a round were tuned.

@@ -155,7 +155,7 @@ impl Site {
     }
 
     /// The lists with which a round is planned.
-    fn loaded(&self, round: usize) -> [ValueList; 2] {
+    pub(crate) fn loaded(&self, round: usize) -> [ValueList; 2] {
         let path = self.path().join(format!("m/plan-{round}.json"));
         let text = std::fs::read_to_string(path).expect("a plan");
         let plan: serde_json::Value = serde_json::from_str(&text).expect("a plan");
@@ -187,31 +187,23 @@ impl Site {
 
     /// Records every program of a stage.
     pub(crate) fn record_all(&self, stage: Stage, recorder: &Recorder) {
-        let round = match stage {
-            Stage::Off => 1,
-            Stage::On(round) => round,
+        let (round, lists) = match stage {
+            Stage::Off => (1, [None, None]),
+            Stage::On(round) => (round, self.loaded(round).map(Some)),
         };
-        let lists = match stage {
-            Stage::Off => None,
-            Stage::On(round) => Some(self.loaded(round)),
-        };
-        for (seed, program) in (100..).zip(self.programs(round, "")) {
-            let on = [0, 1].map(|at: usize| lists.as_ref().map(|it| &it[at]));
-            let run = self.drive(&self.machine, &program, on);
-            let recorder = Recorder {
-                seed: recorder.seed + seed,
-                ..recorder.clone()
-            };
-            self.put(&program, &run, &recorder);
-        }
+        let how = (&self.machine, recorder);
+        self.record((round, ""), lists.each_ref().map(Option::as_ref), how);
     }
 
-    /// Records the circles of a round again, with the lists of some axes only.
-    pub(crate) fn record_circles(&self, round: usize, is_on: [bool; 2], recorder: &Recorder) {
-        let lists = self.loaded(round);
-        let on = [0, 1].map(|at: usize| is_on[at].then_some(&lists[at]));
-        for (seed, program) in (500..).zip(self.programs(round, "circle")) {
-            let run = self.drive(&self.machine, &program, on);
+    /// Records the programs of a round whose names hold some words, with these lists on a machine.
+    pub(crate) fn record(
+        &self,
+        (round, words): (usize, &str),
+        lists: [Option<&ValueList>; 2],
+        (machine, recorder): (&Machine, &Recorder),
+    ) {
+        for (seed, program) in (100..).zip(self.programs(round, words)) {
+            let run = self.drive(machine, &program, lists);
             let recorder = Recorder {
                 seed: recorder.seed + seed,
                 ..recorder.clone()

@@ -53,7 +53,8 @@ pub use evidence::CircleEvidence;
 pub use evidence_shape::{OtherShape, ShapeTerm, Term};
 pub use figures::{Figures, PathFigures, Paths};
 pub use fitted::{
-    DriveFit, Extent, FittedDrive, ObservedCircle, predicted_height_um, recorded_height_um,
+    DriveFit, Extent, FittedDrive, ObservedCircle, SharesOn, predicted_height_um,
+    recorded_height_um,
 };
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Lap, LapRun};

@@ -21,7 +21,7 @@ const AVERAGED_S: f64 = 0.008;
 const AFTER_S: f64 = 0.15;
 
 /// Slower motion in mm/s or °/s is standstill.
-const STANDSTILL: f64 = 0.05;
+pub(super) const STANDSTILL: f64 = 0.05;
 
 /// A reversal with a longer standstill in s is a stop and a start.
 const AT_ONCE_S: f64 = 0.1;
@@ -178,7 +178,7 @@ impl Following {
 }
 
 /// The commanded velocities in mm/s or °/s: as recorded, or from the positions if those are less noisy.
-fn commanded(track: &Track) -> Vec<f64> {
+pub(super) fn commanded(track: &Track) -> Vec<f64> {
     let recorded = track.velocities.as_ref();
     let recorded: Option<Vec<f64>> = recorded.map(|it| it.iter().map(|it| it * 1e-3).collect());
     let derived = track.positions.as_ref().map(|positions| {

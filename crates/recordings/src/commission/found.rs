@@ -308,6 +308,8 @@ pub struct CirclesFound {
     pub glitches: Vec<DirectionGlitches>,
     /// The largest of them, in µm.
     pub worst_um: f64,
+    /// The lower and the upper end of the share of each axis' list in the torque, where it is known.
+    pub shares: [Option<[f64; 2]>; 2],
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
     /// The glitch of each axis in µm for comparison with predictions, without noise, with its standard error.
@@ -348,6 +350,7 @@ impl CirclesFound {
         against.extend(too_round(recording));
         against.extend(recording.circles.iter().filter_map(cut_short));
         against.extend(driven_otherwise(&recording.circles));
+        notes.extend(recording.circles.iter().find_map(missing_row));
         notes.extend(glitches.iter().filter_map(DirectionGlitches::turns_differ));
         notes.extend(glitches.iter().filter_map(DirectionGlitches::noise));
         if glitches.len() < recording.circles.len() {
@@ -357,6 +360,7 @@ impl CirclesFound {
         let height = |axis| recorded_height_um(axis, &recording.circles);
         let heights = height(PlaneAxis::X).zip(height(PlaneAxis::Y));
         Self {
+            shares: [None; 2],
             iso: IsoFigures::of(&recording.side.figures),
             heights_um: heights.map(|(x, y)| [x, y]),
             feed,
@@ -512,6 +516,18 @@ fn gap(circle: &RecordedCircle) -> Option<String> {
     let widest_s = circle.widest_step_s.filter(|it| *it > STEPS * step_s)?;
     Some(format!(
         "{:.0} ms without a sample in a turn {}: what a reversal does may be missing",
+        widest_s * 1000.0,
+        circle.direction
+    ))
+}
+
+/// A sample that is missing in a turn, too few for a reversal to be among them (R16.18).
+fn missing_row(circle: &RecordedCircle) -> Option<String> {
+    const STEPS: f64 = 1.6;
+    let step_s = circle.turn_s? / count(circle.points);
+    let widest_s = circle.widest_step_s.filter(|it| *it > STEPS * step_s)?;
+    Some(format!(
+        "rows are missing in it: {:.1} ms without a sample in a turn {}",
         widest_s * 1000.0,
         circle.direction
     ))

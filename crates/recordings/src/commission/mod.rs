@@ -4,6 +4,7 @@
 //! [`Plan`] holds programs as steps within the travel of the axes. Lengths are in mm or degrees, feeds in mm
 //! or degrees a minute. Each program begins with a [`signature`](signature_in) that its recording carries.
 
+mod actual;
 mod at_feed;
 mod compared;
 mod error;
@@ -21,6 +22,7 @@ mod runs;
 mod signature;
 mod strokes;
 
+pub use actual::{FollowedPosition, recorded_apart, share_of_torque, torque_shows};
 pub use compared::{BeforeAfter, PlaceCompared, before_after};
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};

@@ -71,6 +71,10 @@ pub struct PlantAxis {
     pub delay: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
+    /// The share of the list of the last round that explains its circles.
+    pub share_on: Option<Extent>,
+    /// The share of that list that explains the circles off.
+    pub share_off: Option<Extent>,
     /// The root mean square of the recorded deviations that is left, in µm.
     pub left: f64,
     /// Number of recorded reversals.
@@ -154,10 +158,37 @@ impl PlantAxis {
             coulomb: fitted.coulomb,
             delay: fitted.delay_s,
             damping: fitted.damping,
+            share_on: fitted.shares.map(|it| it.on),
+            share_off: fitted.shares.map(|it| it.off),
             left: fitted.left_um,
             reversals: fitted.reversals,
             simulations: fitted.simulations,
         }
+    }
+
+    /// States that a list was already on in the circles off, if they show it (R16.13).
+    fn already_on(&self) -> Option<String> {
+        const SHOWN: f64 = 0.1;
+        const LEAST: f64 = 0.2;
+        let share = self
+            .share_off
+            .filter(|it| it.low > SHOWN && it.value > LEAST)?;
+        Some(format!(
+            "{} was already compensated in stage 1: its circles off are those of {:.2} of the list ({:.2} to {:.2})",
+            self.axis, share.value, share.low, share.high
+        ))
+    }
+
+    /// States that not all of the list of the last round was on, if its circles do not show it (R16.13).
+    pub fn not_on(&self) -> Option<String> {
+        const RANGE: std::ops::RangeInclusive<f64> = 0.75..=1.25;
+        let share = self.share_on?;
+        (!(RANGE.contains(&share.low) && RANGE.contains(&share.high))).then(|| {
+            format!(
+                "the circles of {} are those of {:.2} of its list ({:.2} to {:.2}): nothing shows that all of it was on",
+                self.axis, share.value, share.low, share.high
+            )
+        })
     }
 
     /// Names a parameter that ends at the bound of its search. Damping is left out: it is hardly ever determined.
@@ -249,7 +280,9 @@ impl PlantFound {
 
     /// Reasons against the fit itself.
     pub fn against_fit(&self) -> Vec<String> {
-        self.axes.iter().filter_map(PlantAxis::at_a_bound).collect()
+        let bounds = self.axes.iter().filter_map(PlantAxis::at_a_bound);
+        let already = self.axes.iter().filter_map(PlantAxis::already_on);
+        bounds.chain(already).collect()
     }
 
     /// Returns the recorded glitches with their predictions.
@@ -441,6 +474,8 @@ mod tests {
             coulomb: extent(bounds[2]),
             delay: extent(bounds[3]),
             damping: extent(bounds[4]),
+            share_on: None,
+            share_off: None,
             left: 0.1,
             reversals: 40,
             simulations: 900,

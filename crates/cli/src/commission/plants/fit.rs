@@ -99,7 +99,9 @@ impl Fitting<'_> {
             .zip(&lists)
             .map(|(round, lists)| (&round.circles[..], lists));
         let without = [None, None];
-        for (circles, lists) in std::iter::once((off, &without)).chain(on) {
+        let last = lists.len();
+        let questioned = lists.last().unwrap_or(&without);
+        for (number, (circles, lists)) in std::iter::once((off, &without)).chain(on).enumerate() {
             for driven in circles.iter().filter(|it| has(feeds, it.circles.feed)) {
                 let path = self
                     .args
@@ -110,7 +112,11 @@ impl Fitting<'_> {
                 let circle = self.circle(driven)?;
                 for (at, plane) in PlaneAxis::ALL.into_iter().enumerate() {
                     let of_axis = ObservedCircle::of(plane, (circle, lists[at].clone()), &turns);
-                    observed[at].extend(of_axis);
+                    observed[at].extend(of_axis.map(|mut it| {
+                        it.may_be_on = questioned[at].clone().filter(|_| number == 0);
+                        it.is_doubted = number == last && it.list.is_some();
+                        it
+                    }));
                 }
             }
         }

@@ -3,7 +3,9 @@
 use super::extent::Extent;
 use super::observed::DriveFit;
 use super::squares::ModelSetting;
-use super::unknowns::{CONTACT, DAMPING, DELAY, FRICTION, SPEED_GAIN, Unknowns};
+use super::unknowns::{
+    CONTACT, DAMPING, DELAY, FRICTION, SHARE_OFF, SHARE_ON, SPEED_GAIN, Unknowns,
+};
 use crate::circle::reference::CircleError;
 use crate::circle::tune::cma_es::XorShift;
 use crate::simulation::{DriveParameters, FrictionModel};
@@ -23,6 +25,28 @@ const DELAY_S: f64 = 0.5e-3;
 /// The best accuracy of the friction, as a part: that of the shape of the measured curve.
 const SHAPE: f64 = 0.02;
 
+/// Shares of a list, by which the drive explains the circles best (R16.13).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct SharesOn {
+    /// In the circles with the list on: 1 if all of it was on.
+    pub on: Extent,
+    /// In the circles off: 0 if nothing was on.
+    pub off: Extent,
+}
+
+/// Shares with the number of simulations that they took.
+struct SolvedShares {
+    found: SharesOn,
+    simulations: usize,
+}
+
+/// The unknowns of the shares.
+const SHARES: [usize; 2] = [SHARE_ON, SHARE_OFF];
+
+/// The best accuracy of a share.
+const OF_SHARE: f64 = 0.05;
+
 /// The drive that fits the reversals, with the accuracy of its parameters.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -39,6 +63,8 @@ pub struct FittedDrive {
     pub damping: Extent,
     /// Time constant of the current loop, which includes delays of the loop, in s.
     pub delay_s: Extent,
+    /// The shares of the lists that were on, where that was asked.
+    pub shares: Option<SharesOn>,
     /// The root mean square of the recorded deviations that is left, in µm.
     pub left_um: f64,
     /// Number of reversals.
@@ -55,17 +81,17 @@ impl DriveFit {
     pub fn fit(&self) -> Result<FittedDrive, CircleError> {
         let free = ModelSetting {
             model: FrictionModel::Lugre,
-            held: None,
+            held: &SHARES,
         };
         let (first, mut simulations) = self.first(free.model)?;
         let best = self.solve(free, first)?;
         let slipping = ModelSetting {
             model: FrictionModel::Gms,
-            held: None,
+            held: &SHARES,
         };
         let damped = ModelSetting {
             model: FrictionModel::Lugre,
-            held: Some(DAMPING),
+            held: &[DAMPING, SHARE_ON, SHARE_OFF],
         };
         let twice = best.unknowns.0[DAMPING] + std::f64::consts::LN_2;
         let others = [
@@ -73,6 +99,8 @@ impl DriveFit {
             self.solve(damped, best.unknowns.with(DAMPING, twice))?,
         ];
         simulations += best.simulations + others.iter().map(|it| it.simulations).sum::<usize>();
+        let shares = self.shares(best.unknowns)?;
+        simulations += shares.as_ref().map_or(0, |it| it.simulations);
         let mut random = XorShift::new(0);
         let again = (0..SELECTIONS).filter_map(|_| best.again(&mut random));
         let again: Vec<Unknowns> = again.collect();
@@ -100,10 +128,44 @@ impl DriveFit {
             coulomb: coulomb.widened(SHAPE * coulomb.value),
             damping: extent(DAMPING, &|it| it.friction.damping_n_s_per_m),
             delay_s: extent(DELAY, &|it| it.current_time_s).widened(DELAY_S),
+            shares: shares.map(|it| it.found),
             left_um: best.power.sqrt(),
             reversals: self.circles.iter().map(|it| it.reversals.len()).sum(),
             simulations,
         })
+    }
+
+    /// The shares of the lists, with everything else free, starting from given unknowns and from a list that was hardly
+    /// on; `None` if no circle is doubted.
+    fn shares(&self, best: Unknowns) -> Result<Option<SolvedShares>, CircleError> {
+        /// A list of which hardly anything was on, less 1.
+        const HARDLY: f64 = -0.8;
+        if !self.circles.iter().any(|it| it.is_doubted) {
+            return Ok(None);
+        }
+        let free = ModelSetting {
+            model: FrictionModel::Lugre,
+            held: &[],
+        };
+        let starts = [best, self.first(free.model)?.0.with(SHARE_ON, HARDLY)];
+        let [one, other] = [self.solve(free, starts[0])?, self.solve(free, starts[1])?];
+        let simulations = one.simulations + other.simulations;
+        let solved = if one.power <= other.power { one } else { other };
+        let mut random = XorShift::new(1);
+        let again = (0..SELECTIONS).filter_map(|_| solved.again(&mut random));
+        let again: Vec<Unknowns> = again.collect();
+        let extent = |unknown: usize, whole: f64| {
+            let mut values: Vec<f64> = again.iter().map(|it| whole + it.0[unknown]).collect();
+            values.sort_by(f64::total_cmp);
+            let inner = values.len().saturating_sub(2 * BEYOND);
+            let ends = values.into_iter().skip(BEYOND).take(inner);
+            Extent::over(whole + solved.unknowns.0[unknown], ends).widened(OF_SHARE)
+        };
+        let found = SharesOn {
+            on: extent(SHARE_ON, 1.0),
+            off: extent(SHARE_OFF, 0.0),
+        };
+        Ok(Some(SolvedShares { found, simulations }))
     }
 
     /// The contact from which the search starts, and the number of simulations needed.

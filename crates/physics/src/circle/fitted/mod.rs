@@ -13,6 +13,6 @@ mod squares;
 mod unknowns;
 
 pub use extent::Extent;
-pub use fitted_drive::FittedDrive;
+pub use fitted_drive::{FittedDrive, SharesOn};
 pub use height::{predicted_height_um, recorded_height_um};
 pub use observed::{DriveFit, ObservedCircle};

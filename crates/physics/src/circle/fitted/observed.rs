@@ -10,11 +10,16 @@ use frictcomp::lists::FrictionList;
 
 /// An axis on a recorded circle, with compensation off or on.
 #[derive(Debug, Clone)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct ObservedCircle {
     /// The driven circle.
     pub circle: Circle,
     /// The list that was on.
     pub list: Option<FrictionList>,
+    /// A list of which a part may have been on although it should not (R16.13).
+    pub may_be_on: Option<FrictionList>,
+    /// Whether less or more of the list may have been on (R16.13).
+    pub is_doubted: bool,
     /// The recorded deviation at each reversal.
     pub(super) reversals: Vec<Waveform>,
 }
@@ -45,6 +50,8 @@ impl ObservedCircle {
         (!reversals.is_empty()).then(|| Self {
             circle,
             list,
+            may_be_on: None,
+            is_doubted: false,
             reversals: reversals.into_iter().flatten().flatten().collect(),
         })
     }

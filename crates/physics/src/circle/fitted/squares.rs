@@ -33,7 +33,7 @@ const SHORTENED: usize = 4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ModelSetting {
     pub(super) model: FrictionModel,
-    pub(super) held: Option<usize>,
+    pub(super) held: &'static [usize],
 }
 
 /// The best unknowns of a setting.
@@ -44,7 +44,7 @@ pub(super) struct SolvedUnknowns {
     pub(super) power: f64,
     /// The equations of each reversal at the best unknowns.
     reversals: Vec<Normal<UNKNOWNS>>,
-    held: Option<usize>,
+    held: &'static [usize],
     pub(super) simulations: usize,
 }
 
@@ -74,8 +74,8 @@ impl DriveFit {
         let mut damped = DAMPED;
         let mut reversals = Vec::new();
         for _ in 0..MOST_STEPS {
-            reversals = self.equations(setting.model, at, &left)?;
-            simulations += UNKNOWNS * self.circles.len();
+            reversals = self.equations(setting, at, &left)?;
+            simulations += (UNKNOWNS - setting.held.len()) * self.circles.len();
             let before = cost(&left, at, left.power());
             let mut gain = 0.0;
             for _ in 0..SHORTENED {
@@ -126,7 +126,7 @@ impl DriveFit {
             phase: 0.0,
         };
         let each = self.circles.iter().map(|it| {
-            let list = it.list.clone().map(Into::into);
+            let list = at.list(it).map(Into::into);
             let deviations = alone.deviations(it.circle, list.as_ref())?;
             Ok(Waveform::sampled(&deviations))
         });
@@ -154,20 +154,28 @@ impl DriveFit {
     /// The equations of each reversal: the effect of each unknown on the rest there.
     fn equations(
         &self,
-        model: FrictionModel,
+        setting: ModelSetting,
         at: Unknowns,
         left: &Left,
     ) -> Result<Vec<Normal<UNKNOWNS>>, CircleError> {
         let mut changed = Vec::new();
         for (unknown, step) in STEPS.into_iter().enumerate() {
-            changed.push(self.left(model, at.with(unknown, at.0[unknown] + step))?);
+            let is_held = setting.held.contains(&unknown);
+            let moved = at.with(unknown, at.0[unknown] + step);
+            changed.push(
+                (!is_held)
+                    .then(|| self.left(setting.model, moved))
+                    .transpose()?,
+            );
         }
         let each = left.of_each.iter().enumerate();
         let equations = each.map(|(reversal, left)| {
             let mut normal = Normal::new();
             for (sample, &value) in left.iter().enumerate() {
                 let row = std::array::from_fn(|unknown| {
-                    (value - changed[unknown].of_each[reversal][sample]) / STEPS[unknown]
+                    changed[unknown].as_ref().map_or(0.0, |it| {
+                        (value - it.of_each[reversal][sample]) / STEPS[unknown]
+                    })
                 });
                 normal.add(row, value);
             }
@@ -189,7 +197,7 @@ fn step(
     reversals: &[Normal<UNKNOWNS>],
     at: Unknowns,
     (power, damped): (f64, f64),
-    held: Option<usize>,
+    held: &[usize],
 ) -> Option<[f64; UNKNOWNS]> {
     let each = reversals.iter().map(|it| (it, 1.0));
     solution(each, (at, [0.0; UNKNOWNS]), (power, damped), held)
@@ -199,7 +207,7 @@ fn solution<'a>(
     reversals: impl Iterator<Item = (&'a Normal<UNKNOWNS>, f64)>,
     (at, expected): (Unknowns, [f64; UNKNOWNS]),
     (power, damped): (f64, f64),
-    held: Option<usize>,
+    held: &[usize],
 ) -> Option<[f64; UNKNOWNS]> {
     let mut all = Normal::new();
     for (reversal, times) in reversals {
@@ -213,7 +221,7 @@ fn solution<'a>(
         };
         let weight = 1.0 / BEFORE[unknown];
         all.add(unit(weight), weight * (expected[unknown] - at.0[unknown]));
-        if held == Some(unknown) {
+        if held.contains(&unknown) {
             all.add(unit(1e6), 0.0);
         } else {
             all.add(unit(damped.sqrt() * all.scale(unknown)), 0.0);

@@ -1,12 +1,15 @@
 //! The unknowns of a drive, in the form of the search.
 
+use super::observed::ObservedCircle;
 use crate::simulation::DriveParameters;
+use frictcomp::lists::FrictionList;
 
 /// The number of unknowns.
-pub(super) const UNKNOWNS: usize = 5;
+pub(super) const UNKNOWNS: usize = 7;
 
 /// Unknowns relative to those of the first drive: the logarithms of the factors on the stiffness of the contact, on
-/// Kp, on the friction and on the damping of the contact, and the additional delay in ms.
+/// Kp, on the friction and on the damping of the contact, the additional delay in ms, the share of the list that was
+/// on less 1, and the share of it that was on in the circles off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unknowns(pub(super) [f64; UNKNOWNS]);
 
@@ -15,19 +18,21 @@ pub(super) const SPEED_GAIN: usize = 1;
 pub(super) const FRICTION: usize = 2;
 pub(super) const DELAY: usize = 3;
 pub(super) const DAMPING: usize = 4;
+pub(super) const SHARE_ON: usize = 5;
+pub(super) const SHARE_OFF: usize = 6;
 
 /// Standard deviation of each unknown before a circle is evaluated; that of the friction is what
 /// `identify` leaves (R16.3).
-pub(super) const BEFORE: [f64; UNKNOWNS] = [2.0, 0.5, 0.05, 0.7, 0.7];
+pub(super) const BEFORE: [f64; UNKNOWNS] = [2.0, 0.5, 0.05, 0.7, 0.7, 1.0, 1.0];
 
 /// Steps by which the effect of an unknown is measured.
-pub(super) const STEPS: [f64; UNKNOWNS] = [0.05, 0.03, 0.02, 0.1, 0.1];
+pub(super) const STEPS: [f64; UNKNOWNS] = [0.05, 0.03, 0.02, 0.1, 0.1, 0.05, 0.05];
 
 /// Greatest change of an unknown in one step.
-const MOST: [f64; UNKNOWNS] = [0.7, 0.3, 0.1, 0.7, 0.7];
+const MOST: [f64; UNKNOWNS] = [0.7, 0.3, 0.1, 0.7, 0.7, 0.3, 0.3];
 
 /// Greatest distance from the first drive.
-const BOUNDS: [f64; UNKNOWNS] = [3.0, 1.2, 0.2, 5.0, 1.4];
+const BOUNDS: [f64; UNKNOWNS] = [3.0, 1.2, 0.2, 5.0, 1.4, 1.5, 1.5];
 
 /// The part of that distance beyond which an unknown is at its bound.
 const NEXT_TO: f64 = 0.99;
@@ -58,6 +63,21 @@ impl Unknowns {
     /// Whether an unknown is at the end of its search range, or next to it.
     pub(super) fn is_at_bound(self, at: usize) -> bool {
         self.0[at].abs() > NEXT_TO * BOUNDS[at]
+    }
+
+    /// The list that is on in a circle, with its share.
+    pub(super) fn list(self, circle: &ObservedCircle) -> Option<FrictionList> {
+        let scaled = |list: &FrictionList, share: f64| {
+            let mut list = list.clone();
+            list.table.iter_mut().for_each(|it| it.output *= share);
+            list
+        };
+        match (&circle.list, &circle.may_be_on) {
+            (Some(list), _) if circle.is_doubted => Some(scaled(list, 1.0 + self.0[SHARE_ON])),
+            (Some(list), _) => Some(list.clone()),
+            (None, Some(list)) if self.0[SHARE_OFF] != 0.0 => Some(scaled(list, self.0[SHARE_OFF])),
+            (None, _) => None,
+        }
     }
 
     /// The drive.

@@ -1,0 +1,162 @@
+//! Whether recorded actual positions are actual ones, and whether a list was on (R16.13, R16.14, R16.18).
+
+use frictcomp::lists::FrictionList;
+use frictcomp_physics::current::Reading;
+
+use super::following::{STANDSTILL, commanded};
+use crate::identify::{
+    AxisRecording, Predictor, Timing, TorqueKind, count, moving_average, noise_of, samples_in,
+    solve_linear, verify_followed,
+};
+
+/// The time in s over which noise is averaged to find what friction leaves.
+const AVERAGED_S: f64 = 0.02;
+
+/// What is left of a copy is at most this multiple of its averaged noise …
+const OF_NOISE: f64 = 1.5;
+
+/// … or this, in mm: the resolution of commanded positions.
+const RESOLUTION_MM: f64 = 5e-5;
+
+/// Millimetres in 0.1 µm.
+const MM: f64 = 1e-4;
+
+/// How an actual position follows the commanded one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FollowedPosition {
+    /// The lag in s.
+    pub lag_s: f64,
+    /// The part by which the actual way is longer than the commanded one.
+    pub longer: f64,
+    /// The root mean square in mm of what neither lag nor scale explain, averaged over 20 ms.
+    pub left_mm: f64,
+    /// The standard deviation in mm of the noise of a sample.
+    pub noise_mm: f64,
+}
+
+impl FollowedPosition {
+    /// Compares the actual positions of an axis with the commanded ones from a time in s on; `None` if one of them was
+    /// not recorded, or the axis hardly moves.
+    pub fn of(recording: &AxisRecording, from_s: f64) -> Option<Self> {
+        let track = &recording.track;
+        let errors: Vec<f64> = recording
+            .following_errors
+            .iter()
+            .map(|it| it * MM)
+            .collect();
+        let positions = track.positions.as_ref()?;
+        let velocities = commanded(track);
+        if errors.len() != positions.len() || velocities.len() != positions.len() {
+            return None;
+        }
+        let from = track.times_s.partition_point(|it| *it < from_s);
+        let moves = |at: &usize| velocities[*at].abs() > STANDSTILL;
+        let moving: Vec<usize> = (from..errors.len()).filter(moves).collect();
+        let middle = positions.get(*moving.first()?)? * MM;
+        let causes = |at: usize| [1.0, velocities[at], positions[at] * MM - middle];
+        let mut rows = vec![vec![0.0; 4]; 3];
+        for &at in &moving {
+            let causes = causes(at);
+            for (row, cause) in rows.iter_mut().zip(causes) {
+                for (sum, other) in row.iter_mut().zip(causes.iter().chain([&errors[at]])) {
+                    *sum += cause * other;
+                }
+            }
+        }
+        let answer = solve_linear(rows)?;
+        let left: Vec<f64> = (from..errors.len())
+            .map(|at| {
+                let causes = causes(at);
+                let expected = causes.iter().zip(&answer).map(|(one, it)| one * it);
+                errors[at] - expected.sum::<f64>()
+            })
+            .collect();
+        let noise_mm = noise_of(&left);
+        let averaged = moving_average(&left, samples_in(AVERAGED_S, track.step_s).max(1));
+        let squares: f64 = moving.iter().map(|at| averaged[at - from].powi(2)).sum();
+        Some(Self {
+            lag_s: answer[1],
+            longer: -answer[2],
+            left_mm: (squares / count(moving.len())).sqrt(),
+            noise_mm,
+        })
+    }
+
+    /// States that the actual positions are the commanded ones, if they show nothing but noise (R16.14).
+    pub fn is_commanded(&self, step_s: f64) -> Option<String> {
+        let averaged = self.noise_mm / count(samples_in(AVERAGED_S, step_s).max(1)).sqrt();
+        let least = (OF_NOISE * averaged).max(RESOLUTION_MM);
+        (self.left_mm < least).then(|| {
+            format!(
+                "its actual positions are the commanded ones: apart from noise of {:.2} µm they differ by {:.2} µm, and \
+                 friction leaves more",
+                self.noise_mm * 1000.0,
+                self.left_mm * 1000.0
+            )
+        })
+    }
+}
+
+/// Names two axes that were recorded at different times, or in different scales (R16.18).
+pub fn recorded_apart(names: [&str; 2], followed: [FollowedPosition; 2]) -> Vec<String> {
+    const APART_S: f64 = 0.0015;
+    const SCALE: f64 = 0.001;
+    let mut notes = Vec::new();
+    let [x, y] = followed;
+    if (x.lag_s - y.lag_s).abs() > APART_S {
+        notes.push(format!(
+            "{} follows its command after {:.1} ms and {} after {:.1} ms: recorded at different times, or their loops \
+             differ",
+            names[0],
+            x.lag_s * 1000.0,
+            names[1],
+            y.lag_s * 1000.0
+        ));
+    }
+    for (name, it) in names.iter().zip(followed) {
+        if it.longer.abs() > SCALE {
+            notes.push(format!(
+                "the way of {name} is {:+.2} % longer than commanded: its scale is not that of the command",
+                it.longer * 100.0
+            ));
+        }
+    }
+    notes
+}
+
+/// The lower and the upper end of the share of the current of a list in a recorded torque (R6.22); `None` where the
+/// torque is not known to be the actual one, or no following error or too few reversals were recorded.
+pub fn share_of_torque(
+    recording: &AxisRecording,
+    kind: Option<TorqueKind>,
+    (list, cycle_s): (&FrictionList, Option<f64>),
+) -> Option<[f64; 2]> {
+    if recording.measured.stated(kind, None).kind != Some(TorqueKind::Actual) {
+        return None;
+    }
+    let predictor = Predictor {
+        list,
+        reading: Reading::default(),
+        cycle_s,
+    };
+    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor);
+    let share = match verified.ok()?.timing {
+        Timing::Open => return None,
+        Timing::Off(share)
+        | Timing::Other(share)
+        | Timing::Unclear(share)
+        | Timing::On { share, .. } => share,
+    };
+    Some([share.low, share.high])
+}
+
+/// Whether the torque of circles shows that a list was on: its share is at least 0.7 at two feeds or more, and nowhere
+/// below 0.75 for certain (R16.13).
+pub fn torque_shows(shares: &[[f64; 2]]) -> bool {
+    const LEAST: f64 = 0.7;
+    const BELOW: f64 = 0.75;
+    const FEEDS: usize = 2;
+    shares.iter().filter(|it| it[0] >= LEAST).count() >= FEEDS
+        && shares.iter().all(|it| it[1] >= BELOW)
+}

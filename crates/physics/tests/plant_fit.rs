@@ -105,7 +105,7 @@ fn the_plant_is_found_from_recorded_circles() {
     );
 }
 
-/// R16.3: the table of docs/commissioning.md.
+/// R16.3: the table of docs/reliability.md.
 #[test]
 #[ignore = "seconds per machine"]
 #[allow(clippy::print_stdout, reason = "the table is its purpose")]

@@ -10,7 +10,7 @@ use super::visible::visible_line;
 use crate::table::Table;
 use frictcomp::diagnostic::{Rounded, Severity};
 use frictcomp_recordings::identify::{
-    AxisRecording, BranchPoint, Branches, Fit, FrictionCurve, Identified, TraceFinding,
+    AxisRecording, BranchPoint, DirectionBranches, Fit, FrictionCurve, Identified, TraceFinding,
 };
 
 /// A recording and the friction identified in it.
@@ -129,7 +129,7 @@ fn push_pairs(out: &mut String, found: &Identified) {
 }
 
 /// Both directions, where an offset does not make them one (R6.25).
-fn push_branches(out: &mut String, branches: &Branches, unit: &str) {
+fn push_branches(out: &mut String, branches: &DirectionBranches, unit: &str) {
     let mut table = Table::of_numbers(["speed", "forth", "back"]);
     table.row(&[&"mm/s", &unit, &unit]);
     for point in &branches.points {

@@ -7,8 +7,9 @@ use crate::trace_error::TraceError;
 use crate::traces::{lacks, numbers_of, position_column, read_trace};
 use frictcomp::machine::Machine;
 use frictcomp_physics::current::POSITION_UNITS_PER_MM;
+use frictcomp_recordings::identify::{StatedAxis, stated_axis};
 use frictcomp_recordings::trace::{
-    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, CncObject, NotAligned,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Clock, NotAligned,
     SelectError, TimeSource, TraceRecording,
 };
 
@@ -229,30 +230,18 @@ impl ReplayChannels {
 
 /// Returns the axis whose state a channel holds, by its name, its symbol or its object.
 pub(crate) fn axis_of(channel: &Channel, machine: &Machine) -> Option<String> {
-    const VARIABLE: &str = "FRICT_COMP_ACTIVE";
-    const STATE: CncObject = CncObject {
-        group: 0x2_0300,
-        offset: 0x221,
-    };
-    let name = channel.name.to_uppercase();
-    let symbol = channel.symbol.to_uppercase();
-    let of_variable = [&name, &symbol].into_iter().find_map(|text| {
-        let (_, axis) = text.split_once(VARIABLE)?;
-        Some(axis)
-    });
-    let written = name.strip_prefix("ACTIVE_").or(of_variable);
-    if let Some(axis) = written {
-        let axis = axis.trim_matches(|it: char| !it.is_alphanumeric());
-        let mut known = machine.axes.iter();
-        let known = known.find(|it| it.name.eq_ignore_ascii_case(axis));
-        let name = known.map_or(axis, |it| it.name.as_str());
-        return (!name.is_empty()).then(|| name.to_owned());
+    let mut axes = machine.axes.iter();
+    match stated_axis(channel)? {
+        StatedAxis::Named(written) => {
+            let known = axes.find(|it| it.name.eq_ignore_ascii_case(&written));
+            Some(known.map_or(written, |it| it.name.clone()))
+        }
+        StatedAxis::Numbered(number) => {
+            let found = axes.find(|it| it.number == Some(number))?;
+            Some(found.name.clone())
+        }
+        _ => None,
     }
-    let object = channel.object?;
-    let is_state = object.group & 0xF_FFFF == STATE.group && object.element() == STATE.offset;
-    let mut of_machine = machine.axes.iter();
-    let found = of_machine.find(|it| is_state && it.number == Some(object.axis()))?;
-    Some(found.name.clone())
 }
 
 /// The samples of a recording.

@@ -31,7 +31,7 @@ pub struct BranchPoint {
 /// Friction that is not the same in both directions.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Branches {
+pub struct DirectionBranches {
     /// Slowest first. The mean of both is the friction of the pair.
     pub points: Vec<BranchPoint>,
     /// The change of the common part from the slowest to the fastest speed, in drive units.
@@ -40,7 +40,7 @@ pub struct Branches {
     pub error: f64,
 }
 
-impl Branches {
+impl DirectionBranches {
     /// The branches of pairs; `None` where both directions differ by an offset at most.
     pub(super) fn of(pairs: &[Pair]) -> Option<Self> {
         let both: Vec<(&Pair, f64)> = pairs
@@ -153,17 +153,17 @@ mod tests {
     #[test]
     fn an_offset_is_no_branch() {
         // R6.25
-        assert_eq!(Branches::of(&pairs(|_| 12.0)), None);
+        assert_eq!(DirectionBranches::of(&pairs(|_| 12.0)), None);
         // Less than its uncertainty.
         let noisy = pairs(|speed| 12.0 + 0.15 * (speed * 7.0).sin());
-        assert_eq!(Branches::of(&noisy), None);
-        assert_eq!(Branches::of(&pairs(|_| 5.0)[..3]), None);
+        assert_eq!(DirectionBranches::of(&noisy), None);
+        assert_eq!(DirectionBranches::of(&pairs(|_| 5.0)[..3]), None);
     }
 
     #[test]
     fn viscous_friction_of_one_direction_is_two_branches() {
         // R6.25: 0.2 a mm/s forth, 0.1 back.
-        let found = Branches::of(&pairs(|speed| 3.0 + 0.05 * speed)).expect("branches");
+        let found = DirectionBranches::of(&pairs(|speed| 3.0 + 0.05 * speed)).expect("branches");
         assert!((found.change - 0.05 * 49.8).abs() < 0.05, "{found:?}");
         let (speed, cost) = found.cost().expect("a cost");
         assert_eq!(speed, 50.0);

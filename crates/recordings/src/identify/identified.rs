@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::branches::Branches;
+use super::branches::DirectionBranches;
 use super::curve::{Fit, FrictionCurve};
 use super::finding::TraceFinding;
 use super::measured::Measured;
@@ -127,8 +127,8 @@ impl Identified {
 
     /// Both directions where they differ by more than an offset (R6.25): neither a value list nor an offset holds
     /// that.
-    pub fn branches(&self) -> Option<Branches> {
-        Branches::of(&self.pairs)
+    pub fn branches(&self) -> Option<DirectionBranches> {
+        DirectionBranches::of(&self.pairs)
     }
 
     /// Whether the offset is less than a hundredth of the friction.

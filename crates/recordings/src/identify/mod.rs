@@ -30,7 +30,7 @@ mod unit_doubts;
 mod verify;
 mod warnings;
 
-pub use branches::{BranchPoint, Branches};
+pub use branches::{BranchPoint, DirectionBranches};
 pub use circles::{OnCircles, identify_circles, identify_measured_circles};
 pub use curve::{Fit, FrictionCurve};
 pub(crate) use curve::{along, solve_linear};
@@ -38,7 +38,7 @@ pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};
 pub use measured::{Contradiction, Measured, TorqueKind};
 pub use pair::{Drift, Pair, Visit};
-pub use recorded::{AxisChannels, AxisRecording, state_channel};
+pub use recorded::{AxisChannels, AxisRecording, StatedAxis, state_channel, stated_axis};
 pub use ripple::Ripple;
 pub use segment::Segment;
 pub use speeds::identify;

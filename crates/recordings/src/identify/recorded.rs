@@ -5,8 +5,8 @@ use super::measured::{Measured, RATED_UNITS, TorqueKind};
 use super::track::Track;
 use super::unit_doubts::{improbable_speed, scope_scale};
 use crate::trace::{
-    Channel, ChannelQuantity, ChannelSelection, Choice, NotAligned, Pick, SelectError, TimeSource,
-    TraceRecording, Unit,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, CncObject, NotAligned, Pick,
+    SelectError, TimeSource, TraceRecording, Unit,
 };
 use frictcomp::diagnostic::Code;
 use frictcomp_physics::current::Switched;
@@ -274,23 +274,142 @@ fn is_short(name: &str) -> bool {
         .any(|it| name.eq_ignore_ascii_case(it))
 }
 
-/// The channel `comp`, or the object of the control for the state of friction compensation
-/// (`frict_comp.f_is_active`), of the axis if several are recorded.
-pub fn state_channel(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
-    let is_state = |channel: &Channel| {
-        let texts = [&channel.name, &channel.symbol];
-        let plain = texts.map(|text| text.to_lowercase());
-        plain[0] == "comp"
-            || plain.iter().any(|text| {
-                text.contains("frict_comp_active") || text.ends_with("frict_comp.f_is_active")
-            })
+/// The axis whose friction compensation a channel states.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StatedAxis {
+    /// The one of the recording: `comp`, or a variable without its axis.
+    Own,
+    /// By its name: `active_<axis>`, `V.A.FRICT_COMP_ACTIVE.<axis>`.
+    Named(String),
+    /// By its number in a CNC object.
+    Numbered(u32),
+}
+
+/// The axis whose friction compensation a channel states as on or off; `None` for any other channel (R6.29).
+pub fn stated_axis(channel: &Channel) -> Option<StatedAxis> {
+    const VARIABLE: &str = "FRICT_COMP_ACTIVE";
+    const MEMBER: &str = "FRICT_COMP.F_IS_ACTIVE";
+    const STATE: CncObject = CncObject {
+        group: 0x2_0300,
+        offset: 0x221,
     };
-    let mut states = channels.iter().filter(|it| is_state(it));
-    let (state, next) = (states.next()?, states.next());
-    let name = if next.is_none() { &state.name } else { "comp" };
-    let found = selection.pick_named(name, ChannelQuantity::Time, channels);
-    found.ok().map(|pick| Pick {
+    let texts = [&channel.name, &channel.symbol].map(|text| text.to_uppercase());
+    let of_variable = || {
+        texts
+            .iter()
+            .find_map(|text| Some(text.split_once(VARIABLE)?.1))
+    };
+    if let Some(axis) = texts[0].strip_prefix("ACTIVE_").or_else(of_variable) {
+        let axis = axis.trim_matches(|it: char| !it.is_alphanumeric());
+        if !axis.is_empty() {
+            return Some(StatedAxis::Named(axis.to_owned()));
+        }
+    }
+    let is_state =
+        |it: &CncObject| it.group & 0xF_FFFF == STATE.group && it.element() == STATE.offset;
+    if let Some(object) = channel.object.filter(is_state) {
+        return Some(StatedAxis::Numbered(object.axis()));
+    }
+    let is_own = texts[0] == "COMP"
+        || texts
+            .iter()
+            .any(|text| text.contains(VARIABLE) || text.ends_with(MEMBER));
+    is_own.then_some(StatedAxis::Own)
+}
+
+/// The channel that states whether the friction compensation of the axis is on: the only one, or that of the
+/// selected axis.
+pub fn state_channel(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
+    let states = channels.iter().enumerate();
+    let states: Vec<(usize, StatedAxis)> = states
+        .filter_map(|(at, channel)| Some((at, stated_axis(channel)?)))
+        .collect();
+    let is_selected = |(at, stated): &&(usize, StatedAxis)| match (stated, &selection.axis) {
+        (StatedAxis::Named(name), Some(axis)) => name.eq_ignore_ascii_case(axis),
+        (StatedAxis::Numbered(number), Some(axis)) if axis.parse() == Ok(*number) => true,
+        (_, Some(_)) => selection.is_of_axis(&channels[*at]),
+        _ => false,
+    };
+    let found = match &states[..] {
+        [only] => only.0,
+        all => {
+            all.iter()
+                .find(is_selected)
+                .or_else(|| {
+                    all.iter()
+                        .find(|it| channels[it.0].name.eq_ignore_ascii_case("comp"))
+                })?
+                .0
+        }
+    };
+    Some(Pick {
+        channel: ChannelIndex::new(found),
         unit: Unit::own(ChannelQuantity::Time),
-        ..pick
+        is_unit_assumed: false,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn channel(name: &str, symbol: &str, object: Option<CncObject>) -> Channel {
+        Channel {
+            name: name.to_owned(),
+            symbol: symbol.to_owned(),
+            object,
+            ..Channel::default()
+        }
+    }
+
+    #[test]
+    fn a_state_is_found_in_every_way_it_is_recorded() {
+        // R6.29
+        let object = |offset| {
+            Some(CncObject {
+                group: 0x12_0300,
+                offset,
+            })
+        };
+        let of = |it: Channel| stated_axis(&it);
+        assert_eq!(of(channel("Comp", "", None)), Some(StatedAxis::Own));
+        assert_eq!(
+            of(channel("active_Y", "", None)),
+            Some(StatedAxis::Named("Y".to_owned()))
+        );
+        assert_eq!(
+            of(channel("A", "GVL.V.A.FRICT_COMP_ACTIVE.X1", None)),
+            Some(StatedAxis::Named("X1".to_owned()))
+        );
+        assert_eq!(
+            of(channel("A", "Axis.frict_comp.f_is_active", None)),
+            Some(StatedAxis::Own)
+        );
+        assert_eq!(
+            of(channel("Channel 3", "", object(0x2_0221))),
+            Some(StatedAxis::Numbered(2))
+        );
+        assert_eq!(of(channel("Channel 3", "", object(0x2_0115))), None);
+        let channels = [
+            channel("v", "", None),
+            channel("Channel 2", "", object(0x1_0221)),
+            channel("Channel 3", "", object(0x2_0221)),
+            channel("active_Z", "", None),
+        ];
+        let picked = |axis: &str| {
+            let selection = ChannelSelection {
+                axis: Some(axis.to_owned()),
+                ..ChannelSelection::default()
+            };
+            state_channel(&selection, &channels).map(|it| it.channel.get())
+        };
+        assert_eq!(
+            [picked("1"), picked("2"), picked("z")],
+            [Some(1), Some(2), Some(3)]
+        );
+        assert_eq!(picked("W"), None);
+        let only = state_channel(&ChannelSelection::default(), &channels[..2]);
+        assert_eq!(only.map(|it| it.channel.get()), Some(1));
+    }
 }

@@ -7,6 +7,11 @@ use std::fmt;
 pub struct ChannelIndex(pub(super) usize);
 
 impl ChannelIndex {
+    /// From an index of [`TraceRecording::channels`](super::TraceRecording::channels).
+    pub(crate) fn new(index: usize) -> Self {
+        Self(index)
+    }
+
     /// As an index of [`TraceRecording::channels`](super::TraceRecording::channels).
     pub fn get(self) -> usize {
         self.0

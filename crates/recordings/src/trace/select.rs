@@ -238,7 +238,7 @@ impl ChannelSelection {
     }
 
     /// Whether a channel is one of the axis that the user names.
-    fn is_of_axis(&self, channel: &Channel) -> bool {
+    pub(crate) fn is_of_axis(&self, channel: &Channel) -> bool {
         let Some(axis) = &self.axis else {
             return false;
         };

@@ -5,7 +5,7 @@
 //! dry run again, everything in which the two may differ becomes unknown. A way that would end the
 //! program joins at program end.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -30,7 +30,7 @@ const MAX_WRITTEN: usize = 4096;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Ways {
     /// Sorted by depth and target, one for each.
-    pub(in crate::interpreter) open: Vec<OpenPath>,
+    pub(in crate::interpreter) open: VecDeque<OpenPath>,
     /// The ways that ended the program, as one.
     pub(in crate::interpreter) end: Option<Box<OpenPath>>,
     /// Ends of the program on these ways.
@@ -283,7 +283,7 @@ impl Ways {
         let place = self
             .place(depth, from.saturating_add(1))
             .unwrap_or_else(|place| place);
-        let beyond = self.open[place..].iter();
+        let beyond = self.open.range(place..);
         let beyond = beyond.take_while(|way| way.depth == depth);
         let way = beyond
             .chain(self.end.as_deref())
@@ -307,11 +307,12 @@ impl Ways {
     ) -> Option<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         let first = self.open.get(place)?;
-        (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
+        let is_it = first.depth == depth && first.target <= here;
+        is_it.then(|| self.open.remove(place))?
     }
 
     /// Takes the ways of a program that is left.
-    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> Vec<OpenPath> {
+    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> VecDeque<OpenPath> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
     }

@@ -13,7 +13,8 @@ use super::profile::{Quality, RadialProfile};
 use super::series::{AngleSeries, beyond_noise};
 use super::shapes::{Additions, Shapes};
 use super::swings::stick_slip;
-use super::tails::{self, Tails};
+use super::tail_search;
+use super::tails::Tails;
 
 /// Least residual in µm that counts as a shape …
 const LEAST_REST_UM: f64 = 0.15;
@@ -69,7 +70,7 @@ impl CircleEvidence {
         let rough = in_steps(AngleSeries::rough)?;
         let noise_um = quality.noise_um;
         let without = Shapes::fit(&coarse, Additions::default())?;
-        let shapes = tails::fit(&paths, (&coarse, &rough), noise_um)?;
+        let shapes = tail_search::fit(&paths, (&coarse, &rough), noise_um)?;
         let floor = (REST_OF_NOISE * noise_um)
             .max(LEAST_REST_UM)
             .max(REST_OF_STEP * quality.step_um);

@@ -34,6 +34,7 @@ mod series;
 mod shapes;
 mod simulate;
 mod swings;
+mod tail_search;
 mod tails;
 mod test;
 mod tune;

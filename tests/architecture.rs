@@ -470,10 +470,12 @@ fn folders_of_a_room_import_what_their_row_says() {
         let own = module.get(1).filter(|name| beside.contains(**name));
         let text: Vec<&str> = code(file).map(|(_, line)| line).collect();
         let text = text.join("\n").replace("pub(in ", "");
-        let mut imports = match file.is_whole {
-            true => names_after(&text, "crate::"),
-            false => names_after(&text, &format!("crate::{}::", file.room)),
+        let home = if file.is_whole {
+            "crate::".to_owned()
+        } else {
+            format!("crate::{}::", file.room)
         };
+        let mut imports = names_after(&text, &home);
         // The path that leads up to the room, and the path of a file beside the folders to a folder.
         let up = "super::".repeat(module.len().saturating_sub(1));
         let up = if up.is_empty() { "self::" } else { &up };

@@ -266,11 +266,11 @@ fn names_too_much(seed: u64) -> bool {
         }
     }
     possible.iter().enumerate().any(|(axis, states)| {
-        let is_left = |state: &&str| {
-            let is_it = |end: &Walk| end.on[axis] == (**state == *State::Active.as_str());
+        let is_left = |state: &str| {
+            let is_it = |end: &Walk| end.on[axis] == (state == State::Active.as_str());
             ends.iter().any(is_it)
         };
-        !states.keys().all(|state| is_left(&state))
+        !states.keys().all(|state| is_left(state))
     })
 }
 

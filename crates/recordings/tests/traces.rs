@@ -11,6 +11,8 @@
 #[path = "traces/layouts.rs"]
 mod layouts;
 
+use std::fmt::Write as _;
+
 use frictcomp_recordings::trace::{
     ChannelQuantity, ChannelSelection, Choice, CncObject, NotAligned, Pick, SelectError,
     TraceProblem, TraceReader, TraceRecording, Unit,
@@ -323,8 +325,9 @@ impl Changes<'_> {
         );
         // The ids count, not the order.
         for (id, name, unit) in [(2, "torque", "%"), (1, "v", "mm/min"), (3, "x", "mm")] {
-            text += &format!(
-                "<dataSignal id=\"f{id}\" name=\"/Nck/{name}\" description=\"{name}\" unitsType=\"{unit}\"/>\n"
+            let _ = writeln!(
+                text,
+                "<dataSignal id=\"f{id}\" name=\"/Nck/{name}\" description=\"{name}\" unitsType=\"{unit}\"/>"
             );
         }
         let mut before = None;
@@ -333,11 +336,11 @@ impl Changes<'_> {
                 self.form == Form::Whole || before.is_none_or(|old: [i32; 3]| old[at] != row[at])
             };
             let values = (0..3).filter(|at| is_written(*at));
-            let values: String = values
+            let values: Vec<String> = values
                 .map(|at| format!(" f{}=\"{}\"", at + 1, row[at]))
                 .collect();
             if !values.is_empty() {
-                text += &format!("<rec time=\"{}\"{values}/>\n", seconds(step));
+                let _ = writeln!(text, "<rec time=\"{}\"{}/>", seconds(step), values.concat());
             }
             before = Some(*row);
         }
@@ -377,9 +380,8 @@ fn numbers_without_a_header_need_a_column_that_counts() {
     // R6.27
     let wave = |row: u32| (f64::from(row) / 5.0).sin();
     let table = |first: &dyn Fn(u32) -> f64| -> String {
-        (0..40)
-            .map(|row| format!("{};{}\n", first(row), wave(row)))
-            .collect()
+        let rows = (0..40).map(|row| format!("{};{}\n", first(row), wave(row)));
+        rows.collect::<Vec<_>>().concat()
     };
     let recording = read(&table(&|row| f64::from(row))).expect("a recording");
     let kept: Vec<_> = recording.kept().collect();
@@ -416,9 +418,8 @@ fn a_separator_within_a_name_is_named() {
 fn groups_of_unequal_span_share_a_part_or_are_named() {
     // R6.27: two groups of Scope, with their own times in ms.
     let export = |from: i32| {
-        let rows: String = (0..40)
-            .map(|row| format!("{row}\t1\t{}\t2\n", row + from))
-            .collect();
+        let rows = (0..40).map(|row| format!("{row}\t1\t{}\t2\n", row + from));
+        let rows = rows.collect::<Vec<_>>().concat();
         format!("Name\tv\tName\ttorque\n\n{rows}")
     };
     let align = |text: &str| {

@@ -79,17 +79,16 @@ pub fn render_text(report: &IdentifyReport) -> String {
         out.push('\n');
     }
     push_pairs(&mut out, found);
-    match found.branches() {
-        Some(branches) => push_branches(&mut out, &branches, report.unit()),
-        None => {
-            let _ = writeln!(
-                out,
-                "\noffset (weight, asymmetry): {} {}",
-                Rounded(found.offset, 3),
-                report.unit()
-            );
-            out.push_str(offset_words(found));
-        }
+    if let Some(branches) = found.branches() {
+        push_branches(&mut out, &branches, report.unit());
+    } else {
+        let _ = writeln!(
+            out,
+            "\noffset (weight, asymmetry): {} {}",
+            Rounded(found.offset, 3),
+            report.unit()
+        );
+        out.push_str(offset_words(found));
     }
     push_curve(&mut out, found);
     let mut table = Table::of_numbers(["in", "out"]);

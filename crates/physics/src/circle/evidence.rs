@@ -139,7 +139,7 @@ fn explained(
     let mut left = shapes.less(fine);
     let mut rest_um = rest(&shapes, &left, limits.noise_um);
     let at_first = rest_um;
-    let mut last = None;
+    let mut unexplained = None;
     while rest_um > limits.floor.max(REMAINS * at_first) {
         let least = EXPLAINS * rest_um * rest_um;
         let oscillation = Oscillation::search(&shapes.left, &left);
@@ -149,12 +149,13 @@ fn explained(
         let free = added.screws.iter().position(Option::is_none);
         let periodic = pitch::search(&shapes).filter(|it| it.explains() > beaten);
         let (Some(periodic), Some(free)) = (periodic, free) else {
-            last = Some(
-                oscillation.map_or(OtherShape::Unknown, |it| OtherShape::Vibration {
-                    hertz: it.hertz,
-                    amplitude_um: it.amplitude_um,
-                }),
-            );
+            unexplained =
+                Some(
+                    oscillation.map_or(OtherShape::Unknown, |it| OtherShape::Vibration {
+                        hertz: it.hertz,
+                        amplitude_um: it.amplitude_um,
+                    }),
+                );
             break;
         };
         added.screws[free] = Some(periodic.screw);
@@ -171,8 +172,10 @@ fn explained(
         })
     });
     let mut others = [others.next(), others.next()];
-    if let (Some(last), Some(free)) = (last, others.iter_mut().find(|it| it.is_none())) {
-        *free = Some(last);
+    if let (Some(unexplained), Some(free)) =
+        (unexplained, others.iter_mut().find(|it| it.is_none()))
+    {
+        *free = Some(unexplained);
     }
     Some(Explained {
         shapes,

@@ -53,7 +53,7 @@ pub(super) fn search(shapes: &Shapes) -> Option<Periodic> {
         of(Screw { frequency, ..best })
     });
     let found = near.max_by(|one, other| one.explains().total_cmp(&other.explains()))?;
-    let bent = shapes.joint(|CosineSine { cos, sin }, _| [cos * sin * sin, sin * cos * cos]);
-    let of_bent = bent.map_or(0.0, |it| it.explains);
-    (of_bent < BENT * found.explains()).then_some(found)
+    let guide = shapes.joint(|CosineSine { cos, sin }, _| [cos * sin * sin, sin * cos * cos]);
+    let of_guide = guide.map_or(0.0, |it| it.explains);
+    (of_guide < BENT * found.explains()).then_some(found)
 }

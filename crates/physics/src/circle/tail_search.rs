@@ -67,11 +67,11 @@ pub(super) fn fit(
             Shapes::fit(series, added)
         };
         let sought = best(slowest, |decay_s| Some(with(rough, decay_s)?.squares()));
-        let Some((decay_s, found)) = sought.and_then(|it| Some((it, with(series, it)?))) else {
+        let Some((fitted_s, found)) = sought.and_then(|it| Some((it, with(series, it)?))) else {
             continue;
         };
         if is_tail(&found, (axis, peak), shapes.squares()) {
-            decays[at] = Some(decay_s);
+            decays[at] = Some(fitted_s);
             shapes = found;
         }
     }

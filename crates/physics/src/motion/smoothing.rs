@@ -6,7 +6,7 @@
 //! straight and evenly curved paths unchanged; they are the control points of a cubic B-spline. A vertex at
 //! which the path bends by more than its decimals do is not weighed, and no weights reach across it.
 
-use super::turns::{AHEAD, AxisCourse, AxisRun, Window};
+use super::turns::{AHEAD, AxisCourse, RunVertices, Window};
 
 /// Maximum number of vertices weighed on either side.
 const WIDEST: usize = 12;
@@ -251,7 +251,7 @@ struct AxisOfRun<'a> {
     last: usize,
 }
 
-impl AxisRun for AxisOfRun<'_> {
+impl RunVertices for AxisOfRun<'_> {
     fn step(&self, vertex: usize) -> f64 {
         let [from, to] = [vertex, vertex + 1].map(|number| &self.vertices.at(number).place);
         to[self.axis] - from[self.axis]

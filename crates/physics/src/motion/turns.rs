@@ -16,7 +16,7 @@ pub(super) const AHEAD: usize = 48;
 const SHIFT: usize = 6;
 
 /// The run as one axis sees it.
-pub(super) trait AxisRun {
+pub(super) trait RunVertices {
     /// The change from a vertex to the next one; 0 where it is not known.
     fn step(&self, vertex: usize) -> f64;
     /// The wanted control point.
@@ -44,7 +44,7 @@ pub(super) struct AxisCourse {
 
 impl AxisCourse {
     /// The next control point of the axis. Numbers rise by one from call to call, from 0.
-    pub(super) fn next(&mut self, vertex: usize, run: &impl AxisRun) -> f64 {
+    pub(super) fn next(&mut self, vertex: usize, run: &impl RunVertices) -> f64 {
         if vertex == 0 {
             *self = Self {
                 at: run.wanted(0),
@@ -77,7 +77,7 @@ impl AxisCourse {
     }
 
     /// Looks at the steps that are new, up to the first one against the direction.
-    fn look_ahead(&mut self, run: &impl AxisRun) {
+    fn look_ahead(&mut self, run: &impl RunVertices) {
         while self.against.is_none() && self.seen < run.last() {
             let step = run.step(self.seen);
             if self.direction == 0.0 && step != 0.0 {
@@ -96,7 +96,7 @@ impl AxisCourse {
     }
 
     /// The next turn, if it has to be chosen now: the extreme among the control points nearby.
-    fn choose_turn(&self, vertex: usize, (step, run): (usize, &impl AxisRun)) -> Option<usize> {
+    fn choose_turn(&self, vertex: usize, (step, run): (usize, &impl RunVertices)) -> Option<usize> {
         if vertex + SHIFT < self.reached {
             return None;
         }
@@ -110,7 +110,7 @@ impl AxisCourse {
     }
 
     /// The first vertex at which the axis may turn again after a step against its direction.
-    fn turn_after(&self, step: usize, run: &impl AxisRun) -> Option<usize> {
+    fn turn_after(&self, step: usize, run: &impl RunVertices) -> Option<usize> {
         let mut reached = step;
         for step in step..run.last() {
             let against = -self.direction * run.step(step);

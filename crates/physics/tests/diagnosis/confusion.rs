@@ -264,15 +264,18 @@ fn axis_of(found: &Diagnosis) -> Option<PlaneAxis> {
 
 /// The findings in words: those of one axis with its name.
 fn said(found: &[Diagnosis]) -> String {
-    let mut axes: Vec<(Finding, BTreeSet<&str>)> = Vec::new();
+    let mut findings: Vec<(Finding, BTreeSet<&str>)> = Vec::new();
     for one in found {
-        let axis = axis_of(one).map(PlaneAxis::as_str);
-        match axes.iter_mut().find(|(finding, _)| *finding == one.finding) {
-            Some((_, axes)) => axes.extend(axis),
-            None => axes.push((one.finding, axis.into_iter().collect())),
+        let concerned = axis_of(one).map(PlaneAxis::as_str);
+        match findings
+            .iter_mut()
+            .find(|(finding, _)| *finding == one.finding)
+        {
+            Some((_, axes)) => axes.extend(concerned),
+            None => findings.push((one.finding, concerned.into_iter().collect())),
         }
     }
-    let words = axes.iter().map(|(finding, axes)| {
+    let words = findings.iter().map(|(finding, axes)| {
         let name = serde_json::to_value(finding).expect("a name");
         let name = name.as_str().expect("a name");
         let axes: Vec<&str> = axes.iter().copied().collect();

@@ -112,14 +112,11 @@ fn assert_turns(what: &str, points: &Polyline, decimals: usize) {
         let trace = trace_of(FAST, &text, &AXES, PlannerOptions::default());
         // Only the approach, whose start is not known.
         assert!(trace.left_out.len() <= 1, "{what}, {mode}");
-        for axis in 0..AXES.len() {
+        for (axis, name) in AXES.iter().enumerate() {
             let found = turns_of_trace(&trace, axis);
             let most = turns_of_polyline(&points, axis);
             let least = large_turns(&points, (axis, tolerance.max(1e-9)));
-            let said = format!(
-                "{what}, {mode}, {}: {found}, not {least} to {most}",
-                AXES[axis]
-            );
+            let said = format!("{what}, {mode}, {name}: {found}, not {least} to {most}");
             assert!(found <= most, "{said}");
             assert!(found >= least, "{said}");
             let beyond = beyond(&points, &trace, axis);
@@ -215,13 +212,13 @@ fn zigzags_turn_at_every_stroke_beyond_the_tolerance() {
 #[test]
 fn circles_of_chords_turn_at_their_quadrants() {
     // R11.29
-    for (radius, chord, decimals) in [
-        (5.0, 0.02, 3),
-        (25.0, 0.04, 3),
-        (10.0, 0.3, 4),
-        (25.0, 0.6, 3),
+    // Chords of 1.3 turns.
+    for (radius, chord, count, decimals) in [
+        (5.0, 0.02, 2_042, 3),
+        (25.0, 0.04, 5_105, 3),
+        (10.0, 0.3, 272, 4),
+        (25.0, 0.6, 340, 3),
     ] {
-        let count = (1.3 * std::f64::consts::TAU * radius / chord) as u32;
         let point = |step: u32| {
             let (sine, cosine) = (f64::from(step) * chord / radius + 0.7).sin_cos();
             [radius * cosine, radius * sine, 0.0]

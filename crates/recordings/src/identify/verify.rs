@@ -76,7 +76,7 @@ const AVERAGED_S: f64 = 0.01;
 const AFTER_S: f64 = 0.05;
 
 /// The way after a reversal in mm or degrees in which samples do not count for the scale, either: the contact
-/// builds up its friction over a way, on slow circles for longer than [`AFTER_S`] (R5.36).
+/// builds up its friction over a way, on slow circles for longer than 0.05 s (R5.36).
 pub const CONTACT_MM: f64 = 0.15;
 
 /// A range with fewer samples has no scale.
@@ -308,13 +308,14 @@ impl PredictedMotion {
         let mut since = 0;
         let mut from = positions[0];
         let mut used = Vec::new();
-        for at in 1..self.signs.len() {
-            if self.signs[at] * self.signs[at - 1] > 0.0 {
+        let signs = self.signs.windows(2).zip(&positions[1..]);
+        for (at, (signs, position)) in (1..).zip(signs) {
+            if signs[0] * signs[1] > 0.0 {
                 since += 1;
             } else {
-                (since, from) = (0, positions[at]);
+                (since, from) = (0, *position);
             }
-            let is_away = since >= after && (positions[at] - from).abs() >= way;
+            let is_away = since >= after && (position - from).abs() >= way;
             if is_away && self.velocities[at].abs() > REST {
                 used.push(at);
             }

@@ -409,8 +409,11 @@ impl Evaluator<'_> {
             let written = as_written(span.of(self.text));
             (self.scope.unknown)(&written, self.shown.unwrap_or(span));
         }
+        if !memory.may_change(name) {
+            return value;
+        }
         let is_held = memory.set_at(name).is_some();
-        if is_held || (is_known && memory.may_change(name)) {
+        if is_known || is_held {
             self.scope.relied.borrow_mut().push(name.to_owned());
         }
         match self.scope.held {

@@ -49,20 +49,20 @@ pub(super) struct Additions {
 
 /// The basis of the rows.
 #[derive(Debug, Clone, Copy)]
-struct Basis {
+struct ShapeBasis {
     is_single: bool,
     added: Additions,
 }
 
 /// The path in which a row is.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(super) struct PathMotion {
     pub(super) direction: Direction,
     pub(super) turn_s: Option<f64>,
     pub(super) radius_mm: f64,
 }
 
-impl Course {
+impl PathMotion {
     fn of(series: &AngleSeries) -> Self {
         Self {
             direction: series.direction,
@@ -75,7 +75,7 @@ impl Course {
 /// Fitted shapes, and the paths less them.
 pub(super) struct Shapes {
     normal: Normal<SHAPES>,
-    basis: Basis,
+    basis: ShapeBasis,
     found: ShapeValues,
     pub(super) terms: Vec<Term>,
     pub(super) left: Vec<AngleSeries>,
@@ -84,14 +84,14 @@ pub(super) struct Shapes {
 impl Shapes {
     /// Fits the shapes and some more.
     pub(super) fn fit(series: &[AngleSeries], added: Additions) -> Option<Self> {
-        let basis = Basis {
+        let basis = ShapeBasis {
             is_single: series.len() == 1,
             added,
         };
         let mut normal = Normal::<SHAPES>::new();
         for one in series {
             for (angle, value) in one.steps() {
-                normal.add(basis.row(angle, Course::of(one)), value);
+                normal.add(basis.row(angle, PathMotion::of(one)), value);
             }
         }
         normal.hold_unused();
@@ -127,7 +127,7 @@ impl Shapes {
     }
 
     /// The fitted path at a place, in µm.
-    pub(super) fn at(&self, angle: CosineSine, course: Course) -> f64 {
+    pub(super) fn at(&self, angle: CosineSine, course: PathMotion) -> f64 {
         let row = self.basis.row(angle, course);
         row.iter().zip(self.found).map(|(a, b)| a * b).sum()
     }
@@ -152,7 +152,7 @@ impl Shapes {
         for one in &self.left {
             for (angle, value) in one.steps() {
                 let columns = columns(angle, one.radius_mm);
-                let row = self.basis.row(angle, Course::of(one));
+                let row = self.basis.row(angle, PathMotion::of(one));
                 for (sums, column) in sums.iter_mut().zip(columns) {
                     for (sum, part) in sums.iter_mut().zip(row) {
                         *sum += part * column;
@@ -203,7 +203,7 @@ impl Shapes {
 
     /// Paths less the shapes.
     pub(super) fn less(&self, series: &[AngleSeries]) -> Vec<AngleSeries> {
-        let less = |one: &AngleSeries| one.less(|angle, _| self.at(angle, Course::of(one)));
+        let less = |one: &AngleSeries| one.less(|angle, _| self.at(angle, PathMotion::of(one)));
         series.iter().map(less).collect()
     }
 
@@ -227,9 +227,9 @@ fn steps(angle: CosineSine, turning: f64) -> [f64; 2] {
     ]
 }
 
-impl Basis {
-    fn row(&self, angle: CosineSine, course: Course) -> ShapeValues {
-        let Course {
+impl ShapeBasis {
+    fn row(&self, angle: CosineSine, course: PathMotion) -> ShapeValues {
+        let PathMotion {
             direction,
             turn_s,
             radius_mm,

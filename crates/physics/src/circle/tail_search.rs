@@ -4,7 +4,7 @@ use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
 use super::profile::{PER_DEGREE, RadialProfile, UM_PER_M};
 use super::series::{AngleSeries, beyond_noise};
-use super::shapes::{Additions, Course, Shapes};
+use super::shapes::{Additions, PathMotion, Shapes};
 use super::tails::{Decays, axis_number};
 use super::turning::CosineSine;
 
@@ -128,7 +128,7 @@ fn peak_um(paths: &[(Direction, &RadialProfile)], axis: PlaneAxis, shapes: &Shap
                     cos: point.cos,
                     sin: point.sin,
                 };
-                let course = Course {
+                let course = PathMotion {
                     direction,
                     turn_s: profile.turn_s(),
                     radius_mm: profile.radius_m() * 1000.0,

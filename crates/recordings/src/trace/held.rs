@@ -32,7 +32,7 @@ pub(super) struct HeldSignal {
 
 /// The value of a signal in a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Written {
+pub(super) enum HeldEntry {
     /// A number.
     Value(f64),
     /// It stands in the record, but is no number.
@@ -57,13 +57,13 @@ impl HeldSignal {
     }
 
     /// Takes the value of the record at a time, or keeps the last one.
-    pub(super) fn take(&mut self, time: f64, written: Option<Written>) {
+    pub(super) fn take(&mut self, time: f64, written: Option<HeldEntry>) {
         match written {
-            Some(Written::Value(value)) => {
+            Some(HeldEntry::Value(value)) => {
                 self.written += 1;
                 self.last = Some(value);
             }
-            Some(Written::Missing) => {
+            Some(HeldEntry::Missing) => {
                 self.written += 1;
                 self.samples.missing.count += 1;
                 self.last = None;

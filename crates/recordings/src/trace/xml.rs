@@ -15,7 +15,7 @@ use super::cell::{CellValue, of_old_systems, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::error::TraceProblem;
-use super::held::{Grid, HeldSignal, StatedSamples, Written, remarks};
+use super::held::{Grid, HeldEntry, HeldSignal, StatedSamples, remarks};
 use super::recording::{Layout, RowForm, TraceRecording};
 use super::unit::Unit;
 
@@ -303,7 +303,7 @@ impl Xml {
         demand: &Demand<'_>,
     ) -> Result<(), TraceProblem> {
         let mut time = None;
-        let mut found: Vec<(usize, Written)> = Vec::new();
+        let mut found: Vec<(usize, HeldEntry)> = Vec::new();
         for attribute in element.attributes().with_checks(false) {
             let attribute = attribute.map_err(|error| self.damaged(before, error.to_string()))?;
             let key = attribute.key.local_name();
@@ -324,15 +324,15 @@ impl Xml {
                 }
             };
             match index {
-                Some(index) if number.is_nan() => found.push((index, Written::Missing)),
-                Some(index) => found.push((index, Written::Value(number))),
+                Some(index) if number.is_nan() => found.push((index, HeldEntry::Missing)),
+                Some(index) => found.push((index, HeldEntry::Value(number))),
                 None => time = Some(number),
             }
         }
         let Some(time) = time.filter(|time| time.is_finite()) else {
             return Err(self.damaged(before, "a record has no time".to_owned()));
         };
-        let mut written: HashMap<usize, Written> = HashMap::new();
+        let mut written: HashMap<usize, HeldEntry> = HashMap::new();
         for (index, value) in found {
             while !self.places.contains_key(&index) {
                 self.recorded(Signal::default(), before)?;

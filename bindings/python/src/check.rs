@@ -23,8 +23,8 @@ use crate::work::{Stop, interruptible};
 
 /// All messages of programs and of the programs below folders.
 ///
-/// Each program runs from the start of the control. Below folders, what the patterns of `exclude` name is not taken,
-/// and what ignore files name only with `no_ignore`. ``Error`` if one of the programs cannot be read.
+/// Each program runs from the start of the control. Below folders, what the patterns of ``exclude`` name is not
+/// taken, and what ignore files name only with ``no_ignore``. ``Error`` if one of the programs cannot be read.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, limits=None, exclude=Vec::new(), no_ignore=false))]
 pub(crate) fn check(

@@ -26,12 +26,12 @@ use crate::work::{Stop, interruptible};
 /// Each program runs from the start of the control. Below folders, what the patterns of ``exclude`` name is not
 /// taken, and what ignore files name only with ``no_ignore``. ``Error`` if one of the programs cannot be read.
 #[pyfunction]
-#[pyo3(signature = (programs, *, machine=None, limits=None, exclude=Vec::new(), no_ignore=false))]
+#[pyo3(signature = (programs, *, machine=None, limits=None, exclude=None, no_ignore=false))]
 pub(crate) fn check(
     programs: &Bound<'_, PyAny>,
     machine: Option<&Bound<'_, PyAny>>,
     limits: Option<&Bound<'_, PyLimits>>,
-    exclude: Vec<String>,
+    exclude: Option<Vec<String>>,
     no_ignore: bool,
 ) -> PyResult<PyMessages> {
     let ignore_files = if no_ignore {
@@ -40,7 +40,7 @@ pub(crate) fn check(
         IgnoreFiles::Obeyed
     };
     let folders = FolderOptions {
-        exclude,
+        exclude: exclude.unwrap_or_default(),
         ignore_files,
     };
     let mut machine = machine_options(machine)?;

@@ -543,7 +543,7 @@ def check(
     *,
     machine: Machine | _Path | None = None,
     limits: Limits | None = None,
-    exclude: Sequence[str] = (),
+    exclude: Sequence[str] | None = None,
     no_ignore: bool = False,
 ) -> Messages:
     """All messages of programs and of the programs below folders.

@@ -156,7 +156,7 @@ impl<T> Window<T> {
         self.first + self.values.len()
     }
 
-    /// The number of the newest value; 0 if there is none.
+    /// Number of the latest value, counted from 0; 0 without a value, too.
     pub(super) fn newest(&self) -> usize {
         self.next().saturating_sub(1)
     }

@@ -35,7 +35,7 @@ pub(super) struct HeldSignal {
 pub(super) enum HeldEntry {
     /// A number.
     Value(f64),
-    /// It stands in the record, but is no number.
+    /// The record has the attribute, but its text is not a number.
     Missing,
 }
 

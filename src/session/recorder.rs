@@ -236,6 +236,10 @@ impl Recorder<'_> {
             let lints = lints.filter(|said| said.code != Code::Fc403);
             lints.for_each(|said| limit_to(said, ways));
         }
+        if let Some(failed) = executed.failed {
+            let said = self.said.iter_mut();
+            said.for_each(|said| failed.mark(said, executed.seq));
+        }
         if self.tally.has_undescribed {
             self.tally.note_undescribed(self.machine, executed);
         }
@@ -390,7 +394,12 @@ impl Recorder<'_> {
             })
             .collect();
         notes.extend(self.linter.held());
-        let left = self.linter.end(ended);
+        let mut left = self.linter.end(ended);
+        if let Some(failed) = ended.failed {
+            let lints = left.iter_mut().map(|left| &mut left.note);
+            let said = notes.iter_mut().chain(lints);
+            said.for_each(|note| failed.mark(&mut note.diagnostic, note.seq));
+        }
         let lints = left.iter().map(|left| &left.note.diagnostic);
         self.tally.note_footing(lints);
         let (levels, allows) = (self.levels, &mut self.allows);

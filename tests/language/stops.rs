@@ -113,6 +113,32 @@ fn check_says_what_an_error_leaves_and_goes_on() {
 }
 
 #[test]
+fn check_marks_what_runs_only_after_an_error() {
+    // R9.20
+    let marks = |program: &str| {
+        let said = Bench::on(MACHINE).check_all().said(program);
+        said.matches("mend line 2 first: the control stops there")
+            .count()
+    };
+    let after = "X[COMP OFF FRICT]\nW[COMP ON FRICT]\nG1 X1 F1\n";
+    assert_eq!(marks(&format!("{after}G1 X1 X2\nM30\n")), 2, "FC313, FC401");
+    assert_eq!(
+        marks(&format!("{after}FOO BAR\nX[COMP ON FRICT]\nM30\n")),
+        1,
+        "FC207, and not FC401 at the error itself"
+    );
+    let of_one_way = "$IF V.E.A\nW[COMP ON FRICT]\n$ENDIF\nG1 X1 F1\nX[COMP OFF FRICT]\nM30\n";
+    assert_eq!(marks(of_one_way), 0, "another way goes on");
+    let both =
+        "$IF V.E.A\nW[COMP ON FRICT]\n$ELSE\n#ERROR [RC=2]\n$ENDIF\nX[COMP OFF FRICT]\nM30\n";
+    assert_eq!(marks(both), 1, "FC401");
+    let kept = Bench::on(MACHINE)
+        .keep_going()
+        .said(&format!("{after}M30\n"));
+    assert!(!kept.contains("mend line"), "{kept}");
+}
+
+#[test]
 fn a_system_error_is_followed_by_a_reset_or_a_restart() {
     // R2.100, R1.28, R1.29
     let program = "X[COMP OFF FRICT]\n#ERROR [RC=7]\nX[COMP ON FRICT]\nM30\n";

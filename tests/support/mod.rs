@@ -63,6 +63,14 @@ impl Bench {
         }
     }
 
+    /// On a machine that nobody described.
+    pub(crate) fn undescribed() -> Self {
+        Self {
+            machine: Machine::unconfigured(),
+            ..Self::new()
+        }
+    }
+
     pub(crate) fn handed(mut self, handed: SourceMode) -> Self {
         self.handed = handed;
         self
@@ -239,7 +247,13 @@ impl Bench {
             text: String::new(),
             kinds: self.kinds.clone(),
         };
-        let _ = session.begin(&[], &mut transcript);
+        self.run_into(session, programs, &mut transcript);
+        transcript.text
+    }
+
+    /// Runs programs one after another in one session.
+    pub(crate) fn run_into(&self, session: &mut Session, programs: &[&str], sink: &mut dyn Sink) {
+        let _ = session.begin(&[], sink);
         for (at, text) in programs.iter().enumerate() {
             if session.is_stopped() && self.options.run.stop == StopPolicy::FirstError {
                 break;
@@ -258,10 +272,9 @@ impl Bench {
                 let text = files.get(name)?;
                 Some(SourceFile::new(name, text.as_str()))
             };
-            let _ = session.program(&name, program, &mut find, &mut transcript);
+            let _ = session.program(&name, program, &mut find, sink);
         }
-        let _ = session.finish(&mut transcript);
-        transcript.text
+        let _ = session.finish(sink);
     }
 }
 

@@ -88,6 +88,7 @@ fn audited(job: AuditJob, stop: &Stop) -> Result<Audited, Failure> {
     Ok(Audited {
         report: AuditReport {
             machines: machines.collect(),
+            not_checked: None,
         },
         said: said(&auditor),
     })

@@ -114,6 +114,7 @@ export interface Audit {
   programs: number;
   hazards: number;
   warnings: boolean;
+  notChecked: string | null;
   machines: {
     origin: string | null;
     axes: {

@@ -16,6 +16,8 @@ export function audit(root: HTMLElement, found: Audit, open: (file: string, line
   fill(
     root,
     h("p", { class: "lead" }, lead(found)),
+    found.notChecked !== null && h("p", { class: "notice warning" }, `Not checked: ${found.notChecked}. `
+      + "Pick such a file by itself, or add its extension to frictcomp.toml."),
     failures.length > 0 && h("div", { class: "notice error" },
       h("p", {}, "Not audited, so nothing is known about these:"), h("ul", {}, ...failures)),
     ...found.machines.flatMap((machine) => [

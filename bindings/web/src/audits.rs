@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use frictcomp::audit::AxisAudit;
 use frictcomp::session::Options;
-use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, Machines};
+use frictcomp_host::{ArchiveAuditor, AuditOptions, FileRegistry, Input, LeftOutFiles, Machines};
 use frictcomp_report::audit::{AuditReport, MachineAudit, Word};
 use frictcomp_report::html::render_audit;
 use serde::Serialize;
@@ -21,10 +21,13 @@ struct Audited {
 }
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct AuditAnswer<'a> {
     programs: usize,
     hazards: u64,
     warnings: bool,
+    /// The files that read as programs and are not taken as such, counted by kind (R18.5).
+    not_checked: Option<&'a str>,
     machines: Vec<MachineAnswer<'a>>,
     failures: &'a [Refusal],
     /// The words of the table and what they mean.
@@ -66,7 +69,11 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
     // Machines are found in one way at a time: those without a configuration take the only start-up list.
     let mut groups: BTreeMap<Option<PathBuf>, Vec<Input>> = BTreeMap::new();
     let mut failures = Vec::new();
+    let mut left_out = LeftOutFiles::default();
     for (path, kind) in dropped.files() {
+        if kind == Kind::Other {
+            left_out.files.extend(dropped.left_out(&path));
+        }
         if kind != Kind::Program {
             continue;
         }
@@ -78,7 +85,10 @@ fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
             Err(failure) => failures.push(failure),
         }
     }
-    let mut report = AuditReport::default();
+    let mut report = AuditReport {
+        not_checked: left_out.in_words(),
+        ..AuditReport::default()
+    };
     for inputs in groups.into_values() {
         let folder = inputs.first().map_or("".as_ref(), Input::folder);
         let options = dropped.options(folder, enable);
@@ -106,6 +116,7 @@ pub(crate) fn answer(dropped: &mut Dropped, enable: &[String]) -> Vec<u8> {
         programs: report.programs(),
         hazards: report.hazards(),
         warnings: report.has_warnings(),
+        not_checked: report.not_checked.as_deref(),
         machines: report.machines.iter().map(machine).collect(),
         failures: &failures,
         words: Word::ALL.map(|it| (it.as_str(), it.meaning())).to_vec(),

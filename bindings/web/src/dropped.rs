@@ -9,8 +9,8 @@ use frictcomp::machine::{NoLists, check_list};
 use frictcomp::text::SourceFile;
 use frictcomp_host::decode;
 use frictcomp_host::{
-    Disk, FileRegistry, Input, LoadedMachine, MachineOptions, Machines, OpenText, is_program,
-    nearest_config,
+    Disk, FileRegistry, Input, LeftOutFile, LoadedMachine, MachineOptions, Machines, OpenText,
+    is_program, nearest_config,
 };
 use serde::Serialize;
 
@@ -93,6 +93,13 @@ impl Dropped {
             }))
         });
         disk.clone()
+    }
+
+    /// A file that is not taken as a program.
+    pub(crate) fn left_out(&self, path: &str) -> Option<LeftOutFile> {
+        let path = Path::new(path);
+        let file = self.files.get(path)?;
+        Some(LeftOutFile::in_memory(path.to_owned(), &file.text))
     }
 
     /// A program by its path.

@@ -171,13 +171,14 @@ impl AuditArgs {
                 target.painted(&differences(files), difference)?;
                 Console::talk(&to_write(&changes));
                 outputs.finish()?;
-                let report = report(&auditor, archives);
+                let report = report(&auditor, archives, None);
                 return Ok(self.status(report.has_warnings(), false));
             }
             write(&changes, console)?;
             archives = failures.keep(auditor.audit());
         }
-        let report = report(&auditor, archives);
+        found.left_out.forget_read(&registry);
+        let report = report(&auditor, archives, found.left_out.in_words());
         let width = target.look.width;
         let printed = target.text(&match self.format {
             AuditFormat::Text if self.all => fitted(&render_text(&report, Length::Whole), width),
@@ -308,7 +309,11 @@ impl FixScope {
     }
 }
 
-fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
+fn report(
+    auditor: &ArchiveAuditor,
+    archives: Vec<Archive>,
+    not_checked: Option<String>,
+) -> AuditReport {
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
@@ -316,6 +321,7 @@ fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
     });
     AuditReport {
         machines: machines.collect(),
+        not_checked,
     }
 }
 

@@ -106,6 +106,10 @@ fn tests() -> BTreeMap<String, String> {
     for path in files("tests", &["rs"]) {
         parts.insert(path.display().to_string(), read(&path));
     }
+    for path in files("tests/rules", &["md"]) {
+        let text = read(&path).replace("\n## ", "\n// ");
+        parts.insert(path.display().to_string(), text);
+    }
     for path in files("bindings/python/tests", &["py"]) {
         let text = read(&path).replace("# R", "// R");
         parts.insert(path.display().to_string(), text);

@@ -401,7 +401,12 @@ fn a_list_that_does_not_fit_has_its_status() {
     let arguments: Vec<&str> = arguments.split(' ').collect();
     let driven = rows(&current(folder.path(), &arguments));
     for (factor, expected, words) in [
-        (1.0, 0, "the list fits the recorded torque"),
+        (
+            1.0,
+            0,
+            "the list fits the recorded torque from 0.05 to 50.00 mm/s",
+        ),
+        (1.0, 0, "not judged: 50.00 to"),
         (0.8, 1, "the list is 25 % high from"),
         (-1.0, 1, "the sign of the list is inverted"),
     ] {

@@ -81,11 +81,23 @@ impl LeftOutFile {
     /// Creates a file whose content says whether it is a program.
     pub(super) fn read(path: PathBuf, why: WhyLeftOut) -> Self {
         let text = Some(&path).filter(|path| !is_known_otherwise(path));
-        let Some(text) = text.and_then(|path| program_text(path)) else {
-            return Self::new(path, WhyLeftOut::NoProgram);
-        };
-        let switch = first_switch(&shown_path(&path), &text);
+        match text.and_then(|path| program_text(path)) {
+            Some(text) => Self::program(path, why, &text),
+            None => Self::new(path, WhyLeftOut::NoProgram),
+        }
+    }
+
+    fn program(path: PathBuf, why: WhyLeftOut, text: &str) -> Self {
+        let switch = first_switch(&shown_path(&path), text);
         Self { path, why, switch }
+    }
+
+    /// Creates a file in memory whose extension is none of a program; its text says whether it is one.
+    pub fn in_memory(path: PathBuf, text: &str) -> Self {
+        if !is_known_otherwise(&path) && reads_as_program(text) {
+            return Self::program(path, WhyLeftOut::Extension, text);
+        }
+        Self::new(path, WhyLeftOut::NoProgram)
     }
 
     /// Whether it is a program that the user may believe to be checked.

@@ -54,12 +54,14 @@ pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
 }
 
 /// Returns the line for a session after which every axis is in its start-up state; it names the codes of
-/// what was assumed, if anything was (R1.37).
-pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>) -> String {
+/// what was assumed, if anything was (R1.37). Only without a warning is there nothing to do.
+pub(super) fn all_home(axes: &[AxisSummary], assumed: &BTreeSet<Code>, warnings: u64) -> String {
     let home = "very axis is as at the start of the control";
     let codes: Vec<&str> = assumed.iter().map(|code| code.as_str()).collect();
     match listed(&codes) {
-        None if axes.iter().all(is_compensated) => format!("Nothing to do: e{home}."),
+        None if warnings == 0 && axes.iter().all(is_compensated) => {
+            format!("Nothing to do: e{home}.")
+        }
         None => format!("E{home}."),
         Some(codes) => format!("E{home} as far as is known: see {codes}."),
     }

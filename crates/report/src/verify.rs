@@ -34,8 +34,23 @@ pub fn render_text(report: &VerifyReport) -> String {
         visible_line(&report.trace),
         visible_line(&report.list)
     );
-    if verified.fits() {
-        out.push_str("the list fits the recorded torque\n");
+    let ends = [verified.ranges.first(), verified.ranges.last()];
+    if let [Some(first), Some(last)] = ends
+        && verified.fits()
+    {
+        let (from, to) = (first.from, last.to);
+        let _ = writeln!(
+            out,
+            "the list fits the recorded torque from {from:.2} to {to:.2} mm/s"
+        );
+    }
+    for gap in &verified.not_judged {
+        let _ = writeln!(
+            out,
+            "not judged: {:.2} to {:.2} mm/s, where the recording has too little motion",
+            gap.start(),
+            gap.end()
+        );
     }
     for line in verified.verdict() {
         let _ = writeln!(out, "{line}");
@@ -93,6 +108,7 @@ struct VerifyDocument<'a> {
     verdict: Vec<String>,
     scale: f64,
     ranges: Vec<RangeRecord>,
+    not_judged: Vec<[f64; 2]>,
     offset: f64,
     inertia: f64,
     timing: Timing,
@@ -126,6 +142,7 @@ pub fn render_json(report: &VerifyReport) -> String {
         to: range.to * PER_MM,
         scale: range.scale,
     });
+    let not_judged = verified.not_judged.iter();
     let reversals = verified.reversals.iter().map(|turn| ReversalRecord {
         t: turn.time_s,
         recorded: turn.recorded,
@@ -136,6 +153,9 @@ pub fn render_json(report: &VerifyReport) -> String {
         verdict: verified.verdict(),
         scale: verified.scale,
         ranges: ranges.collect(),
+        not_judged: not_judged
+            .map(|gap| [gap.start() * PER_MM, gap.end() * PER_MM])
+            .collect(),
         offset: verified.offset,
         inertia: verified.inertia,
         timing: verified.timing,

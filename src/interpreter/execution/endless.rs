@@ -173,7 +173,7 @@ impl Interpreter {
                 reach: track.reach.clone(),
                 asked: track.asked.clone(),
                 assumed: track.assumed.clone(),
-                failed: track.failed,
+                failed: track.failed.clone(),
                 ..RunTrack::default()
             },
             parted: self.state.seq,

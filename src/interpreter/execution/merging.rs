@@ -73,7 +73,8 @@ impl Interpreter {
             self.state.ended.push(own);
         }
         let ended = std::mem::take(&mut self.state.ended).into_iter().rev();
-        let (failed, own): (Vec<_>, Vec<_>) = ended.partition(|end| end.path.track.failed);
+        let (failed, own): (Vec<_>, Vec<_>) =
+            ended.partition(|end| end.path.track.failed.is_some());
         let is_stop = |end: &EndedPath| matches!(end.by, EndedBy::Error | EndedBy::Budget);
         let (mut stopped, mut all): (Vec<_>, Vec<_>) = own.into_iter().partition(is_stop);
         stopped.sort_by_key(|end| end.by != EndedBy::Error);

@@ -97,7 +97,7 @@ impl Interpreter {
         for path in [&mine, &other] {
             self.charge_copies(&path.control, &path.track.reach);
         }
-        let both_count = mine.track.failed == other.track.failed;
+        let both_count = mine.track.failed.is_some() == other.track.failed.is_some();
         let differing = mine.join(other, &cause);
         self.state.effort.charge_region(ITEM * differing);
         self.enter_path(mine);

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::last_commands::LastCommands;
 use super::possible_state::PossibleStates;
+use super::stopping::FailedAt;
 use super::untouched::FoundStates;
 use super::way_condition::WayCondition;
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
@@ -157,6 +158,8 @@ pub struct Executed<'a> {
     pub possible: &'a [PossibleStates],
     /// Kinds in the state that the program found.
     pub(crate) found: FoundStates<'a>,
+    /// The error before it at which the control stops, where the run goes on after errors (R9.20).
+    pub(crate) failed: Option<&'a FailedAt>,
     /// The answers of the machine that lead here, where the block is executed on some ways only.
     pub branch: Option<&'a [Vec<WayCondition>]>,
     /// G functions and positions after it.
@@ -269,6 +272,8 @@ pub struct Ended<'a> {
     pub(crate) last_commands: &'a LastCommands,
     /// The state at the errors on all ways, where the run went on after them.
     pub(crate) stopped: Option<&'a StoppedState>,
+    /// The error at which the control stops on all ways, where the run went on after it.
+    pub(crate) failed: Option<&'a FailedAt>,
     /// Changes by the program end itself.
     pub changes: &'a [Change],
     /// Messages on the program that belong to no executed block.

@@ -11,6 +11,7 @@ use super::control::ControlState;
 use super::event::EndedBy;
 use super::search::BeforeSearch;
 use super::stack::{CallFrame, CallStack, Seeking};
+use super::stopping::FailedAt;
 use super::way_set::WaySet;
 use super::ways::Ways;
 use crate::comp::{AxisIndex, Kind, Membership};
@@ -45,9 +46,9 @@ pub(in crate::interpreter) struct RunTrack {
     pub(in crate::interpreter) open_loops: BTreeSet<(usize, usize, EntryIndex)>,
     /// States before the program, until its searched block is reached.
     pub(in crate::interpreter) searching: Option<Box<BeforeSearch>>,
-    /// Whether an error has ended it, and the run goes on as if the failing command were not there (R9.20).
+    /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
-    pub(in crate::interpreter) failed: bool,
+    pub(in crate::interpreter) failed: Option<FailedAt>,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.
@@ -251,7 +252,7 @@ impl RunTrack {
             marked,
             open_loops,
             searching,
-            // The same in both.
+            // In both or in none.
             failed: _,
         } = other;
         if self.loops.len() < loops.len() {
@@ -296,8 +297,8 @@ impl Path {
     /// Another way reaches the same block: what differs becomes unknown. Returns how many values do. Beside a way
     /// that the control may take, one that an error has ended does not count.
     pub(in crate::interpreter) fn join(&mut self, mut other: Self, cause: &Arc<str>) -> usize {
-        if self.track.failed != other.track.failed {
-            if self.track.failed {
+        if self.track.failed.is_some() != other.track.failed.is_some() {
+            if self.track.failed.is_some() {
                 *self = other;
             }
             return 0;

@@ -1,9 +1,16 @@
 //! The messages that stop a program.
 
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::block_context::BlockContext;
 use super::event::EndedBy;
+use super::way_condition::seen_from;
 use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
 use crate::machine::HarmlessWords;
 use crate::syntax::Fault;
+use crate::text::Place;
 
 /// A single message.
 pub(in crate::interpreter) fn one(diagnostic: Diagnostic) -> Collected {
@@ -33,4 +40,44 @@ pub(in crate::interpreter) fn is_harmless(
     text: &str,
 ) -> bool {
     fault.code == Code::Fc210 && words.has_command(fault.span.of(text))
+}
+
+/// The block at whose error the control stops, and the dry run goes on (R9.20).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FailedAt {
+    seq: u64,
+    file: Arc<str>,
+    line: u32,
+    by: EndedBy,
+}
+
+impl FailedAt {
+    /// The executed block `seq`, with its messages.
+    pub(in crate::interpreter) fn new(
+        seq: u64,
+        at: &BlockContext<'_>,
+        said: &[Diagnostic],
+    ) -> Self {
+        Self {
+            seq,
+            file: Arc::clone(at.file),
+            line: at.line,
+            by: ended_by(said),
+        }
+    }
+
+    /// Says on a message about what follows that the control stops before it.
+    pub(crate) fn mark(&self, said: &mut Diagnostic, seq: u64) {
+        let is_here = |end: &Place| *end.file == *self.file && end.start().line == self.line;
+        if seq == self.seq
+            || said.code.is_about_text()
+            || self.by == EndedBy::Budget
+            || said.ends.iter().any(is_here)
+        {
+            return;
+        }
+        let place = seen_from((&self.file, self.line), &said.place.file);
+        let words = format!("mend {place} first: the control stops there");
+        said.advice.push(words.into());
+    }
 }

@@ -222,7 +222,7 @@ impl WayChange {
     }
 }
 
-fn seen_from((of, line): (&str, u32), file: &str) -> String {
+pub(in crate::interpreter) fn seen_from((of, line): (&str, u32), file: &str) -> String {
     if of == file {
         format!("line {line}")
     } else {

@@ -11,7 +11,7 @@ use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::path::{EndedPath, Passed};
-use crate::interpreter::run::stopping::stops;
+use crate::interpreter::run::stopping::{FailedAt, stops};
 use crate::interpreter::run::way_set::WaySet;
 use crate::interpreter::run::ways::Ways;
 use crate::interpreter::values::cause::ERROR_COMMAND;
@@ -66,10 +66,11 @@ impl Interpreter {
     /// then executed as if the failing command were not there (R9.20).
     #[cold]
     pub(in crate::interpreter) fn fail(&mut self, after: AfterError, at: &BlockContext<'_>) {
-        if self.options.stop == StopPolicy::CheckAll && !self.state.track.failed {
+        if self.options.stop == StopPolicy::CheckAll && self.state.track.failed.is_none() {
             let ways = self.state.track.reach.clone();
             self.stop_on(&ways, after, at);
-            self.state.track.failed = true;
+            let failed = FailedAt::new(self.state.seq, at, &self.scratch.diagnostics);
+            self.state.track.failed = Some(failed);
         }
     }
 

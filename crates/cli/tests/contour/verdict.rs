@@ -438,6 +438,12 @@ fn a_stretch_that_only_the_machine_decides_is_not_judged() {
         }
         let (_, _, said) = contour(&bench, &["--format", "csv"]);
         assert!(said.contains("not judged: "), "{branch}{said}");
+        let golden = ["golden", "--contour", "part.nc", "--update"];
+        bench.call(&[&golden[..], &START].concat());
+        let agreed = bench.read("part.nc.contour");
+        let reason = agreed.find("not judged: ");
+        let figures = agreed.find("largest deviation");
+        assert!(reason.is_some() && reason < figures, "{branch}{agreed}");
         let found = document(&bench, &[]);
         assert_eq!(found["verdict"], "not judged", "{branch}");
         let decided = contour(

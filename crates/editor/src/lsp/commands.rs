@@ -136,7 +136,7 @@ fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, 
     let disk = view.documents.disk();
     let unheard = FileRegistry::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
-    let found = find_programs(&[folder], |folder| machines.selection(folder));
+    let mut found = find_programs(&[folder], |folder| machines.selection(folder));
     let inputs = found.inputs.into_iter().map(|input| match &input {
         Input::File(path) => match disk.text(path) {
             Some(text) => Input::Open(OpenText {
@@ -164,8 +164,11 @@ fn audit(view: &RequestView, subject: &CommandSubject) -> Result<CommandResult, 
             let origin = loaded.origin.as_deref();
             MachineAudit::new(origin.map(shown_path), &loaded.machine, archive)
         });
+    let audits: Vec<MachineAudit> = audits.collect();
+    found.left_out.forget_read(&unheard);
     let report = AuditReport {
-        machines: audits.collect(),
+        machines: audits,
+        not_checked: found.left_out.in_words(),
     };
     let mut page = Vec::new();
     render_audit(&report, &mut Texts(disk), &mut page)

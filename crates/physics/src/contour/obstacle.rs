@@ -77,6 +77,23 @@ impl fmt::Display for ContourObstacle {
 }
 
 impl ContourObstacle {
+    /// Returns it in words that stay the same where lines move or a motion takes longer.
+    pub fn without_places(&self) -> String {
+        match self {
+            Self::LeftOut(count, _) => Self::LeftOut(*count, Vec::new()).to_string(),
+            Self::Undecided(_, cause) => format!("{cause}: what follows from it is not driven"),
+            Self::UnknownState(axis, ..) => {
+                format!("the state of {axis} is not known while it is cut")
+            }
+            Self::NotOfTheMachine(_) => {
+                "some positions are those of the program, not of the machine".to_owned()
+            }
+            Self::NotDriven | Self::NothingCut | Self::Ended(_) | Self::AssumedLimits(_) => {
+                self.to_string()
+            }
+        }
+    }
+
     /// The obstacle of motions that were left out, with the messages on them.
     pub(super) fn left_out(count: u64, remarks: &[Diagnostic]) -> Self {
         let of_motion = |said: &&Diagnostic| matches!(said.code, Code::Fc903 | Code::Fc906);

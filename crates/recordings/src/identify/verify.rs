@@ -1,5 +1,7 @@
 //! A recorded torque compared with the prediction of a value list (R6.20).
 
+use std::ops::RangeInclusive;
+
 use super::curve::solve_linear;
 use super::identified::IdentifyError;
 use super::statistics::{count, moving_average, noise_of, samples_in};
@@ -18,6 +20,8 @@ pub struct Verified {
     pub scale: f64,
     /// The scale by ranges of speeds.
     pub ranges: Vec<ScaleRange>,
+    /// The speeds of the list of which the recording has too little motion, in mm/s or °/s (R18.11).
+    pub not_judged: Vec<RangeInclusive<f64>>,
     /// Part that is the same in both directions, in drive units.
     pub offset: f64,
     /// Torque of an acceleration of 1 mm/s², in drive units.
@@ -168,9 +172,11 @@ pub fn verify_followed(
         cycle: cycle_s / samples.step_s,
     };
     let is_followed = errors.len() == samples.torques.len();
+    let ranges: Vec<ScaleRange> = ranges.collect();
     Ok(Verified {
         scale,
-        ranges: ranges.collect(),
+        not_judged: predictor.not_judged(&ranges),
+        ranges,
         offset: whole.offset,
         inertia: whole.inertia,
         timing: if is_followed {
@@ -193,6 +199,21 @@ pub fn verify_followed(
 const MOST_CYCLES: f64 = 100.0;
 
 impl Predictor<'_> {
+    /// The speeds from rest to the last point of the list that no range holds.
+    fn not_judged(&self, ranges: &[ScaleRange]) -> Vec<RangeInclusive<f64>> {
+        let last = self.list.table.last();
+        let fastest = last.map_or(0.0, |point| point.input / 1000.0);
+        let begins = [REST]
+            .into_iter()
+            .chain(ranges.iter().map(|range| range.to));
+        let ends = ranges.iter().map(|range| range.from).chain([fastest]);
+        begins
+            .zip(ends)
+            .map(|(from, to)| from..=to.min(fastest))
+            .filter(|gap| *gap.end() > 1.02 * gap.start())
+            .collect()
+    }
+
     /// The additive current at each sample, of an axis with these velocities in mm/s.
     fn currents(&self, samples: &AxisSamples, velocities: &[f64]) -> Vec<f64> {
         let mut current = AdditiveCurrent::new(self.list, self.reading);

@@ -10,6 +10,8 @@ use frictcomp::timeline::ReadingsInForce;
 pub struct AuditReport {
     /// The machines, each with its programs.
     pub machines: Vec<MachineAudit>,
+    /// The programs that were not looked at, counted by kind (R18.5).
+    pub not_checked: Option<String>,
 }
 
 /// The programs of one machine.

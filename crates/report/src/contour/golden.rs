@@ -4,8 +4,7 @@
 use super::agreed::{AgreedContour, AgreedLine};
 use crate::visible::visible_line;
 use frictcomp_physics::contour::{
-    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, GlitchFigure, PerRun,
-    ProgramContour,
+    BlockDeviation, BlockDeviations, Deviations, GlitchFigure, PerRun, ProgramContour,
 };
 
 /// Driven program, and its start.
@@ -42,6 +41,10 @@ pub fn agreed_contour(
         }
     ));
     out.say("");
+    for obstacle in contour.obstacles() {
+        let words = obstacle.without_places();
+        out.say(&format!("not judged: {}", visible_line(&words)));
+    }
     push_figures(&mut out, contour.deviations());
     let least = if contour.is_whole() { "" } else { "at least " };
     for axis in contour.axes() {
@@ -53,17 +56,6 @@ pub fn agreed_contour(
     let (errors, remarks) = contour.diagnostics();
     for said in errors.iter().chain(remarks) {
         out.say(&format!("{}: {}", said.code, visible_line(&said.message)));
-    }
-    for obstacle in contour.obstacles() {
-        if let ContourObstacle::AssumedLimits(_) = obstacle {
-            out.say(&format!("not judged: {obstacle}"));
-        }
-    }
-    if contour.left_out() > 0 {
-        out.say(&format!("{} motions are left out", contour.left_out()));
-    }
-    if contour.time_not_of_the_machine_s() > 0.0 {
-        out.say("some positions are those of the program, not of the machine");
     }
     out.say("");
     let blocks = std::mem::take(contour.sink()).into_blocks();

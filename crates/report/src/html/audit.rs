@@ -64,6 +64,14 @@ pub fn render_audit(
 }
 
 fn lead(report: &AuditReport) -> String {
+    let found = found(report);
+    match &report.not_checked {
+        Some(programs) => format!("{found}; not checked: {programs}"),
+        None => found,
+    }
+}
+
+fn found(report: &AuditReport) -> String {
     let programs = counted(
         u64::try_from(report.programs()).unwrap_or(u64::MAX),
         "program",

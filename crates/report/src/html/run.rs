@@ -157,14 +157,15 @@ fn left(digest: &RunDigest) -> Markup {
 }
 
 fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
-    let errors = summary.counts.get(&Severity::Error).copied();
+    let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
+    let [errors, warnings] = [Severity::Error, Severity::Warning].map(count);
     let mut advice: Vec<String> = (summary.axes.iter())
         .filter_map(|axis| {
             let name = digest.axis_name(axis.axis);
             axis_advice(axis, name).map(|text| format!("{name}{text}"))
         })
         .collect();
-    advice.extend(error_advice(errors.unwrap_or_default(), digest.ended()).map(str::to_owned));
+    advice.extend(error_advice(errors, digest.ended()).map(str::to_owned));
     let uncompensated: Vec<String> = (summary.axes.iter())
         .filter_map(|axis| {
             let of = digest.axes.get(axis.axis.get())?;
@@ -177,7 +178,7 @@ fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
         @if !advice.is_empty() {
             div.to-do { ul { @for text in &advice { li { (text) } } } }
         } @else if is_all_home {
-            p { (all_home(&summary.axes, &summary.assumed)) }
+            p { (all_home(&summary.axes, &summary.assumed, warnings)) }
         }
         @if let Some(assumption) = &digest.assumption {
             p { (with_code(assumption)) "." }

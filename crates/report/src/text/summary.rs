@@ -190,7 +190,8 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         Paragraph::new(Style::new(), text).write(out, look);
     } else if out.len() == bare && is_all_home {
-        Paragraph::new(DIM, &all_home(&summary.axes, &summary.assumed)).write(out, look);
+        let warnings = summary.count(Severity::Warning);
+        Paragraph::new(DIM, &all_home(&summary.axes, &summary.assumed, warnings)).write(out, look);
     }
     if let Some(text) = summary.state.machine.assumption() {
         let text = text.replacen("assuming", "Assuming", 1) + ".";

@@ -5,12 +5,11 @@ mod support;
 
 use std::fmt::Write as _;
 use std::fs;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
 use frictcomp::comp::{Compensation, Kind};
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::session::StopPolicy;
 use frictcomp::timeline::{Record, Sink, StateView};
 use support::{Bench, SourceMode};
 
@@ -68,12 +67,14 @@ fn first_difference(text: &str, fresh: &str) -> String {
         .count();
     let part = |lines: &[&str], mark: &str| {
         let shown = lines.iter().skip(at).take(5);
-        shown
-            .map(|line| format!("{mark} {line}\n"))
-            .collect::<String>()
+        let shown: Vec<String> = shown.map(|line| format!("{mark} {line}\n")).collect();
+        shown.concat()
     };
     format!("line {}\n{}{}", at + 1, part(&old, "-"), part(&new, "+"))
 }
+
+/// Begins a line of a result.
+const RESULT: &str = ">";
 
 /// A document while it is read.
 #[derive(Default)]
@@ -84,21 +85,20 @@ struct Document {
     case: Case,
 }
 
-/// What a result is made of: everything since the heading or the last result.
+/// What the next result is made of: everything since the heading or the last result.
 #[derive(Default)]
 struct Case {
     machine: Option<String>,
     /// Options that its sentences name.
     options: Vec<String>,
-    /// Programs that run one after another.
+    /// Programs that run before, or that hold the place of the shown ones.
     programs: Vec<String>,
     /// Files that programs may call.
     files: Vec<(String, String)>,
-    expressions: Vec<String>,
 }
 
 impl Document {
-    /// The text with the current result in each block of results.
+    /// The text with the current results.
     fn replayed(text: &str) -> String {
         let mut document = Self::default();
         let mut fresh = String::new();
@@ -110,14 +110,7 @@ impl Document {
                 continue;
             };
             let block: Vec<&str> = lines.by_ref().take_while(|it| *it != "```").collect();
-            let block: String = block.iter().map(|line| format!("{line}\n")).collect();
-            match info.strip_prefix("text") {
-                Some(parts) => fresh.push_str(&document.result(parts.trim())),
-                None => {
-                    document.take(info, &block);
-                    fresh.push_str(&block);
-                }
-            }
+            fresh.push_str(&document.block(info, &block));
             fresh.push_str("```\n");
         }
         fresh
@@ -133,20 +126,23 @@ impl Document {
         self.case.options.extend(options.map(str::to_owned));
     }
 
-    fn take(&mut self, info: &str, block: &str) {
+    /// Takes a block in, and returns it with its current results.
+    fn block(&mut self, info: &str, lines: &[&str]) -> String {
+        let whole = joined(lines);
         let case = &mut self.case;
         match info.split_once(' ').unwrap_or((info, "")) {
-            ("toml", "") if self.in_cases => case.machine = Some(block.to_owned()),
-            ("toml", "") => self.machine = Some(block.to_owned()),
-            ("nc", "") => case.programs.push(block.to_owned()),
-            ("nc", file) => case.files.push((file.to_owned(), block.to_owned())),
-            ("expressions", "") => case.expressions.extend(block.lines().map(str::to_owned)),
+            ("toml", "") if self.in_cases => case.machine = Some(whole.clone()),
+            ("toml", "") => self.machine = Some(whole.clone()),
+            ("program", "") => case.programs.push(whole.clone()),
+            ("file", name) => case.files.push((name.to_owned(), whole.clone())),
+            ("nc", parts) => return self.results(lines, parts),
+            ("expressions", "") => return self.values(lines),
             _ => panic!("a block of `{info}` is not known"),
         }
+        whole
     }
 
-    /// Runs the programs since the last result.
-    fn result(&mut self, parts: &str) -> String {
+    fn bench(&mut self) -> Bench {
         let mut bench = match self.case.machine.as_ref().or(self.machine.as_ref()) {
             Some(machine) if machine.is_empty() => Bench::undescribed(),
             Some(machine) => Bench::on(machine),
@@ -158,21 +154,67 @@ impl Document {
         for (file, text) in std::mem::take(&mut self.case.files) {
             bench = bench.file(&file, &text);
         }
-        let programs = std::mem::take(&mut self.case.programs);
-        let programs: Vec<&str> = programs.iter().map(String::as_str).collect();
-        if !self.case.expressions.is_empty() {
-            let expressions = std::mem::take(&mut self.case.expressions);
-            let expressions: Vec<&str> = expressions.iter().map(String::as_str).collect();
-            return bench.values(&programs.concat(), &expressions);
-        }
-        if parts == "positions" {
-            return bench.positions(&programs.concat());
-        }
-        let whole = Shown::of(&bench, &programs, parts);
-        let by_line = Shown::of(&bench.handed(SourceMode::LineByLine), &programs, parts);
-        assert_eq!(whole, by_line, "handed over line by line");
-        whole
+        bench
     }
+
+    fn values(&mut self, lines: &[&str]) -> String {
+        let expressions = lines
+            .iter()
+            .map(|line| line.split(" -> ").next().unwrap_or(line));
+        let expressions: Vec<&str> = expressions.collect();
+        let programs = std::mem::take(&mut self.case.programs);
+        self.bench().values(&programs.concat(), &expressions)
+    }
+
+    /// Runs each of the programs between blank lines.
+    fn results(&mut self, lines: &[&str], parts: &str) -> String {
+        let bench = self.bench();
+        let programs = std::mem::take(&mut self.case.programs);
+        let shown = lines.split(|line| line.is_empty()).map(|program| {
+            let program: Vec<&str> = program
+                .iter()
+                .copied()
+                .filter(|line| !line.starts_with(RESULT))
+                .collect();
+            let part = joined(&program);
+            let mut text = part.clone();
+            for line in shown(&bench, &programs, &part, parts).lines() {
+                writeln!(text, "{RESULT} {line}").expect("text");
+            }
+            text
+        });
+        shown.collect::<Vec<_>>().join("\n")
+    }
+}
+
+fn joined(lines: &[&str]) -> String {
+    lines.iter().flat_map(|line| [line, "\n"]).collect()
+}
+
+/// What a program shows, in the place of `@` or after the others, and what it shows handed over line by line where
+/// that differs.
+fn shown(bench: &Bench, programs: &[String], part: &str, parts: &str) -> String {
+    let place = programs
+        .iter()
+        .find_map(|program| program.lines().position(|it| it == "@"));
+    let mut all: Vec<String> = programs.iter().map(|it| it.replace("@\n", part)).collect();
+    if place.is_none() && !part.is_empty() {
+        all.push(part.to_owned());
+    }
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    if parts == "positions" {
+        return bench.positions(&all.concat());
+    }
+    let rows = place.map_or(0..usize::MAX, |at| at..at + part.lines().count());
+    let [mut whole, by_line] = [SourceMode::Whole, SourceMode::LineByLine]
+        .map(|handed| Shown::of(bench, (&all, handed), parts, &rows));
+    if by_line != whole {
+        writeln!(whole, "line by line").expect("text");
+        for line in by_line.lines() {
+            writeln!(whole, "  {line}").expect("text");
+        }
+    }
+    whole
 }
 
 fn with_option(bench: Bench, option: &str) -> Bench {
@@ -202,18 +244,26 @@ struct Shown {
     /// Advice and labels are shown.
     with_help: bool,
     is_one_of_several: bool,
+    /// The lines that count; of others only messages are shown.
+    rows: Range<usize>,
 }
 
 impl Shown {
-    fn of(bench: &Bench, programs: &[&str], parts: &str) -> String {
+    fn of(
+        bench: &Bench,
+        (programs, handed): (&[&str], SourceMode),
+        parts: &str,
+        rows: &Range<usize>,
+    ) -> String {
         let mut shown = Self {
+            rows: rows.clone(),
             text: String::new(),
             start_up: bench.machine.compensation(),
             with_blocks: parts == "blocks",
             with_help: parts == "help",
             is_one_of_several: programs.len() > 1,
         };
-        bench.run_into(&mut bench.session(), programs, &mut shown);
+        bench.run_into(&mut bench.session(), (programs, handed), &mut shown);
         shown.text
     }
 
@@ -307,8 +357,10 @@ impl Sink for Shown {
                         format!("{axis} {}", change.to.as_str())
                     })
                     .collect();
-                if self.with_blocks || !changes.is_empty() || !row.diagnostics.is_empty() {
-                    let file = if is_main(row.file) { "" } else { &**row.file };
+                let file = if is_main(row.file) { "" } else { row.file };
+                let counts = !file.is_empty() || self.rows.contains(&(row.line as usize - 1));
+                let is_shown = self.with_blocks || !changes.is_empty() && counts;
+                if is_shown || !row.diagnostics.is_empty() {
                     let line = format!(
                         "{file}{}{}",
                         if file.is_empty() { "" } else { ":" },

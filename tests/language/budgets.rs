@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{Branches, EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
@@ -10,7 +9,7 @@ use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-use crate::support::{Bench, MACHINE};
+use crate::support::MACHINE;
 
 /// The result of a run.
 #[derive(Debug)]
@@ -204,20 +203,6 @@ fn a_loop_that_the_machine_may_end_is_left_and_what_follows_runs() {
             .any(|(code, said)| code == "FC902" && said.contains("this loop"));
         assert!(said, "{text}: {ran:?}");
     }
-}
-
-#[test]
-fn a_loop_that_may_be_left_calls_the_program_of_the_program_end() {
-    // R2.15 R2.84
-    let bench = Bench::on(&format!("{MACHINE}[machine]\nend_program = \"end.nc\"\n"))
-        .file("end.nc", "X[COMP OFF FRICT]\nM17");
-    let mut session = bench.session();
-    let said = bench.run_in(
-        &mut session,
-        &["$WHILE 1\n$IF V.E.STOP\nM30\n$ENDIF\n$ENDWHILE\nM30"],
-    );
-    let state = session.state().state(AxisIndex::new(0), Kind::Frict);
-    assert_eq!(state, State::Inactive, "{said}");
 }
 
 #[test]

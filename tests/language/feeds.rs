@@ -69,19 +69,6 @@ fn the_first_feed_move_needs_a_feed() {
 }
 
 #[test]
-fn a_feed_of_zero_and_a_negative_one_are_reported() {
-    // R2.110
-    assert_eq!(places("G1 X10 F0\nM30"), ["1:8"]);
-    assert_eq!(places("F0\nG1 X10\nM30"), ["2:4"]);
-    assert_eq!(places("G1 X1 F100\nX2 F0\nX3 F100\nM30"), ["2:4"]);
-    assert_eq!(places("G0 X1 F0\nF100\nG1 X2\nM30"), [""; 0]);
-    assert_eq!(places("G1 X1 F-100\nX2\nM30"), ["1:7"]);
-    assert_eq!(places("P1=-5\nG0 X1 FP1\nM30"), ["2:7"]);
-    let found = said("G1 X1 F-100\nM30");
-    assert!(found.contains("`-100` is negative"), "{found}");
-}
-
-#[test]
 fn a_channel_list_without_a_feed_makes_it_an_error() {
     // R2.110
     let program = "X[COMP OFF FRICT]\nG1 X10\nX[COMP ON FRICT]\nM30";

@@ -247,12 +247,17 @@ impl Bench {
             text: String::new(),
             kinds: self.kinds.clone(),
         };
-        self.run_into(session, programs, &mut transcript);
+        self.run_into(session, (programs, self.handed), &mut transcript);
         transcript.text
     }
 
     /// Runs programs one after another in one session.
-    pub(crate) fn run_into(&self, session: &mut Session, programs: &[&str], sink: &mut dyn Sink) {
+    pub(crate) fn run_into(
+        &self,
+        session: &mut Session,
+        (programs, handed): (&[&str], SourceMode),
+        sink: &mut dyn Sink,
+    ) {
         let _ = session.begin(&[], sink);
         for (at, text) in programs.iter().enumerate() {
             if session.is_stopped() && self.options.run.stop == StopPolicy::FirstError {
@@ -263,7 +268,7 @@ impl Bench {
                 char::from(b'a' + u8::try_from(at).expect("few programs"))
             );
             let mut lines = TextLines::new(text);
-            let program = match self.handed {
+            let program = match handed {
                 SourceMode::Whole => Program::Whole(SourceFile::new(name.as_str(), *text)),
                 SourceMode::LineByLine => Program::Lines(&mut lines),
             };

@@ -129,11 +129,10 @@ impl Interpreter {
         if self.scratch.plc_acts {
             self.let_plc_act();
         }
-        let refused = self.scratch.diagnostics.iter().any(stops);
-        let stopped = undecided.is_none()
-            && self.options.stop == StopPolicy::FirstError
-            && (limit.is_some() || refused);
-        if undecided.is_none() && (limit.is_some() || refused) {
+        let refused =
+            undecided.is_none() && (limit.is_some() || self.scratch.diagnostics.iter().any(stops));
+        let stopped = refused && self.options.stop == StopPolicy::FirstError;
+        if refused {
             self.fail(AfterError::Reset, at);
         }
         if !at.block.faults.is_empty() {

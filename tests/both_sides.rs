@@ -19,12 +19,26 @@ use frictcomp::{Code, SkipLevels};
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// The axes, and one that is not configured.
+/// The axes, one that is not configured, and a program of M6.
 fn machine() -> Machine {
-    let mut machine = Machine::enabled(AXES);
-    let listed = Machine::from_toml("[[axis]]\nname = \"W\"\nfrict_comp = false\n");
-    machine.axes.append(&mut listed.expect("a machine").axes);
-    machine
+    let mut text = "[machine.programs]\nM06 = \"m6.nc\"\n".to_owned();
+    for axis in AXES {
+        let _ = writeln!(text, "[[axis]]\nname = \"{axis}\"\nenable = true");
+    }
+    text.push_str("[[axis]]\nname = \"W\"\nfrict_comp = false\n");
+    Machine::from_toml(&text).expect("a machine")
+}
+
+/// The files that programs call.
+fn called(name: &str) -> Option<SourceFile> {
+    let text = match name {
+        "m6.nc" => "X[COMP OFF FRICT]\nP2=P2+1\nM17\n",
+        "cycle.nc" => {
+            "P4=P4+1\n$IF P4 == 2\nZ[COMP OFF FRICT]\n$ENDIF\n$IF @P1 == 1\nY[COMP ON FRICT]\n$ENDIF\nM17\n"
+        }
+        _ => return None,
+    };
+    Some(SourceFile::new(name, text))
 }
 
 struct XorShift(u64);
@@ -144,7 +158,7 @@ impl Writer {
             }
             return self.command();
         }
-        let sorts = if self.sort == Sort::Any { 16 } else { 10 };
+        let sorts = if self.sort == Sort::Any { 24 } else { 10 };
         match self.random.roll(sorts) {
             0 | 1 => self.command(),
             2..=4 => self.branch(depth),
@@ -200,6 +214,34 @@ impl Writer {
                 self.blocks(depth - 1);
                 self.line(&format!("$UNTIL P8 >= {end}"));
             }
+            15 => self.computed_jump(depth),
+            16 => self.macro_of_words(),
+            17 => {
+                let condition = self.condition();
+                self.line(&format!("\"ASKED\" = \"{condition}\""));
+                self.line("$IF \"ASKED\"");
+                self.blocks(depth - 1);
+                self.line("$ENDIF");
+            }
+            18 => self.call_with_parameter(depth),
+            19 => self.recursion(depth),
+            20 => {
+                let number = self.variable(2);
+                self.line(&format!("P5 = 5 + {number}"));
+                self.line("M=P5");
+            }
+            21 => self.modal_cycle(depth),
+            22 => {
+                let condition = self.condition();
+                self.skips = true;
+                self.line(&format!("/$IF {condition}"));
+                self.command();
+                self.line("/$ENDIF");
+            }
+            23 if self.random.roll(4) == 0 => {
+                self.line("FOO[1]");
+                self.command();
+            }
             _ => {
                 self.labels += 10;
                 let label = 1000 + self.labels;
@@ -210,6 +252,86 @@ impl Writer {
                 self.line(&format!("$IF P7 < {end} $GOTO N{label}"));
             }
         }
+    }
+
+    /// A jump whose target only the machine knows.
+    fn computed_jump(&mut self, depth: u32) {
+        self.labels += 10;
+        let label = 1000 + self.labels;
+        let target = self.variable(2);
+        self.line(&format!("$GOTO N[{label} + {target}]"));
+        self.blocks(depth - 1);
+        self.line(&format!("N{label}:"));
+        self.blocks(depth - 1);
+        self.line(&format!("N{}:", label + 1));
+    }
+
+    /// A command in a macro, which is used on some way.
+    fn macro_of_words(&mut self) {
+        let axis = AXES[self.random.pick(3)];
+        self.line(&format!("\"OFF\" = \"{axis}[COMP OFF FRICT]\""));
+        let condition = self.condition();
+        self.line(&format!("$IF {condition}"));
+        self.line("\"OFF\"");
+        self.line("$ENDIF");
+        if self.random.roll(2) == 0 {
+            self.line("\"OFF\"");
+        }
+    }
+
+    /// A subprogram that asks its parameter, called with two values.
+    fn call_with_parameter(&mut self, depth: u32) {
+        self.calls += 1;
+        let name = format!("SUB{}", self.calls);
+        let outer = std::mem::take(&mut self.text);
+        self.line(&format!("%L {name}"));
+        let asked = self.random.roll(2);
+        self.line(&format!("$IF @P1 == {asked}"));
+        self.blocks(depth - 1);
+        self.line("$ENDIF");
+        self.command();
+        self.line("M17");
+        let sub = std::mem::replace(&mut self.text, outer);
+        self.subprograms.push_str(&sub);
+        let value = self.variable(2);
+        self.line(&format!("LL CYCLE [NAME={name} @P1={value}]"));
+        if self.random.roll(2) == 0 {
+            self.line(&format!("LL CYCLE [NAME={name} @P1=P1]"));
+        }
+    }
+
+    /// A subprogram that calls itself as often as the machine says.
+    fn recursion(&mut self, depth: u32) {
+        self.calls += 1;
+        let name = format!("SUB{}", self.calls);
+        let outer = std::mem::take(&mut self.text);
+        self.line(&format!("%L {name}"));
+        self.line("P6 = P6 - 1");
+        self.line("$IF P6 > 0");
+        self.line(&format!("LL {name}"));
+        self.line("$ENDIF");
+        self.blocks(depth - 1);
+        self.line("M17");
+        let sub = std::mem::replace(&mut self.text, outer);
+        self.subprograms.push_str(&sub);
+        let times = self.variable(3);
+        self.line(&format!("P6 = {times}"));
+        self.line(&format!("LL {name}"));
+    }
+
+    /// A cycle after each motion, from some way on.
+    fn modal_cycle(&mut self, depth: u32) {
+        self.line("P4 = 0");
+        let condition = self.condition();
+        self.line(&format!("$IF {condition}"));
+        let given = self.random.roll(2);
+        self.line(&format!("L CYCLE [NAME=cycle.nc MODAL_MOVE @P1={given}]"));
+        self.line("$ENDIF");
+        self.line("X1");
+        self.blocks(depth - 1);
+        self.line("X2");
+        self.line("#DISABLE MODAL CYCLE");
+        self.command();
     }
 
     fn leave_loop(&mut self) {
@@ -347,7 +469,7 @@ fn program(seed: u64, sort: Sort) -> Program {
 }
 
 /// The errors of the blocks at which the control stops.
-const STOPS: [Code; 2] = [Code::PErr70495, Code::Fc320];
+const STOPS: [Code; 3] = [Code::PErr70495, Code::Fc209, Code::Fc320];
 
 /// Returns the state of each axis at the end, which an error may be; `None` if the program does not end.
 fn run(text: &str, given: &[u64], skip: Option<SkipLevels>) -> Option<Vec<State>> {
@@ -366,20 +488,24 @@ fn run(text: &str, given: &[u64], skip: Option<SkipLevels>) -> Option<Vec<State>
     let mut left = None;
     let mut said = Vec::new();
     let source = SourceFile::new("a.nc", text);
-    let outcome = run.program(source, &mut NoFiles, &mut |event: Event<'_>| {
-        if let Event::Executed(executed) = &event {
-            let errors = executed.diagnostics.iter();
-            let errors = errors.filter(|it| it.code.severity() == frictcomp::Severity::Error);
-            let errors = errors.filter(|it| !STOPS.contains(&it.code));
-            said.extend(errors.map(|it| it.message.clone()));
-        }
-        if let Event::Ended(ended) = event {
-            let axes = (0..AXES.len()).map(AxisIndex::new);
-            let states = axes.map(|axis| ended.compensation.state(axis, Kind::Frict));
-            left = Some(states.collect());
-        }
-        ControlFlow::Continue(())
-    });
+    let outcome = run.program(
+        source,
+        &mut |name: &str, _: &str| called(name),
+        &mut |event: Event<'_>| {
+            if let Event::Executed(executed) = &event {
+                let errors = executed.diagnostics.iter();
+                let errors = errors.filter(|it| it.code.severity() == frictcomp::Severity::Error);
+                let errors = errors.filter(|it| !STOPS.contains(&it.code));
+                said.extend(errors.map(|it| it.message.clone()));
+            }
+            if let Event::Ended(ended) = event {
+                let axes = (0..AXES.len()).map(AxisIndex::new);
+                let states = axes.map(|axis| ended.compensation.state(axis, Kind::Frict));
+                left = Some(states.collect());
+            }
+            ControlFlow::Continue(())
+        },
+    );
     assert!(said.is_empty(), "{text}\n{said:?}");
     match outcome {
         RunOutcome::Ended(EndedBy::Budget) if skip.is_some() => None,

@@ -6,12 +6,8 @@ use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::call_sites::is_main_program;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::block_context::BlockContext;
-use crate::interpreter::run::block_scratch::AfterError;
-use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::outcome::{BlockOutcome, Feed};
-use crate::interpreter::unknown::branching::MachineQuestion;
-use crate::interpreter::values::plain::{Asking, Writer};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Item, Operand, Word};
@@ -96,31 +92,10 @@ impl Interpreter {
                 self.scratch.diagnostics.push(said);
             } else {
                 self.say_before_parting(said);
-                self.perhaps_refuse_feed(span, at);
+                self.perhaps_stop((REFUSAL, true), at.in_block(span), at);
             }
         }
         self.state.control.modal.functions.give_feed();
-    }
-
-    /// The control ends the program at the block, or the PLC gives the feed, here and later: both ways are followed.
-    fn perhaps_refuse_feed(&mut self, span: Span, at: &BlockContext<'_>) {
-        let question = MachineQuestion {
-            kind: ConditionKind::Stop,
-            span: at.in_block(span),
-            texts: vec![REFUSAL.into()],
-            cause: REFUSAL.into(),
-            reads: Some(Asking {
-                writer: Writer::Nothing,
-                reads: Vec::new(),
-                meaning: REFUSAL.to_owned(),
-            }),
-            kept: None,
-        };
-        let ways = self.part_at_error(question, at);
-        // Where ways are not followed, no motion without a feed is driven either.
-        if ways.is_some() {
-            self.perhaps_end(ways, AfterError::Reset, at);
-        }
     }
 
     /// FC327: the feed in force is 0.
@@ -129,7 +104,7 @@ impl Interpreter {
             format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
         let fault = Fault::new(Code::Fc327, at.in_block(span), message);
         self.say_before_parting(at.diagnostic(fault.with_help("write a feed above 0")));
-        self.perhaps_refuse_feed(span, at);
+        self.perhaps_stop((REFUSAL, true), at.in_block(span), at);
     }
 
     /// Whether the block moves along its axis words at the feed in force.

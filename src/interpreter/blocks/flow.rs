@@ -357,6 +357,7 @@ impl Interpreter {
                 if self.note_jump(&Exit::AnyLabel, cause) {
                     self.doubt_jump("where this jump goes", cause, span, at);
                 }
+                self.perhaps_stop(("a missing jump label", false), span, at);
                 return Ok(None);
             }
         };

@@ -146,6 +146,33 @@ impl Interpreter {
         })
     }
 
+    /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
+    /// Where they cannot be, it goes on. A lasting answer is that of each later block, too.
+    pub(in crate::interpreter) fn perhaps_stop(
+        &mut self,
+        (error, is_lasting): (&'static str, bool),
+        span: Span,
+        at: &BlockContext<'_>,
+    ) {
+        let asking = Asking {
+            writer: Writer::Nothing,
+            reads: Vec::new(),
+            meaning: error.to_owned(),
+        };
+        let question = MachineQuestion {
+            kind: ConditionKind::Stop,
+            span,
+            texts: vec![error.into()],
+            cause: error.into(),
+            reads: is_lasting.then_some(asking),
+            kept: None,
+        };
+        let ways = self.part_at_error(question, at);
+        if ways.is_some() {
+            self.perhaps_end(ways, AfterError::Reset, at);
+        }
+    }
+
     /// The program ends here on some ways that lead to the block, and goes on on the others; where they cannot be told
     /// apart, it may end (R2.52). Returns whether it ends on all ways.
     pub(in crate::interpreter) fn perhaps_end(

@@ -145,10 +145,16 @@ pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
 /// Adds to a message the ways on which it applies (R14.5). One that is not an error and applies only if a
 /// value of the machine changes in between is information only (R14.1).
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
-    if said.code.is_about_text() || ways.is_empty() {
+    // That the program goes on goes without saying.
+    let goes_on = |it: &WayCondition| matches!(it, WayCondition::Stop { stops: false, .. });
+    let told = ways
+        .iter()
+        .map(|way| way.iter().filter(|it| !goes_on(it)).cloned().collect());
+    let told: Vec<Vec<WayCondition>> = told.collect();
+    if said.code.is_about_text() || told.is_empty() || told.iter().any(Vec::is_empty) {
         return;
     }
-    let words = if_ways(ways, &said.place.file);
+    let words = if_ways(&told, &said.place.file);
     said.message = format!("{}, {words}", said.message);
     if all_need_change(ways) && said.severity != Severity::Error {
         said.lower(Severity::Info);

@@ -1,5 +1,9 @@
 //! 2.2: programs.
 
+use std::ops::ControlFlow;
+
+use frictcomp::interpreter::Event;
+use frictcomp::text::SourceFile;
 use insta::assert_snapshot;
 
 use crate::support::{Bench, MACHINE, SourceMode};
@@ -118,4 +122,22 @@ fn programs_that_come_line_by_line_call_the_same_programs() {
             assert_eq!(lines, whole, "{program:?}");
         }
     }
+}
+
+#[test]
+fn a_start_program_is_looked_for_beside_the_main_program() {
+    // R2.15
+    let machine = format!("[machine]\nstart_program = \"start.nc\"\n{MACHINE}");
+    let session = Bench::on(&machine).session();
+    let mut asked = Vec::new();
+    let mut find = |_: &str, caller: &str| {
+        asked.push(caller.to_owned());
+        Some(SourceFile::new("start.nc", "M17"))
+    };
+    let mut run = session.interpreter().clone();
+    let main = SourceFile::new("dir/main.nc", "M30");
+    let _ = run.program(main, &mut find, &mut |_: Event<'_>| {
+        ControlFlow::Continue(())
+    });
+    assert_eq!(asked, ["dir/main.nc"]);
 }

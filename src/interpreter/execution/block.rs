@@ -198,7 +198,7 @@ impl Interpreter {
                 reach: &self.state.track.reach,
                 conditions: &self.state.conditions,
             },
-            failed: self.state.track.failed.as_ref(),
+            failed: self.state.track.failed.as_deref(),
             branch: self.shown.branch.as_deref(),
             modal: &self.state.control.modal,
             occurred: &self.state.occurred,

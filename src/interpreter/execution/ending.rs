@@ -126,7 +126,7 @@ impl Interpreter {
             ends: &ends,
             last_commands: &self.state.control.last_commands,
             stopped: met.stopped.as_ref(),
-            failed: self.state.track.failed.as_ref(),
+            failed: self.state.track.failed.as_deref(),
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,

@@ -178,7 +178,9 @@ impl BlockScratch {
         if !self.moved.is_empty() {
             std::mem::swap(&mut self.moved, &mut self.aside.last_moved);
             self.moved.clear();
-            self.aside.last_arc = self.aside.arc.take();
+            if self.aside.arc.is_some() || self.aside.last_arc.is_some() {
+                std::mem::swap(&mut self.aside.arc, &mut self.aside.last_arc);
+            }
         }
         if self.rests.replace(false) || self.dwells {
             self.aside.last_moved.clear();

@@ -48,7 +48,7 @@ pub(in crate::interpreter) struct RunTrack {
     pub(in crate::interpreter) searching: Option<Box<BeforeSearch>>,
     /// The error that has ended it, where the run goes on as if the failing command were not there (R9.20).
     #[serde(default)]
-    pub(in crate::interpreter) failed: Option<FailedAt>,
+    pub(in crate::interpreter) failed: Option<Box<FailedAt>>,
 }
 
 /// A condition whose values only the program writes: asked again, it has the same answer.

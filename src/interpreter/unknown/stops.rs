@@ -70,7 +70,7 @@ impl Interpreter {
             let ways = self.state.track.reach.clone();
             self.stop_on(&ways, after, at);
             let failed = FailedAt::new(self.state.seq, at, &self.scratch.diagnostics);
-            self.state.track.failed = Some(failed);
+            self.state.track.failed = Some(Box::new(failed));
         }
     }
 

@@ -1,19 +1,20 @@
 //! `frictcomp commission` on machines that share no code with its plants: they execute its programs, and are recorded
 //! (R16.10 to R16.16).
 
-#[path = "commission_machines/machines.rs"]
-mod machines;
+#[path = "commission_machines/faults.rs"]
+mod faults;
 #[path = "commission_machines/site.rs"]
 mod site;
 
-use frictcomp_testing::Recorder;
-use site::{Site, Stage};
+use faults::Fault;
+use frictcomp_testing::{Machine, Recorder};
+use site::{FITTED, Site, Stage};
 
 /// R16.10, R16.12, R16.13, R16.14, R16.15, R16.18: the provisional lists of a machine that is not known are accepted where each axis leaves
 /// less in each direction at each feed and the torque shows that they were on; other rounds are not, with the reason.
 #[test]
 fn a_machine_is_commissioned_and_other_rounds_are_not_accepted() {
-    let site = Site::planned(machines::bristle(), "1600,2400,3600,5000", "40");
+    let site = Site::fast(Machine::bristle());
     let recorder = Recorder::default();
     site.record_all(Stage::Off, &recorder);
     let lists = site.provisional();
@@ -29,69 +30,140 @@ fn a_machine_is_commissioned_and_other_rounds_are_not_accepted() {
     ] {
         assert!(!said.contains(words), "{words}: {said}");
     }
-    let [x, y] = site.loaded(2);
-    let tenth = [x.clone().times(0.1), y.clone().times(0.1)];
-    let copied = Recorder {
-        is_commanded: true,
-        noise_um: 0.4,
-        ..recorder.clone()
-    };
-    let apart = Recorder {
-        y_late: 3,
-        y_factor: 1.003,
-        ..recorder.clone()
-    };
-    for (on, recorder, words) in [
-        (
-            [Some(&x), None],
-            &recorder,
-            &["not accepted", "hardly differ on Y", "list of Y was on"][..],
-        ),
-        (
-            [Some(&tenth[0]), Some(&tenth[1])],
-            &recorder,
-            &["not accepted", "that the list of X was on"],
-        ),
-        (
-            [None, None],
-            &recorder,
-            &["not accepted", "hardly differ on X"],
-        ),
-        (
-            [Some(&x), Some(&y)],
-            &copied,
-            &["its actual positions are the commanded ones"],
-        ),
-        (
-            [Some(&x), Some(&y)],
-            &apart,
-            &[
-                "recorded at different times",
-                "the way of Y is +0.30 % longer",
-            ],
-        ),
-    ] {
-        site.record((2, "circle"), on, (&site.machine, recorder));
+    let faults = [faults::of_recordings(), faults::of_lists_on()];
+    let faults = faults
+        .into_iter()
+        .flatten()
+        .filter(|it| QUICK.contains(&(it.round, it.name)));
+    for fault in faults {
+        let kept = site.keep();
+        fault.record(&site);
         let (status, said) = site.run(&[]);
-        assert_eq!(status, Some(1), "{said}");
-        for words in words {
-            assert!(said.contains(words), "{words}: {said}");
-        }
+        Site::put_back(&kept);
+        assert_eq!(status, Some(1), "{}: {said}", fault.name);
+        assert!(fault.named(&said).is_some(), "{}: {said}", fault.name);
     }
 }
 
-/// R16.10 to R16.16: the table of machines in the documents.
+/// The faults of the short test.
+const QUICK: [(usize, &str); 5] = [
+    (2, "a tenth of the lists"),
+    (2, "the list of X only"),
+    (2, "commanded as actual positions"),
+    (2, "Y scaled by 0.3 %"),
+    (1, "positions averaged over 20 ms"),
+];
+
+/// Whether the lists of the last round are accepted.
+fn is_accepted(said: &str) -> bool {
+    said.contains("accepted: X m/lists") && !said.contains("not accepted")
+}
+
+/// A machine of which both stages are recorded without a fault.
+fn recorded(site: Site, recorder: &Recorder) -> Site {
+    site.record_all(Stage::Off, recorder);
+    let lists = site.provisional();
+    site.plan_round(&lists);
+    site.record_all(Stage::On(2), recorder);
+    site
+}
+
+/// R16.10 to R16.16: of machines of seven structures six are accepted, and the soft one is not, since its provisional
+/// lists leave more than is left without them. The table of machines in docs/reliability.md.
 #[test]
 #[ignore = "minutes"]
 #[allow(clippy::print_stdout, reason = "the table is its purpose")]
-fn machines_with_their_verdicts() {
-    for machine in machines::all() {
-        let site = Site::quick(machine);
-        site.record_all(Stage::Off, &Recorder::default());
-        let lists = site.provisional();
-        site.plan_round(&lists);
-        site.record_all(Stage::On(2), &Recorder::default());
-        let (_, said) = site.run(&["--plant", "mid", "--no-shaping"]);
+fn six_of_seven_machines_are_accepted() {
+    for machine in Machine::stand_ins() {
+        let is_soft = machine.name == "soft bristle";
+        let site = recorded(Site::quick(machine), &Recorder::default());
+        let (_, said) = site.run(&FITTED);
         println!("{}\n{said}\n", site.machine.name);
+        assert_eq!(is_accepted(&said), !is_soft, "{said}");
+    }
+}
+
+/// R16.12 to R16.18: of wrong recordings of either stage none is accepted without its fault being named. The table of
+/// faults in docs/reliability.md.
+#[test]
+#[ignore = "minutes"]
+fn no_wrong_recording_is_accepted_without_its_fault() {
+    let mut machines = Machine::stand_ins();
+    machines.swap(0, 3);
+    machines.truncate(2);
+    let sites = machines
+        .into_iter()
+        .map(|it| recorded(Site::fast(it), &Recorder::default()));
+    let sites: Vec<Site> = sites.collect();
+    let mut accepted = Vec::new();
+    for (fault, site) in faults::of_recordings().iter().zip(sites.iter().cycle()) {
+        accepted.extend(tried(fault, site, ("torque", &[])));
+    }
+    for (fault, site) in faults::of_lists_on().iter().zip(sites.iter().cycle()) {
+        accepted.extend(tried(fault, site, ("torque", &[])));
+    }
+    assert!(accepted.is_empty(), "{}", accepted.join("\n"));
+}
+
+/// R16.13: what was on is shown by a fitted plant, in stage 1 and where the torque says nothing. The second part of the
+/// table of faults in docs/reliability.md.
+#[test]
+#[ignore = "minutes"]
+fn a_plant_shows_what_was_on() {
+    let machine = Machine::stand_ins().swap_remove(1);
+    let site = recorded(Site::quick(machine), &Recorder::default());
+    let mut accepted = Vec::new();
+    for fault in faults::of_lists_off() {
+        accepted.extend(tried(&fault, &site, ("plant", &FITTED)));
+    }
+    for fault in faults::of_lists_on() {
+        accepted.extend(tried(&fault, &site, ("positions", &FITTED)));
+    }
+    assert!(accepted.is_empty(), "{}", accepted.join("\n"));
+}
+
+/// Tries a fault, prints a row of the table, and returns the result if it is accepted and not named.
+#[allow(clippy::print_stdout, reason = "the table is its purpose")]
+fn tried(fault: &Fault, site: &Site, (by, more): (&str, &[&str])) -> Option<String> {
+    let kept = site.keep();
+    fault.record(site);
+    let (_, said) = match by {
+        "positions" => site.run_by_positions(),
+        _ => site.run(more),
+    };
+    Site::put_back(&kept);
+    let named = fault.named(&said);
+    let accepted = if is_accepted(&said) {
+        "accepted"
+    } else {
+        "not accepted"
+    };
+    println!(
+        "| {} | {} | {} | {by} | {accepted} | {} |",
+        fault.name,
+        fault.round,
+        site.machine.name,
+        named.unwrap_or("-")
+    );
+    let is_wrong = named.is_none() && is_accepted(&said);
+    is_wrong.then(|| format!("{} on {} by {by}: {said}", fault.name, site.machine.name))
+}
+
+/// R16.15: noise of 1.8 µm off and of 0.3 µm on changes no verdict: the lists of the soft machine are not accepted, and
+/// good ones are.
+#[test]
+#[ignore = "a minute"]
+fn unequal_noise_changes_no_verdict() {
+    let mut machines = Machine::stand_ins();
+    let soft = machines.pop().expect("machines");
+    for (machine, is_good) in [(soft, false), (machines.remove(0), true)] {
+        let site = recorded(Site::quick(machine), &Recorder::default());
+        let noisy = Recorder {
+            noise_um: 1.8,
+            ..Recorder::default()
+        };
+        site.record((1, "circle"), [None, None], (&site.machine, &noisy));
+        let (_, said) = site.run(&[]);
+        assert_eq!(is_accepted(&said), is_good, "{said}");
     }
 }

@@ -34,6 +34,7 @@ use frictcomp_host::sha256_of;
 use frictcomp_physics::circle::{Circle, CircularTest, Direction, LapRun, Method};
 use frictcomp_physics::current::{Reading, Switched};
 use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
+use frictcomp_testing::planned_circles;
 use machine::PITCH_MM;
 use plant::Bench;
 
@@ -49,26 +50,7 @@ frict_comp.table[1].in 10000
 frict_comp.table[1].out 0
 ";
 
-/// The call that plans circles of X and Y at these feeds.
-const fn planned_at(feeds: &'static str, radius: &'static str) -> [&'static str; 13] {
-    [
-        "commission",
-        "plan",
-        "--axis",
-        "X,Y",
-        "--travel",
-        "X0..100,Y-50..50",
-        "--feeds",
-        feeds,
-        "--radius",
-        radius,
-        "--slowest",
-        "0.5",
-        "-o",
-    ]
-}
-
-const PLAN: [&str; 13] = planned_at("2000,3000,4000,5000", "40");
+const PLAN: [&str; 13] = planned_circles("2000,3000,4000,5000", "40");
 
 const FEEDS: [f64; 4] = [2000.0, 3000.0, 4000.0, 5000.0];
 

@@ -120,22 +120,23 @@ impl Recorder {
         let late = if axis == 1 { self.y_late } else { 0 };
         let factor = if axis == 1 { self.y_factor } else { 1.0 };
         let (amplitude, pitch) = self.screw;
-        let place = |at: usize| {
-            let from = at.saturating_sub(late);
-            let mean = &places[from.saturating_sub(self.averaged - 1)..=from];
-            let place = mean.iter().sum::<f64>() / mean.len() as f64;
+        let mut measured = |place: &f64| {
             let screw = 1e-3 * amplitude * (std::f64::consts::TAU * place / pitch + 1.0).sin();
-            places[0] + factor * (place - places[0]) + screw
+            let place = places[0] + factor * (place - places[0]) + screw;
+            place + 1e-3 * self.noise_um * random.normal()
         };
-        let mut rounded = |place: f64| {
-            let noisy = place + 1e-3 * self.noise_um * random.normal();
-            let step = 1e-3 * self.step_um;
+        let measured: Vec<f64> = places.iter().map(&mut measured).collect();
+        let step = 1e-3 * self.step_um;
+        let row = |at: usize| {
+            let from = at.saturating_sub(late);
+            let mean = &measured[from.saturating_sub(self.averaged - 1)..=from];
+            let place = mean.iter().sum::<f64>() / mean.len() as f64;
             if step > 0.0 {
-                (noisy / step).round() * step
+                (place / step).round() * step
             } else {
-                noisy
+                place
             }
         };
-        (0..places.len()).map(place).map(&mut rounded).collect()
+        (0..places.len()).map(row).collect()
     }
 }

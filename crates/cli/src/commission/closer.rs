@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::channels::ReadingArgs;
 use crate::machine::value_list;
-use frictcomp_host::{FileRegistry, read_axis, sha256_of};
+use frictcomp_host::{FileRegistry, read_axis, read_motion, sha256_of};
 use frictcomp_recordings::commission::{
     CirclesFound, FollowedPosition, recorded_apart, share_of_torque,
 };
@@ -22,7 +22,10 @@ impl ReadingArgs {
         let cycle = self.cycle.seconds().ok().flatten();
         let mut followed = Vec::new();
         for (at, axis) in plan.plan.axes.iter().take(2).enumerate() {
-            let Ok(recording) = read_axis(path, &self.followed(&axis.name), cycle) else {
+            let channels = self.followed(&axis.name);
+            let with_torque = read_axis(path, &channels, cycle);
+            let has_torque = with_torque.is_ok();
+            let Ok(recording) = with_torque.or_else(|_| read_motion(path, &channels, cycle)) else {
                 continue;
             };
             if let Some(position) = FollowedPosition::of(&recording, 0.0) {
@@ -30,10 +33,13 @@ impl ReadingArgs {
                 found
                     .against
                     .extend(copied.map(|it| format!("{}: {it}", axis.name)));
+                found.followed[at] = Some(position);
                 followed.push((axis.name.as_str(), position));
             }
             let used = plan.lists.iter().find(|it| it.axis == axis.name);
-            let Some(used) = used else { continue };
+            let Some(used) = used.filter(|_| has_torque) else {
+                continue;
+            };
             let list = Path::new(&used.file);
             if sha256_of(list).is_ok_and(|it| it == used.sha256)
                 && let Ok(list) = value_list(list, registry)
@@ -45,5 +51,12 @@ impl ReadingArgs {
         if let [(x, of_x), (y, of_y)] = followed[..] {
             found.notes.extend(recorded_apart([x, y], [of_x, of_y]));
         }
+        let averaged = followed.iter().filter_map(|(axis, it)| {
+            let over_ms = it.averaged_s? * 1000.0;
+            Some(format!(
+                "the positions of {axis} are averages over {over_ms:.0} ms, which hides what a reversal leaves"
+            ))
+        });
+        found.notes.extend(averaged);
     }
 }

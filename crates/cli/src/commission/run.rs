@@ -19,8 +19,8 @@ use frictcomp_host::{
 };
 use frictcomp_recordings::commission::{
     BeforeAfter, CirclesFound, FrictionFound, JudgedRound, MOST_CURRENT, MeasuredAxis,
-    MeasuringProgram, Plan, RecordingOutcome, RecordingResult, Stage, before_after, feeds_against,
-    refuse_strangers, torque_shows,
+    MeasuringProgram, Plan, PlantAxis, RecordingOutcome, RecordingResult, Stage, before_after,
+    feeds_against, recorded_otherwise, refuse_strangers, torque_shows,
 };
 use frictcomp_report::commission::{
     AxisVerdict, PlanFile, Plants, Results, ResultsReport, Round, Shows, glitch_unit,
@@ -297,6 +297,7 @@ fn rounds(
         if !recorded.is_empty() {
             let mut reasons = against_feeds(plan, &recorded, &rounds);
             reasons.extend(lists_against(plan, plans, results, registry)?);
+            reasons.extend(otherwise(plan, plans, results));
             reasons.extend(not_on(plan, number, (results, fitted)));
             reasons.extend(plants_against(plan, fitted)?);
             against = Some(reasons);
@@ -371,24 +372,37 @@ fn lists_against(
     Ok(against)
 }
 
-/// Returns the axes of circles of which neither the torque nor the positions show that the list was on (R16.13).
+/// Returns how the circles of a round were recorded otherwise than those of stage 1.
+fn otherwise(plan: &PlanFile, plans: &[PlanFile], results: &[RecordingResult]) -> Vec<String> {
+    let first = plans.iter().find(|it| it.plan.stage == Stage::Off);
+    let off = first.map_or_else(Vec::new, |it| circles_of(it, results));
+    let axes = plan.plan.axes.iter().map(|it| it.name.as_str());
+    recorded_otherwise(&axes.collect::<Vec<_>>(), &off, &circles_of(plan, results))
+}
+
+/// Returns the usable circles of a plan.
+fn circles_of<'a>(plan: &PlanFile, results: &'a [RecordingResult]) -> Vec<&'a CirclesFound> {
+    let is_own = |it: &&RecordingResult| {
+        let mut programs = plan.plan.programs.iter();
+        it.found.is_used() && programs.any(|program| it.program == Some(program.number))
+    };
+    let circles = results.iter().filter(is_own);
+    circles
+        .filter_map(|it| match &it.found {
+            RecordingOutcome::Circles(circles) => Some(circles),
+            _ => None,
+        })
+        .collect()
+}
+
+/// Returns the axes of circles that were compensated in stage 1, or of which neither the torque nor the positions show
+/// that the list was on (R16.13).
 fn not_on(
     plan: &PlanFile,
     number: usize,
     (results, fitted): (&[RecordingResult], &Plants),
 ) -> Vec<String> {
-    let is_own = |it: &&RecordingResult| {
-        let mut programs = plan.plan.programs.iter();
-        it.found.is_used() && programs.any(|program| it.program == Some(program.number))
-    };
-    let circles = results
-        .iter()
-        .filter(is_own)
-        .filter_map(|it| match &it.found {
-            RecordingOutcome::Circles(circles) => Some(circles),
-            _ => None,
-        });
-    let circles: Vec<&CirclesFound> = circles.collect();
+    let circles = circles_of(plan, results);
     if circles.is_empty() {
         return Vec::new();
     }
@@ -396,11 +410,12 @@ fn not_on(
     let axes = plan.plan.axes.iter().take(2).enumerate();
     let listed = axes.filter(|(_, axis)| plan.lists.iter().any(|it| it.axis == axis.name));
     let against = listed.filter_map(|(at, axis)| {
-        let shares: Vec<[f64; 2]> = circles.iter().filter_map(|it| it.shares[at]).collect();
-        if torque_shows(&shares) {
-            return None;
-        }
         let found = plant.and_then(|it| it.found.axes.iter().find(|it| it.axis == axis.name));
+        let already = found.and_then(PlantAxis::other_friction_off);
+        let shares: Vec<[f64; 2]> = circles.iter().filter_map(|it| it.shares[at]).collect();
+        if already.is_some() || torque_shows(&shares) {
+            return already;
+        }
         match found.filter(|it| it.share_on.is_some()) {
             Some(found) => found.not_on(),
             None => Some(format!(

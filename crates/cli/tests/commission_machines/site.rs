@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use frictcomp_testing::{Machine, Program, Recorder, Run, ValueList};
+use frictcomp_testing::{Machine, Program, Recorder, Run, ValueList, planned_circles};
 
 /// The channels of the recordings.
-const CHANNELS: [&str; 10] = [
+const CHANNELS: [&str; 8] = [
     "--position",
     "%.SetPos",
     "--velocity",
@@ -15,9 +15,12 @@ const CHANNELS: [&str; 10] = [
     "%.ActTorque",
     "--actual-position",
     "%.ActPos",
-    "--torque-kind",
-    "actual",
 ];
+
+const ACTUAL_TORQUE: [&str; 2] = ["--torque-kind", "actual"];
+
+/// A plant is fitted, and lists keep the friction curve, which takes seconds.
+pub(crate) const FITTED: [&str; 3] = ["--plant", "mid", "--no-shaping"];
 
 const AXES: [&str; 2] = ["X", "Y"];
 
@@ -46,8 +49,13 @@ impl Site {
         Self::planned(machine, "500,1600,2400,3600,5000", "40")
     }
 
+    /// Four fast feeds, which fit no plant.
+    pub(crate) fn fast(machine: Machine) -> Self {
+        Self::planned(machine, "1600,2400,3600,5000", "40")
+    }
+
     /// A folder in which stage 1 is planned.
-    pub(crate) fn planned(machine: Machine, feeds: &'static str, radius: &'static str) -> Self {
+    fn planned(machine: Machine, feeds: &'static str, radius: &'static str) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let axis = |name: &str| {
             format!(
@@ -86,23 +94,8 @@ impl Site {
     }
 
     fn plan(&self, more: &[&str]) {
-        let plan = [
-            "commission",
-            "plan",
-            "--axis",
-            "X,Y",
-            "--travel",
-            "X0..100,Y-50..50",
-            "--feeds",
-            self.feeds,
-            "--radius",
-            self.radius,
-            "--slowest",
-            "0.5",
-            "-o",
-            "m",
-        ];
-        let output = self.call(&[&plan, more].concat());
+        let output =
+            self.call(&[&planned_circles(self.feeds, self.radius)[..], &["m"], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     }
 
@@ -114,7 +107,16 @@ impl Site {
 
     /// Runs the command on what is recorded.
     pub(crate) fn run(&self, more: &[&str]) -> (Option<i32>, String) {
-        let output = self.call(&[&["commission", "run", "m"], &CHANNELS[..], more].concat());
+        self.run_with(&[&CHANNELS[..], &ACTUAL_TORQUE[..], more].concat())
+    }
+
+    /// Runs it without a statement about the torque, so that the positions decide.
+    pub(crate) fn run_by_positions(&self) -> (Option<i32>, String) {
+        self.run_with(&[&CHANNELS[..], &FITTED[..]].concat())
+    }
+
+    fn run_with(&self, arguments: &[&str]) -> (Option<i32>, String) {
+        let output = self.call(&[&["commission", "run", "m"], arguments].concat());
         (output.status.code(), said(&output))
     }
 
@@ -166,23 +168,52 @@ impl Site {
         })
     }
 
-    /// What a machine does in a program.
-    pub(crate) fn drive(
-        &self,
-        machine: &Machine,
-        program: &str,
-        lists: [Option<&ValueList>; 2],
-    ) -> Run {
-        let text = std::fs::read_to_string(self.path().join("m").join(program));
-        let program = Program::parse(&text.expect("a program"), AXES, START);
-        machine.run(&program, START, lists)
+    /// The text of a program.
+    pub(crate) fn text(&self, program: &str) -> String {
+        let path = self.path().join("m").join(program);
+        std::fs::read_to_string(path).expect("a program")
+    }
+
+    /// What a machine does in the text of a program.
+    pub(crate) fn drive(machine: &Machine, text: &str, lists: [Option<&ValueList>; 2]) -> Run {
+        machine.run(&Program::parse(text, AXES, START), START, lists)
     }
 
     /// Puts a recording of a run into the folder, named as its program.
-    pub(crate) fn put(&self, program: &str, run: &Run, recorder: &Recorder) {
+    pub(crate) fn put(
+        &self,
+        program: &str,
+        run: &Run,
+        (recorder, change): (&Recorder, Option<fn(&mut Columns)>),
+    ) {
+        let mut text = recorder.table(run, AXES);
+        if let Some(change) = change {
+            let mut columns = Columns::parse(&text);
+            change(&mut columns);
+            text = columns.text();
+        }
+        std::fs::write(self.recording(program), text).expect("written");
+    }
+
+    fn recording(&self, program: &str) -> PathBuf {
         let name = program.replace(".nc", ".csv");
-        let path = self.path().join("m/recordings").join(name);
-        std::fs::write(path, recorder.table(run, AXES)).expect("written");
+        self.path().join("m/recordings").join(name)
+    }
+
+    /// The recordings, to be put back later.
+    pub(crate) fn keep(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let entries = std::fs::read_dir(self.path().join("m/recordings")).expect("a folder");
+        let paths = entries.map(|it| it.expect("an entry").path());
+        paths
+            .map(|it| (it.clone(), std::fs::read(&it).expect("a file")))
+            .collect()
+    }
+
+    /// Puts recordings back.
+    pub(crate) fn put_back(kept: &[(PathBuf, Vec<u8>)]) {
+        for (path, bytes) in kept {
+            std::fs::write(path, bytes).expect("written");
+        }
     }
 
     /// Records every program of a stage.
@@ -203,13 +234,64 @@ impl Site {
         (machine, recorder): (&Machine, &Recorder),
     ) {
         for (seed, program) in (100..).zip(self.programs(round, words)) {
-            let run = self.drive(machine, &program, lists);
+            let run = Self::drive(machine, &self.text(&program), lists);
             let recorder = Recorder {
                 seed: recorder.seed + seed,
                 ..recorder.clone()
             };
-            self.put(&program, &run, &recorder);
+            self.put(&program, &run, (&recorder, None));
         }
+    }
+}
+
+/// The rows of a recording: the time, and of each axis the commanded position and velocity, the actual position and
+/// the torque.
+pub(crate) struct Columns {
+    head: String,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    fn parse(text: &str) -> Self {
+        let mut lines = text.lines();
+        let head = lines.next().expect("a head").to_owned();
+        let number = |cell: &str| cell.parse().expect("a number");
+        let rows = lines.map(|line| line.split(',').map(number).collect());
+        Self {
+            head,
+            rows: rows.collect(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.head);
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(|it| format!("{it:.7}")).collect();
+            text.push_str(&cells.join(","));
+            text.push('\n');
+        }
+        text
+    }
+
+    pub(crate) fn swap(&mut self, one: usize, other: usize) {
+        self.rows.iter_mut().for_each(|it| it.swap(one, other));
+    }
+
+    pub(crate) fn times(&mut self, column: usize, factor: f64) {
+        self.rows.iter_mut().for_each(|it| it[column] *= factor);
+    }
+
+    pub(crate) fn plus(&mut self, column: usize, more: f64) {
+        self.rows.iter_mut().for_each(|it| it[column] += more);
+    }
+
+    /// Keeps rows by their number.
+    pub(crate) fn keep(&mut self, is_kept: fn(usize) -> bool) {
+        let mut at = 0;
+        self.rows.retain(|_| {
+            at += 1;
+            is_kept(at)
+        });
     }
 }
 

@@ -6,11 +6,12 @@ use frictcomp::lists::FrictionList;
 use frictcomp_host::{FileRegistry, read_value_list};
 use frictcomp_physics::simulation::{Plant, Preset};
 use frictcomp_report::svg::STYLE;
+use frictcomp_testing::planned_circles;
 use serde_json::Value;
 
 use super::{
-    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_at, planned_with,
-    put, run, said, torque,
+    Driven, Recorder, call, circles_of, constant_speeds, deviations_of, planned_with, put, run,
+    said, torque,
 };
 
 /// Circles of a plan.
@@ -25,14 +26,14 @@ struct Circles {
 const FAST: Circles = Circles {
     feeds: &[500.0, 1600.0, 2400.0, 3600.0, 5000.0],
     radius: 40.0,
-    plan: planned_at("500,1600,2400,3600,5000", "40"),
+    plan: planned_circles("500,1600,2400,3600,5000", "40"),
 };
 
 /// A plan on a radius of 25 mm, so slow that an unshaped list is better than the provisional one at each feed.
 const SLOW: Circles = Circles {
     feeds: &[250.0, 500.0, 800.0, 1400.0, 2500.0],
     radius: 25.0,
-    plan: planned_at("250,500,800,1400,2500", "25"),
+    plan: planned_circles("250,500,800,1400,2500", "25"),
 };
 
 /// The machine: the recorded friction, and a contact and a speed loop that differ from `mid`.

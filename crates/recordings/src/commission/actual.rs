@@ -2,11 +2,13 @@
 
 use frictcomp::lists::FrictionList;
 use frictcomp_physics::current::Reading;
+use serde::{Deserialize, Serialize};
 
 use super::following::{STANDSTILL, commanded};
+use super::found::CirclesFound;
 use crate::identify::{
-    AxisRecording, Predictor, Timing, TorqueKind, count, moving_average, noise_of, samples_in,
-    solve_linear, verify_followed,
+    AxisRecording, Predictor, Timing, TorqueKind, count, median, moving_average, noise_of,
+    samples_in, solve_linear, verify_followed,
 };
 
 /// The time in s over which noise is averaged to find what friction leaves.
@@ -22,7 +24,7 @@ const RESOLUTION_MM: f64 = 5e-5;
 const MM: f64 = 1e-4;
 
 /// How an actual position follows the commanded one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FollowedPosition {
     /// The lag in s.
@@ -33,6 +35,8 @@ pub struct FollowedPosition {
     pub left_mm: f64,
     /// The standard deviation in mm of the noise of a sample.
     pub noise_mm: f64,
+    /// The time in s over which each sample is an average, if its noise shows one.
+    pub averaged_s: Option<f64>,
 }
 
 impl FollowedPosition {
@@ -73,6 +77,7 @@ impl FollowedPosition {
             })
             .collect();
         let noise_mm = noise_of(&left);
+        let averaged_s = averaged_samples(&left).map(|it| count(it) * track.step_s);
         let averaged = moving_average(&left, samples_in(AVERAGED_S, track.step_s).max(1));
         let squares: f64 = moving.iter().map(|at| averaged[at - from].powi(2)).sum();
         Some(Self {
@@ -80,6 +85,7 @@ impl FollowedPosition {
             longer: -answer[2],
             left_mm: (squares / count(moving.len())).sqrt(),
             noise_mm,
+            averaged_s,
         })
     }
 
@@ -96,6 +102,112 @@ impl FollowedPosition {
             )
         })
     }
+}
+
+/// The number of samples over which each one is an average. Such a sample differs from the one before by a new value
+/// and by the one that drops out, so that differences as many samples apart are opposed, and no others are.
+fn averaged_samples(values: &[f64]) -> Option<usize> {
+    /// Differences are taken over this many samples, in which the averaged noise exceeds that of rounding.
+    const OVER: usize = 4;
+    const LONGEST: usize = 100;
+    /// Larger differences are motion.
+    const MOTION: f64 = 4.0;
+    const OPPOSED: f64 = -0.03;
+    const ERRORS: f64 = 8.0;
+    /// A vibration is opposed at other times, too.
+    const ALONE: f64 = 0.5;
+    let mut differences: Vec<f64> = values
+        .windows(OVER + 1)
+        .map(|it| it[OVER] - it[0])
+        .collect();
+    if differences.len() < 10 * LONGEST {
+        return None;
+    }
+    let sizes: Vec<f64> = differences.iter().map(|it| it.abs()).collect();
+    let most = MOTION * 1.4826 * median(&sizes)?;
+    for it in &mut differences {
+        *it = if it.abs() > most { 0.0 } else { *it };
+    }
+    let whole: f64 = differences.iter().map(|it| it * it).sum();
+    let alike: Vec<f64> = (0..=LONGEST + OVER)
+        .map(|lag| {
+            let later = &differences[lag..];
+            later
+                .iter()
+                .zip(&differences)
+                .map(|(one, it)| one * it)
+                .sum::<f64>()
+                / whole
+        })
+        .collect();
+    let beside = |lag: usize| alike[lag] - f64::midpoint(alike[lag - OVER], alike[lag + OVER]);
+    let opposed = |lag: &usize| beside(*lag);
+    let least = |one: &usize, other: &usize| opposed(one).total_cmp(&opposed(other));
+    let lags = 2 * OVER..=LONGEST;
+    let lag = lags.clone().min_by(least)?;
+    let other = lags
+        .filter(|it| it.abs_diff(lag) > 2 * OVER)
+        .min_by(least)?;
+    let limit = OPPOSED.min(-ERRORS / count(differences.len()).sqrt());
+    (beside(lag) < limit && beside(other) > ALONE * beside(lag)).then_some(lag)
+}
+
+/// States how the circles of a round were recorded otherwise than those off, for each axis: averaged, later, or in
+/// another scale (R16.14, R16.18). They are not compared then.
+pub fn recorded_otherwise(
+    names: &[&str],
+    off: &[&CirclesFound],
+    on: &[&CirclesFound],
+) -> Vec<String> {
+    const LATER_S: f64 = 0.001;
+    const SCALE: f64 = 0.0005;
+    let mut against = Vec::new();
+    for (at, name) in names.iter().enumerate().take(2) {
+        let of = |circles: &[&CirclesFound]| -> Vec<FollowedPosition> {
+            circles.iter().filter_map(|it| it.followed[at]).collect()
+        };
+        let [before, after] = [of(off), of(on)];
+        let middle = |all: &[FollowedPosition], value: fn(&FollowedPosition) -> f64| {
+            median(&all.iter().map(value).collect::<Vec<_>>())
+        };
+        let both =
+            |value: fn(&FollowedPosition) -> f64| middle(&before, value).zip(middle(&after, value));
+        let averaged = [&before, &after].map(|all| all.iter().find_map(|it| it.averaged_s));
+        if let [Some(over_s), None] | [None, Some(over_s)] = averaged
+            && !before.is_empty()
+            && !after.is_empty()
+        {
+            let (which, other) = if averaged[0].is_some() {
+                ("off", "on")
+            } else {
+                ("on", "off")
+            };
+            against.push(format!(
+                "the positions of {name} are averages over {:.0} ms in the circles {which} and not in those {other}, \
+                 which hides what a reversal leaves: record both alike, every sample as it is",
+                over_s * 1000.0
+            ));
+        }
+        if let Some((off_s, on_s)) =
+            both(|it| it.lag_s).filter(|(off, on)| (on - off).abs() > LATER_S)
+        {
+            against.push(format!(
+                "{name} follows its command after {:.1} ms in the circles off and {:.1} ms in those on: positions are \
+                 averaged or late in one of them, or its loops were changed; record both alike",
+                off_s * 1000.0,
+                on_s * 1000.0
+            ));
+        }
+        if let Some((off, on)) = both(|it| it.longer).filter(|(off, on)| (on - off).abs() > SCALE) {
+            against.push(format!(
+                "the way of {name} is {:+.2} % longer than commanded in the circles off and {:+.2} % in those on: \
+                 another scale; record both alike",
+                off * 100.0,
+                on * 100.0
+            ));
+        }
+    }
+    against
 }
 
 /// Names two axes that were recorded at different times, or in different scales (R16.18).

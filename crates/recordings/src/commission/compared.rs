@@ -45,6 +45,13 @@ impl PlaceCompared {
             && self.on.compared_with(&self.off) == GlitchOrder::Smaller
     }
 
+    /// Whether what compensation leaves cannot be told from noise, or from the resolution of positions (R16.14).
+    pub(super) fn leaves_only_noise(&self) -> bool {
+        const ERRORS: f64 = 2.0;
+        const RESOLUTION: f64 = 0.1;
+        self.on.um < (ERRORS * self.on.error_um).max(RESOLUTION)
+    }
+
     /// Whether compensation leaves at most a part of the glitch without it.
     pub(super) fn leaves_at_most(&self, part: f64) -> bool {
         self.on.um < self.off.um * part

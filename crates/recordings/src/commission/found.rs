@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::actual::FollowedPosition;
 use super::at_feed::{AtFeed, ON_FEED};
 use super::following::COARSEST_S;
 use crate::identify::{Fit, Identified, Track, along, count};
@@ -117,6 +118,16 @@ impl FrictionFound {
     pub fn check_length(&mut self, track: &Track, planned_s: Option<f64>) {
         const WHOLE: f64 = 0.97;
         const FINE_S: f64 = 0.0015;
+        const MISSING: f64 = 1.6;
+        let steps = track.times_s.windows(2).map(|it| it[1] - it[0]);
+        let gaps: Vec<f64> = steps.filter(|it| *it > MISSING * track.step_s).collect();
+        if let Some(widest_s) = gaps.iter().copied().reduce(f64::max) {
+            self.notes.push(format!(
+                "rows are missing in it at {} places, {:.0} ms at most",
+                gaps.len(),
+                widest_s * 1000.0
+            ));
+        }
         if track.step_s > FINE_S {
             self.notes.push(format!(
                 "a sample every {:.1} ms; every ms was asked for",
@@ -275,21 +286,20 @@ fn growing_offset(found: &Identified) -> Option<f64> {
     (differs && slope.abs() > TIMES * error).then_some(slope)
 }
 
-/// The recorded speeds as a part of the planned ones; `None` if no single part explains them.
+/// The recorded speeds as a part of the planned ones, the part next to 1 that explains them; `None` if there is none.
+/// An axis may miss speeds, as the fastest where its torque is clipped, but has none that was not planned.
 fn override_of(found: &Identified, planned: &[f64]) -> Option<f64> {
     let fastest = found.pairs.last()?.speed;
-    let part = fastest / planned.last()?;
-    let is_planned = |speed: f64| {
-        let mut wanted = planned.iter().map(|it| it * part);
-        wanted.any(|it| (it - speed).abs() <= ONE_RATIO * it)
+    let explains = |part: &f64| {
+        let is_planned = |speed: f64| {
+            let mut wanted = planned.iter().map(|it| it * part);
+            wanted.any(|it| (it - speed).abs() <= ONE_RATIO * it)
+        };
+        found.pairs.iter().all(|it| is_planned(it.speed))
     };
-    // An axis may miss a speed that is too slow to be seen, but has none that was not planned.
-    let strange = found
-        .pairs
-        .iter()
-        .filter(|it| !is_planned(it.speed))
-        .count();
-    (strange == 0 && found.pairs.len() * 2 >= planned.len()).then_some(part)
+    let parts = planned.iter().map(|it| fastest / it).filter(explains);
+    let part = parts.min_by(|one, other| one.ln().abs().total_cmp(&other.ln().abs()))?;
+    (found.pairs.len() * 2 >= planned.len()).then_some(part)
 }
 
 /// The circles of a recorded program.
@@ -310,6 +320,8 @@ pub struct CirclesFound {
     pub worst_um: f64,
     /// The lower and the upper end of the share of each axis' list in the torque, where it is known.
     pub shares: [Option<[f64; 2]>; 2],
+    /// How the actual position of each axis follows the commanded one, where that was recorded.
+    pub followed: Box<[Option<FollowedPosition>; 2]>,
     /// The figures of ISO 230-4.
     pub iso: IsoFigures,
     /// The glitch of each axis in µm for comparison with predictions, without noise, with its standard error.
@@ -361,6 +373,7 @@ impl CirclesFound {
         let heights = height(PlaneAxis::X).zip(height(PlaneAxis::Y));
         Self {
             shares: [None; 2],
+            followed: Box::default(),
             iso: IsoFigures::of(&recording.side.figures),
             heights_um: heights.map(|(x, y)| [x, y]),
             feed,

@@ -50,6 +50,13 @@ pub fn feeds_against(round: &JudgedRound<'_>) -> Vec<String> {
         }
     }
     for axis in axes {
+        let mut places = round.recorded.iter().flat_map(|it| it.of_axis(axis));
+        if !round.recorded.is_empty() && places.all(PlaceCompared::leaves_only_noise) {
+            against.push(format!(
+                "at no reversal more than noise is left of {axis}, at any feed: its positions are commanded or averaged \
+                 ones; record the actual ones"
+            ));
+        }
         let is_seen = |it: &BeforeAfter| it.of_axis(axis).any(PlaceCompared::shows_an_effect);
         if round.recorded.iter().any(is_seen) {
             against.extend(without_effect(round.recorded, axis).into_iter().map(|feed| {

@@ -87,7 +87,7 @@ pub enum LearnError {
     Circle(#[from] CircleError),
     /// Two recordings of one list that are not alike.
     #[error(
-        "at F{feed:.0} {crossing} one recording leaves {:.1} \u{b5}m and the other {:.1} \u{b5}m",
+        "at F{feed:.0} {crossing} {direction} one recording leaves {:.1} \u{b5}m and the other {:.1} \u{b5}m",
         .heights_um[0], .heights_um[1]
     )]
     NotAlike {
@@ -95,6 +95,8 @@ pub enum LearnError {
         feed: f64,
         /// The crossing.
         crossing: Crossing,
+        /// The direction of travel.
+        direction: Direction,
         /// The glitch in each recording.
         heights_um: [f64; 2],
     },
@@ -274,17 +276,23 @@ fn twice<'a>(
     Ok(recordings)
 }
 
-/// Checks that both recordings leave about the same.
+/// Checks that both recordings leave about the same at each reversal.
 fn alike(axis: PlaneAxis, feed: f64, recorded: &RecordedTwice) -> Result<(), LearnError> {
+    const ERRORS: f64 = 3.0;
     let [first, second] = recorded.heights_um();
     let crossings = Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
-    for (crossing, heights_um) in crossings.zip(first.into_iter().zip(second)) {
-        let heights_um = [heights_um.0, heights_um.1];
-        let apart = (heights_um[0] - heights_um[1]).abs();
-        if apart > ALIKE_UM.max(ALIKE * f64::midpoint(heights_um[0], heights_um[1])) {
+    let places = crossings.cycle().zip(recorded.directions());
+    for ((crossing, direction), (one, other)) in places.zip(first.into_iter().zip(second)) {
+        let heights_um = [one.0, other.0];
+        let apart = (one.0 - other.0).abs();
+        let most = ALIKE_UM
+            .max(ALIKE * f64::midpoint(one.0, other.0))
+            .max(ERRORS * one.1.hypot(other.1));
+        if apart > most {
             return Err(LearnError::NotAlike {
                 feed,
                 crossing,
+                direction,
                 heights_um,
             });
         }

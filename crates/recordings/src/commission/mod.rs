@@ -22,7 +22,9 @@ mod runs;
 mod signature;
 mod strokes;
 
-pub use actual::{FollowedPosition, recorded_apart, share_of_torque, torque_shows};
+pub use actual::{
+    FollowedPosition, recorded_apart, recorded_otherwise, share_of_torque, torque_shows,
+};
 pub use compared::{BeforeAfter, PlaceCompared, before_after};
 pub use error::PlanError;
 pub use following::{NotFollowed, actual_elsewhere};

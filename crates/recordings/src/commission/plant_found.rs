@@ -71,6 +71,8 @@ pub struct PlantAxis {
     pub delay: Extent,
     /// Damping of the contact in N·s/m.
     pub damping: Extent,
+    /// What the load lags behind the motor after a reversal, in m.
+    pub lost: Extent,
     /// The share of the list of the last round that explains its circles.
     pub share_on: Option<Extent>,
     /// The share of that list that explains the circles off.
@@ -158,6 +160,7 @@ impl PlantAxis {
             coulomb: fitted.coulomb,
             delay: fitted.delay_s,
             damping: fitted.damping,
+            lost: fitted.lost_m,
             share_on: fitted.shares.map(|it| it.on),
             share_off: fitted.shares.map(|it| it.off),
             left: fitted.left_um,
@@ -166,17 +169,26 @@ impl PlantAxis {
         }
     }
 
-    /// States that a list was already on in the circles off, if they show it (R16.13).
-    fn already_on(&self) -> Option<String> {
-        const SHOWN: f64 = 0.1;
-        const LEAST: f64 = 0.2;
-        let share = self
-            .share_off
-            .filter(|it| it.low > SHOWN && it.value > LEAST)?;
-        Some(format!(
-            "{} was already compensated in stage 1: its circles off are those of {:.2} of the list ({:.2} to {:.2})",
-            self.axis, share.value, share.low, share.high
-        ))
+    /// States that the friction in the circles off is not that of constant speeds, if they show it: a list was already
+    /// on, or it is another machine or state (R16.13).
+    pub fn other_friction_off(&self) -> Option<String> {
+        const SHOWN: f64 = 0.05;
+        const LEAST: f64 = 0.15;
+        let share = self.share_off.filter(|it| it.value.abs() > LEAST)?;
+        let told = format!("{:.2} to {:.2}", share.low, share.high);
+        if share.low > SHOWN {
+            return Some(format!(
+                "{} was already compensated in stage 1: its circles off are those of {:.2} of the list ({told})",
+                self.axis, share.value
+            ));
+        }
+        (share.high < -SHOWN).then(|| {
+            format!(
+                "the circles of {} off have more friction than its constant speeds, by {:.2} of the list ({told}): \
+                 another machine, or a colder one",
+                self.axis, -share.value
+            )
+        })
     }
 
     /// States that not all of the list of the last round was on, if its circles do not show it (R16.13).
@@ -281,7 +293,7 @@ impl PlantFound {
     /// Reasons against the fit itself.
     pub fn against_fit(&self) -> Vec<String> {
         let bounds = self.axes.iter().filter_map(PlantAxis::at_a_bound);
-        let already = self.axes.iter().filter_map(PlantAxis::already_on);
+        let already = self.axes.iter().filter_map(PlantAxis::other_friction_off);
         bounds.chain(already).collect()
     }
 
@@ -474,6 +486,7 @@ mod tests {
             coulomb: extent(bounds[2]),
             delay: extent(bounds[3]),
             damping: extent(bounds[4]),
+            lost: extent(false),
             share_on: None,
             share_off: None,
             left: 0.1,

@@ -43,7 +43,7 @@ pub use ripple::Ripple;
 pub use segment::Segment;
 pub use speeds::identify;
 pub use states::{ComparedStates, StateRow};
-pub(crate) use statistics::{count, moving_average, noise_of, samples_in};
+pub(crate) use statistics::{count, median, moving_average, noise_of, samples_in};
 pub use support::RequestedPoints;
 pub use timing::{ActingShare, Timing};
 pub use track::{Track, TrackError};

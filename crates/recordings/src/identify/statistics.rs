@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 const NORMAL: f64 = 1.4826;
 
 /// The middle value; the mean of the two middle ones of an even number.
-pub(super) fn median(values: &[f64]) -> Option<f64> {
+pub(crate) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     let middle = sorted.len() / 2;
     if sorted.is_empty() {

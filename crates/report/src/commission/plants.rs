@@ -95,7 +95,7 @@ impl PlantVerdict {
 }
 
 /// The fitted parameters of an axis.
-pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 5] {
+pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 6] {
     const UM_PER_M: f64 = 1e6;
     const MS_PER_S: f64 = 1e3;
     let scaled = |name, unit, extent: Extent, factor: f64, digits| {
@@ -125,6 +125,10 @@ pub(crate) fn parameters(axis: &PlantAxis) -> [FittedParameter; 5] {
             ..delay
         },
         scaled("contact damping", "kN·s/m", axis.damping, 1.0 / MS_PER_S, 1),
+        FittedParameter {
+            value: Rounded(axis.lost.value * UM_PER_M, 1).to_string(),
+            ..scaled("lost motion", "µm", axis.lost, UM_PER_M, 1)
+        },
     ]
 }
 

@@ -180,6 +180,18 @@ impl ResultsReport {
             && self.rounds.last().is_some_and(Round::is_accepted)
     }
 
+    /// States what an accepted round of circles does not show without a plant (R16.13).
+    pub(crate) fn not_shown(&self, round: &Round) -> Option<&'static str> {
+        let mut plants = self.fitted.found();
+        let is_shown = plants.any(|it| {
+            it.round == round.number && it.axes.iter().all(|axis| axis.share_off.is_some())
+        });
+        let concerns = round.is_accepted() && round.shows == Shows::Contour && !is_shown;
+        concerns.then_some(
+            "not shown: that no part of a list was on in stage 1; with `--plant` the circles off show it",
+        )
+    }
+
     /// The friction from which the list of an axis is made.
     pub fn friction_of(&self, axis: &AxisVerdict) -> Option<&FrictionFound> {
         let from = axis.from.as_ref()?;
@@ -231,6 +243,9 @@ pub fn render_results(report: &ResultsReport) -> String {
     }
     for round in &report.rounds {
         push_round(&mut out, round);
+        if let Some(limit) = report.not_shown(round) {
+            let _ = writeln!(out, "{limit}");
+        }
     }
     if report.rounds.iter().any(|it| it.against.is_some()) {
         push_plants(&mut out, &report.fitted);

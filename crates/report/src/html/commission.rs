@@ -95,6 +95,9 @@ fn verdict(report: &ResultsReport) -> Markup {
                 ul { @for reason in against { li { (reason) } } }
             }
         }
+        @if let Some(limit) = report.rounds.last().and_then(|it| report.not_shown(it)) {
+            p { (limit) }
+        }
         @if let Some(plant) = report.fitted.verdicts.last().filter(|it| !it.rejected.is_empty()) {
             p { "The plant is rejected by the recordings, and the earlier lists stay:" }
             ul { @for reason in &plant.rejected { li { (reason) } } }

@@ -4,7 +4,7 @@ use super::extent::Extent;
 use super::observed::DriveFit;
 use super::squares::ModelSetting;
 use super::unknowns::{
-    CONTACT, DAMPING, DELAY, FRICTION, SHARE_OFF, SHARE_ON, SPEED_GAIN, Unknowns,
+    CONTACT, DAMPING, DELAY, FRICTION, LOST, SHARE_OFF, SHARE_ON, SPEED_GAIN, Unknowns,
 };
 use crate::circle::reference::CircleError;
 use crate::circle::tune::cma_es::XorShift;
@@ -44,8 +44,8 @@ struct SolvedShares {
 /// The unknowns of the shares.
 const SHARES: [usize; 2] = [SHARE_ON, SHARE_OFF];
 
-/// The best accuracy of a share.
-const OF_SHARE: f64 = 0.05;
+/// The best accuracy of a share: friction is that of constant speeds within 10 % (R16.13).
+const OF_SHARE: f64 = 0.1;
 
 /// The drive that fits the reversals, with the accuracy of its parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +63,8 @@ pub struct FittedDrive {
     pub damping: Extent,
     /// Time constant of the current loop, which includes delays of the loop, in s.
     pub delay_s: Extent,
+    /// What the load lags behind the motor after a reversal, in m: backlash, or a drive train that winds up.
+    pub lost_m: Extent,
     /// The shares of the lists that were on, where that was asked.
     pub shares: Option<SharesOn>,
     /// The root mean square of the recorded deviations that is left, in µm.
@@ -128,6 +130,7 @@ impl DriveFit {
             coulomb: coulomb.widened(SHAPE * coulomb.value),
             damping: extent(DAMPING, &|it| it.friction.damping_n_s_per_m),
             delay_s: extent(DELAY, &|it| it.current_time_s).widened(DELAY_S),
+            lost_m: extent(LOST, &|it| it.backlash_m),
             shares: shares.map(|it| it.found),
             left_um: best.power.sqrt(),
             reversals: self.circles.iter().map(|it| it.reversals.len()).sum(),
@@ -135,37 +138,51 @@ impl DriveFit {
         })
     }
 
-    /// The shares of the lists, with everything else free, starting from given unknowns and from a list that was hardly
-    /// on; `None` if no circle is doubted.
+    /// The shares of the lists, each with everything else free except the other one and the friction: more of all lists
+    /// cannot be told from more friction and stiffer loops. `None` if no circle is doubted.
     fn shares(&self, best: Unknowns) -> Result<Option<SolvedShares>, CircleError> {
         /// A list of which hardly anything was on, less 1.
         const HARDLY: f64 = -0.8;
+        const HALF: f64 = 0.5;
         if !self.circles.iter().any(|it| it.is_doubted) {
             return Ok(None);
         }
-        let free = ModelSetting {
+        let first = self.first(FrictionModel::Lugre)?.0;
+        let best = best.with(FRICTION, 0.0);
+        let hardly_on = [best, first.with(SHARE_ON, HARDLY)];
+        let half_off = [best, best.with(SHARE_OFF, HALF)];
+        let (on, of_on) = self.share((SHARE_ON, 1.0), &[SHARE_OFF, FRICTION], hardly_on)?;
+        let (off, of_off) = self.share((SHARE_OFF, 0.0), &[SHARE_ON, FRICTION], half_off)?;
+        Ok(Some(SolvedShares {
+            found: SharesOn { on, off },
+            simulations: of_on + of_off,
+        }))
+    }
+
+    /// The range of a share, which is an unknown and what is added to it, and the number of simulations; the better one
+    /// of two starts counts.
+    fn share(
+        &self,
+        (unknown, whole): (usize, f64),
+        held: &'static [usize],
+        starts: [Unknowns; 2],
+    ) -> Result<(Extent, usize), CircleError> {
+        let setting = ModelSetting {
             model: FrictionModel::Lugre,
-            held: &[],
+            held,
         };
-        let starts = [best, self.first(free.model)?.0.with(SHARE_ON, HARDLY)];
-        let [one, other] = [self.solve(free, starts[0])?, self.solve(free, starts[1])?];
+        let [one, other] = starts.map(|it| self.solve(setting, it));
+        let (one, other) = (one?, other?);
         let simulations = one.simulations + other.simulations;
         let solved = if one.power <= other.power { one } else { other };
         let mut random = XorShift::new(1);
         let again = (0..SELECTIONS).filter_map(|_| solved.again(&mut random));
-        let again: Vec<Unknowns> = again.collect();
-        let extent = |unknown: usize, whole: f64| {
-            let mut values: Vec<f64> = again.iter().map(|it| whole + it.0[unknown]).collect();
-            values.sort_by(f64::total_cmp);
-            let inner = values.len().saturating_sub(2 * BEYOND);
-            let ends = values.into_iter().skip(BEYOND).take(inner);
-            Extent::over(whole + solved.unknowns.0[unknown], ends).widened(OF_SHARE)
-        };
-        let found = SharesOn {
-            on: extent(SHARE_ON, 1.0),
-            off: extent(SHARE_OFF, 0.0),
-        };
-        Ok(Some(SolvedShares { found, simulations }))
+        let mut values: Vec<f64> = again.map(|it| whole + it.0[unknown]).collect();
+        values.sort_by(f64::total_cmp);
+        let inner = values.len().saturating_sub(2 * BEYOND);
+        let ends = values.into_iter().skip(BEYOND).take(inner);
+        let extent = Extent::over(whole + solved.unknowns.0[unknown], ends).widened(OF_SHARE);
+        Ok((extent, simulations))
     }
 
     /// The contact from which the search starts, and the number of simulations needed.

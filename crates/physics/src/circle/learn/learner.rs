@@ -70,7 +70,7 @@ pub struct Proposal {
 struct BestRound<'a> {
     circles: &'a [LearnedCircle],
     /// The mean of both recordings on each circle.
-    recorded: Vec<[Waveform; 2]>,
+    recorded: Vec<Vec<Waveform>>,
     /// The simulated one with the list of the best round.
     simulated: Vec<Waveform>,
     /// Circles at feeds between the recorded ones.
@@ -80,23 +80,24 @@ struct BestRound<'a> {
 /// A circle at a feed between two recorded ones.
 struct Between {
     circle: Circle,
-    /// The mean amount by which the glitches in µm at both reversals were recorded higher than simulated on its two
+    /// The mean amount by which the glitches in µm at each reversal were recorded higher than simulated on its two
     /// neighbours.
-    missed_um: [f64; 2],
+    missed_um: Vec<f64>,
 }
 
 impl Between {
     /// The circles between those of a round, which are sorted with the slowest first.
     fn all(
         circles: &[LearnedCircle],
-        recorded: &[[Waveform; 2]],
+        recorded: &[Vec<Waveform>],
         simulated: &[Waveform],
     ) -> Vec<Self> {
         let missed = recorded.iter().zip(simulated).map(|(recorded, simulated)| {
             let simulated = simulated.height_um();
-            recorded.each_ref().map(|it| it.height_um() - simulated)
+            let each = recorded.iter().map(|it| it.height_um() - simulated);
+            each.collect()
         });
-        let missed: Vec<[f64; 2]> = missed.collect();
+        let missed: Vec<Vec<f64>> = missed.collect();
         let pairs = circles.windows(2).zip(missed.windows(2));
         pairs
             .map(|(circles, missed)| {
@@ -107,7 +108,11 @@ impl Between {
                         feed_mm_per_min: feed,
                         ..slow
                     },
-                    missed_um: [0, 1].map(|at: usize| f64::midpoint(missed[0][at], missed[1][at])),
+                    missed_um: missed[0]
+                        .iter()
+                        .zip(&missed[1])
+                        .map(|(slow, fast)| f64::midpoint(*slow, *fast))
+                        .collect(),
                 }
             })
             .collect()
@@ -136,7 +141,7 @@ impl Learner {
         };
         let contact = self.fitted_contact(rounds, simulations)?;
         let drive = self.drive.with_contact(contact);
-        let recorded: Vec<[Waveform; 2]> =
+        let recorded: Vec<Vec<Waveform>> =
             best.circles.iter().map(|it| it.recorded.mean()).collect();
         let simulated = self.all_simulated(&drive, best)?;
         let start = BestRound {
@@ -244,7 +249,8 @@ impl Learner {
                 }
                 if cost < before {
                     // Only the recorded circles can show whether the prediction is correct.
-                    let recorded = &heights.0[..2 * start.circles.len()];
+                    let recorded = start.recorded.iter().map(Vec::len).sum();
+                    let recorded: &[f64] = &heights.0[..recorded];
                     best = Some((
                         cost,
                         point.clone(),
@@ -261,7 +267,7 @@ impl Learner {
         Ok(found.unwrap_or_else(|| (vec![0.0; VARIABLES], f64::INFINITY)))
     }
 
-    /// The predicted heights with a list at both reversals of each circle: the recorded ones with the best list,
+    /// The predicted heights with a list at each reversal of each circle: the recorded ones with the best list,
     /// plus the difference of the plant between both lists. Those between the recorded feeds follow.
     fn predicted(
         &self,
@@ -277,12 +283,11 @@ impl Learner {
             .zip(&start.simulated);
         for ((circle, recorded), before) in each {
             let change = self.simulated(drive, circle.circle, list)?.less(before);
-            let changed = recorded.each_ref().map(|it| it.changed(&change));
-            heights.extend(changed.each_ref().map(Waveform::height_um));
+            heights.extend(recorded.iter().map(|it| it.changed(&change).height_um()));
         }
         for between in &start.between {
             let height = self.simulated(drive, between.circle, list)?.height_um();
-            heights.extend(between.missed_um.map(|missed| height + missed));
+            heights.extend(between.missed_um.iter().map(|missed| height + missed));
         }
         Ok(Heights(heights))
     }
@@ -290,9 +295,10 @@ impl Learner {
 
 /// The mean square in µm² by which a simulated deviation misses the recorded ones.
 fn misfit(circle: &LearnedCircle, simulated: &Waveform) -> f64 {
-    let missed = circle.recorded.mean().map(|recorded| {
+    let recorded = circle.recorded.mean();
+    let missed = recorded.iter().map(|recorded| {
         let recorded = recorded.within(simulated).levelled();
         recorded.less(&simulated.within(&recorded)).power()
     });
-    missed.iter().sum()
+    missed.sum()
 }

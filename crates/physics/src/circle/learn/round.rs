@@ -3,14 +3,12 @@
 use thiserror::Error;
 
 use crate::circle::crossing::PlaneAxis;
+use crate::circle::direction::Direction;
 use crate::circle::recorded::RecordedCircle;
 use crate::circle::reference::Circle;
 use crate::circle::waveform::Waveform;
 use crate::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::FrictionList;
-
-/// Both reversals of an axis on a circle: at its largest and at its smallest position.
-type OppositeReversals = [Waveform; 2];
 
 /// One axis on one circle, recorded twice with the same list.
 #[derive(Debug, Clone)]
@@ -21,9 +19,16 @@ pub struct LearnedCircle {
     pub recorded: RecordedTwice,
 }
 
-/// The reversals of an axis in two recordings, each the mean over the directions of travel.
+/// The reversals of an axis in two recordings, in each direction of travel for itself (R16.12).
 #[derive(Debug, Clone)]
-pub struct RecordedTwice([OppositeReversals; 2]);
+pub struct RecordedTwice {
+    /// The directions.
+    directions: Vec<Direction>,
+    /// For each direction the reversal at the largest and that at the smallest position, each the mean of its turns.
+    reversals: [Vec<Waveform>; 2],
+    /// The standard deviation in µm of the noise of such a mean, which is one over 8 ms, too.
+    noise_um: f64,
+}
 
 /// An axis in one round: a list, and the circles that were recorded with it.
 #[derive(Debug, Clone)]
@@ -83,46 +88,67 @@ pub(super) fn output_at(list: &FrictionList, input: f64) -> f64 {
 }
 
 impl RecordedTwice {
-    /// The reversals of an axis in two recordings, each of them a turn in one direction or in each; `None` if
+    /// The reversals of an axis in two recordings, each of them a circle in one direction or in each; `None` if
     /// a circle has no glitches.
     pub fn of(axis: PlaneAxis, recordings: [&[&RecordedCircle]; 2]) -> Option<Self> {
-        let [first, second] = recordings.map(|turns| reversals(axis, turns));
-        Some(Self([first?, second?]))
+        let [first, second] = recordings.map(|circles| reversals(axis, circles));
+        let [(first, of_first), (second, of_second)] = [first?, second?];
+        Some(Self {
+            directions: recordings[0].iter().map(|it| it.direction).collect(),
+            reversals: [first, second],
+            noise_um: of_first.max(of_second),
+        })
     }
 
-    /// The heights of both reversals in µm in each recording.
-    pub fn heights_um(&self) -> [[f64; 2]; 2] {
-        self.0
-            .each_ref()
-            .map(|recording| recording.each_ref().map(Waveform::height_um))
+    /// The direction of travel of each reversal.
+    pub fn directions(&self) -> impl Iterator<Item = Direction> + '_ {
+        self.directions.iter().flat_map(|it| [*it; 2])
+    }
+
+    /// The height of each reversal in µm without its noise, with its standard error, in each recording: in each
+    /// direction at the largest position and at the smallest.
+    pub fn heights_um(&self) -> [Vec<(f64, f64)>; 2] {
+        self.reversals.each_ref().map(|recording| {
+            let heights = recording.iter().map(|it| it.without_noise(self.noise_um));
+            heights.map(Option::unwrap_or_default).collect()
+        })
     }
 
     /// The mean of both recordings at each reversal.
-    pub(super) fn mean(&self) -> OppositeReversals {
-        let [first, second] = &self.0;
-        [0, 1].map(|at: usize| Waveform::mean(&[&first[at], &second[at]]))
+    pub(super) fn mean(&self) -> Vec<Waveform> {
+        let [first, second] = &self.reversals;
+        let pairs = first.iter().zip(second);
+        pairs
+            .map(|(one, other)| Waveform::mean(&[one, other]))
+            .collect()
     }
 }
 
-/// The mean over all turns at both reversals of an axis.
-fn reversals(axis: PlaneAxis, turns: &[&RecordedCircle]) -> Option<OppositeReversals> {
-    let mut found: [Vec<Waveform>; 2] = [Vec::new(), Vec::new()];
-    for turn in turns {
-        for reversals in turn.reversals_of(axis)? {
-            for (waveforms, of_turn) in found.iter_mut().zip(reversals) {
-                waveforms.push(of_turn);
-            }
+/// The mean over all turns at both reversals of an axis in each direction, and the noise of such a mean in µm.
+fn reversals(axis: PlaneAxis, circles: &[&RecordedCircle]) -> Option<(Vec<Waveform>, f64)> {
+    let mut found = Vec::new();
+    let mut noise_um = 0.0_f64;
+    for circle in circles {
+        let turns = circle.reversals_of(axis)?;
+        #[allow(clippy::cast_precision_loss)] // a few turns
+        let count = turns.len() as f64;
+        noise_um = noise_um.max(circle.mean_noise_um() / count.sqrt());
+        for at in [0, 1] {
+            found.push(Waveform::mean(
+                &turns.iter().map(|it| &it[at]).collect::<Vec<_>>(),
+            ));
         }
     }
-    let mean = |waveforms: &Vec<Waveform>| Waveform::mean(&waveforms.iter().collect::<Vec<_>>());
-    (!turns.is_empty()).then(|| found.each_ref().map(mean))
+    (!found.is_empty()).then_some((found, noise_um))
 }
 
 impl LearnedCircle {
-    /// The larger height of both reversals in µm, of the mean of both recordings.
+    /// The largest height of all reversals in µm without noise, of the mean of both recordings.
     pub fn height_um(&self) -> f64 {
-        let [first, second] = self.recorded.mean();
-        first.height_um().max(second.height_um())
+        let noise_um = self.recorded.noise_um / std::f64::consts::SQRT_2;
+        let mean = self.recorded.mean().into_iter();
+        let heights = mean.filter_map(|it| Some(it.without_noise(noise_um)?.0));
+        heights.fold(0.0, f64::max)
     }
 }
 
@@ -142,7 +168,7 @@ impl LearnedRound {
         for circle in &self.circles {
             let [first, second] = circle.recorded.heights_um();
             for (one, other) in first.iter().zip(second) {
-                squares += (one - other).powi(2);
+                squares += (one.0 - other.0).powi(2);
                 count += 1.0;
             }
         }

@@ -34,7 +34,7 @@ pub struct RecordedCircle {
     pub points: usize,
     /// Duration of the turn, if the times are known.
     pub turn_s: Option<f64>,
-    /// The longest time between two of its points, if the times are known.
+    /// The longest time between two points of all its turns, if the times are known.
     pub widest_step_s: Option<f64>,
     /// The rest of the recording.
     pub left_out: LeftOut,
@@ -135,7 +135,7 @@ impl RecordedCircle {
         let steady = run.steady_around(&turn);
         let duration_s = trace.duration_s(steady.start, steady.end - 1);
         let turn_s = duration_s.map(|duration| duration * TAU / run.between(&steady));
-        let widest_step_s = trace.widest_step_s(&turn);
+        let widest_step_s = trace.widest_step_s(&run.steady_points());
         let commanded = commanded_mm.unwrap_or(fit.radius) / MM_PER_M;
         let about = |centre: [f64; 2]| {
             let mut gatherer = Gatherer::new(commanded, WIDEST_GAP_DEG);

@@ -158,6 +158,14 @@ impl PathRun {
         [from, to]
     }
 
+    /// Returns the points between the ends on which the machine speeds up or slows down.
+    pub(super) fn steady_points(&self) -> Range<usize> {
+        let [begin, end] = self
+            .steady()
+            .map(|angle| self.angles.partition_point(|it| *it < angle));
+        self.points.start + begin..self.points.start + end
+    }
+
     /// Returns the points around a turn up to the ends on which the machine speeds up or slows down, or to a gap.
     pub(super) fn steady_around(&self, turn: &Range<usize>) -> Range<usize> {
         let [from, to] = self.steady();

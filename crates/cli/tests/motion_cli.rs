@@ -404,9 +404,9 @@ fn a_list_that_does_not_fit_has_its_status() {
         (
             1.0,
             0,
-            "the list fits the recorded torque from 0.05 to 50.00 mm/s",
+            "the list fits the recorded torque from 1.00 to 50.00 mm/s",
         ),
-        (1.0, 0, "not judged: 50.00 to"),
+        (1.0, 0, "not judged: 50.00 to 166.67 mm/s"),
         (0.8, 1, "the list is 25 % high from"),
         (-1.0, 1, "the sign of the list is inverted"),
     ] {

@@ -1,5 +1,6 @@
 //! The conditions of ways, as data and in words (R14.2, R14.5).
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
@@ -147,16 +148,17 @@ pub(crate) fn if_ways(ways: &[Vec<WayCondition>], file: &str) -> String {
 pub(crate) fn limit_to(said: &mut Diagnostic, ways: &[Vec<WayCondition>]) {
     // That the program goes on goes without saying.
     let goes_on = |it: &WayCondition| matches!(it, WayCondition::Stop { stops: false, .. });
-    let told = ways
-        .iter()
-        .map(|way| way.iter().filter(|it| !goes_on(it)).cloned().collect());
-    let told: Vec<Vec<WayCondition>> = told.collect();
-    if said.code.is_about_text() || told.is_empty() || told.iter().any(Vec::is_empty) {
+    let mut ways = Cow::Borrowed(ways);
+    if ways.iter().flatten().any(goes_on) {
+        let told = ways.to_mut().iter_mut();
+        told.for_each(|way| way.retain(|it| !goes_on(it)));
+    }
+    if said.code.is_about_text() || ways.is_empty() || ways.iter().any(Vec::is_empty) {
         return;
     }
-    let words = if_ways(&told, &said.place.file);
+    let words = if_ways(&ways, &said.place.file);
     said.message = format!("{}, {words}", said.message);
-    if all_need_change(ways) && said.severity != Severity::Error {
+    if all_need_change(&ways) && said.severity != Severity::Error {
         said.lower(Severity::Info);
     }
 }

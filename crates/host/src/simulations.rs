@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::watch::{Done, Watch};
 use super::workers;
 use frictcomp_physics::circle::{
-    CircleError, CircularTest, Comparison, Heights, LapRun, LearnedRound, Learner, Proposal,
-    Simulations, Task, Tuned, tune_with,
+    CircleError, CircularTest, Comparison, LapRun, LearnedRound, Learner, Proposal, Simulations,
+    Task, Tuned, tune_with,
 };
 
 /// Drives the circle of a test with friction compensation off and on, in both directions.
@@ -108,8 +108,8 @@ impl Simulations for Tuning<'_> {
     fn make(
         &self,
         count: usize,
-        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
-    ) -> Result<Vec<Heights>, CircleError> {
+        simulation: &(dyn Fn(usize) -> Result<Vec<f64>, CircleError> + Sync),
+    ) -> Result<Vec<Vec<f64>>, CircleError> {
         let pieces: Vec<usize> = (0..count).collect();
         let before = self.done.fetch_add(count, Ordering::Relaxed);
         let made = self.runs.after(&pieces, (before, self.all), |&at| {

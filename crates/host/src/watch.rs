@@ -93,7 +93,7 @@ impl fmt::Display for Progress {
                     write!(f, " ({percent} %)")?;
                 }
             }
-            Done::Runs { of, done, all } => write!(f, "{of}: {done} of {all} runs")?,
+            Done::Runs { of, done, all } => write!(f, "{of}: {}", bar(done, all))?,
         }
         let Some(line) = self.line else {
             return Ok(());
@@ -104,6 +104,19 @@ impl fmt::Display for Progress {
             _ => write!(f, ", line {line}"),
         }
     }
+}
+
+/// `[#####...............] 25 %`
+fn bar(done: usize, all: usize) -> String {
+    const WIDTH: usize = 20;
+    let part = |whole: usize| done.saturating_mul(whole) / all.max(1);
+    let filled = part(WIDTH).min(WIDTH);
+    let percent = part(100).min(100);
+    format!(
+        "[{}{}] {percent} %",
+        "#".repeat(filled),
+        ".".repeat(WIDTH - filled)
+    )
 }
 
 /// Progress of the programs of a piece of work.
@@ -290,7 +303,7 @@ mod tests {
 
     #[test]
     fn the_share_of_the_whole_is_shown() {
-        // R9.75
+        // R5.37 R9.75
         let mut far = Progress::from(Done::Blocks(5));
         assert_eq!(far.to_string(), "5 blocks");
         far.program = Some((2, 9));
@@ -299,6 +312,15 @@ mod tests {
         far.lines = Some(12);
         far.program = None;
         assert_eq!(far.to_string(), "5 blocks, line 3 of 12 (25 %)");
+        let tuned = Done::Runs {
+            of: "tune",
+            done: 1000,
+            all: 4000,
+        };
+        assert_eq!(
+            Progress::from(tuned).to_string(),
+            "tune: [#####...............] 25 %"
+        );
         let mut tracker = LineTracker::default();
         let passes = [1, 2, 2, 1, 2].map(|line| tracker.reach(line));
         assert_eq!(

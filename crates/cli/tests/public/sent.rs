@@ -96,7 +96,6 @@ sent! {
     circle::FreeParameter,
     circle::Glitch,
     circle::GlitchOrder,
-    circle::Heights,
     circle::Lap,
     circle::LapRun,
     circle::LearnedCircle,

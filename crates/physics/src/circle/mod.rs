@@ -8,6 +8,7 @@
 //! [`diagnose`] names friction, backlash and axes that do not match.
 
 mod centre;
+mod cma_es;
 mod compare;
 mod crossing;
 mod diagnosis;
@@ -72,7 +73,7 @@ pub use recorded::{
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
 pub use tune::{
-    Candidate, FeedResult, FreeParameter, Heights, Ranges, RemainingGlitch, Robust, Shaping,
-    Simulations, Task, Tuned, TunedAxis, TuningAim, tune, tune_with,
+    Candidate, FeedResult, FreeParameter, Ranges, RemainingGlitch, Robust, Shaping, Simulations,
+    Task, Tuned, TunedAxis, TuningAim, tune, tune_with,
 };
 pub use waveform::Waveform;

@@ -2,9 +2,9 @@
 
 use super::observed::DriveFit;
 use super::unknowns::{BEFORE, STEPS, UNKNOWNS, Unknowns};
+use crate::circle::cma_es::XorShift;
 use crate::circle::linear::Normal;
 use crate::circle::reference::CircleError;
-use crate::circle::tune::cma_es::XorShift;
 use crate::circle::tune::reversal::AxisAlone;
 use crate::circle::waveform::Waveform;
 use crate::simulation::FrictionModel;

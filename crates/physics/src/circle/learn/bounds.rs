@@ -1,9 +1,24 @@
 //! The lists around the best one that a step may reach.
 
 use super::round::output_at;
-use crate::circle::tune::shape::{BOUND, FREE, INPUTS, smoothed};
 use crate::circle::tune::{Candidate, Ranges};
 use frictcomp::lists::{FrictionList, Points, TablePoint};
+
+/// The velocities of the points in µm/s, the first ones free.
+const INPUTS: [f64; 20] = [
+    0.0, 10.0, 20.0, 35.0, 60.0, 100.0, 150.0, 220.0, 330.0, 500.0, 700.0, 1000.0, 2000.0, 3500.0,
+    6000.0, 10_000.0, 25_000.0, 80_000.0, 200_000.0, 500_000.0,
+];
+
+/// Points up to 1 mm/s.
+const FREE: usize = 12;
+
+/// Greatest distance of an output from the friction, as a share.
+const BOUND: f64 = 0.6;
+
+/// Greatest bend of the shares of three neighbours: second difference of outputs by their friction
+/// (R5.29).
+const BEND: f64 = 0.15;
 
 /// Greatest change of an output as a part of the friction (R16.4).
 const OUTPUT: f64 = 0.35;
@@ -145,4 +160,36 @@ impl Steps {
         let count = VARIABLES as f64;
         squares / count
     }
+}
+
+/// The factors of a point of the search, within their bounds and without kinks: repeatedly, three
+/// neighbours that bend too much share the excess. The following points of the curve are not free.
+fn smoothed(point: &[f64]) -> [f64; FREE] {
+    const ROUNDS: usize = 200;
+    // Rounded outputs bend a little more.
+    const ALLOWED: f64 = 0.93 * BEND;
+    let mut factors = [0.0; FREE + 2];
+    for (factor, wanted) in factors.iter_mut().zip(&point[..FREE]) {
+        *factor = wanted.clamp(-BOUND, BOUND);
+    }
+    for _ in 0..ROUNDS {
+        let mut is_smooth = true;
+        for at in 1..=FREE {
+            let bend = factors[at - 1] - 2.0 * factors[at] + factors[at + 1];
+            let excess = bend - bend.clamp(-ALLOWED, ALLOWED);
+            if excess.abs() > 1e-3 {
+                is_smooth = false;
+            }
+            // The normal of the bound is 1, -2, 1; points that are not free do not move.
+            let moved = |at: usize| if at < FREE { 1.0 } else { 0.0 };
+            let length = moved(at - 1) + 4.0 * moved(at) + moved(at + 1);
+            for (place, weight) in [(at - 1, 1.0), (at, -2.0), (at + 1, 1.0)] {
+                factors[place] -= moved(place) * weight * excess / length;
+            }
+        }
+        if is_smooth {
+            break;
+        }
+    }
+    std::array::from_fn(|at| factors[at].clamp(-BOUND, BOUND))
 }

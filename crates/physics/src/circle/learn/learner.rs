@@ -3,10 +3,10 @@
 use super::bounds::{Steps, VARIABLES};
 use super::progress::LearningProgress;
 use super::round::{LearnedCircle, LearnedRound};
+use crate::circle::cma_es::{CmaEs, POINTS};
 use crate::circle::crossing::PlaneAxis;
 use crate::circle::method::Method;
 use crate::circle::reference::{Circle, CircleError};
-use crate::circle::tune::cma_es::{CmaEs, POINTS};
 use crate::circle::tune::reversal::AxisAlone;
 use crate::circle::tune::{Heights, Ranges, Simulations};
 use crate::circle::waveform::Waveform;
@@ -179,11 +179,9 @@ impl Learner {
             let drive = self.drive.with_contact(factor);
             let simulated = self.all_simulated(&drive, round)?;
             let each = round.circles.iter().zip(&simulated);
-            Ok(Heights(
-                each.map(|(circle, it)| misfit(circle, it)).collect(),
-            ))
+            Ok(each.map(|(circle, it)| misfit(circle, it)).collect())
         })?;
-        let sum = |of_factor: &[Heights]| of_factor.iter().flat_map(|it| &it.0).sum::<f64>();
+        let sum = |of_factor: &[Vec<f64>]| of_factor.iter().flatten().sum::<f64>();
         let sums = errors.chunks(rounds.len()).map(sum);
         let best = factors.iter().zip(sums);
         let best = best.min_by(|one, other| one.1.total_cmp(&other.1));
@@ -234,8 +232,9 @@ impl Learner {
             let points = search.ask();
             let heights = simulations.make(points.len(), &|at| {
                 let list = Method::from(steps.list(&points[at]));
-                self.predicted(drive, start, &list)
+                Ok(self.predicted(drive, start, &list)?.0)
             })?;
+            let heights: Vec<Heights> = heights.into_iter().map(Heights).collect();
             let cost = |(point, heights): (&Vec<f64>, &Heights)| {
                 let dear = 1.0 + Steps::excess(point) + CHANGE * Steps::length(point);
                 heights.smooth_um() * dear

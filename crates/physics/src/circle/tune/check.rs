@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::super::crossing::PlaneAxis;
 use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
-use super::heights::Heights;
 use super::reversal::{AxisAlone, phase_at};
 use super::task::Task;
 use crate::simulation::DriveParameters;
@@ -21,7 +20,7 @@ const APART: f64 = 1.5;
 
 /// Places of the reversal of an axis within its CNC cycle, 0 to 1. The glitch jumps where the reversal passes
 /// from one cycle to the next, so that the largest one is at an end.
-const PLACES: [f64; 4] = [0.01, 0.34, 0.67, 0.99];
+pub(super) const PLACES: [f64; 4] = [0.01, 0.34, 0.67, 0.99];
 
 /// Difference of friction between the directions, as a share.
 const UNEVEN: f64 = 0.1;
@@ -157,8 +156,13 @@ impl Task {
         searched
     }
 
-    /// The circles on which a result is checked, evenly over the range on a logarithmic scale.
+    /// The circles on which a result is checked.
     pub(super) fn checked(&self) -> Vec<Circle> {
+        self.over_the_range(CHECKED)
+    }
+
+    /// Circles evenly over the range on a logarithmic scale; one if it has only one acceleration.
+    pub(super) fn over_the_range(&self, count: usize) -> Vec<Circle> {
         let sorted = self.by_acceleration();
         let [Some(first), Some(last)] = [sorted.first(), sorted.last()] else {
             return Vec::new();
@@ -168,15 +172,15 @@ impl Task {
             return vec![*first];
         }
         let at = |number: usize| {
-            #[allow(clippy::cast_precision_loss)] // 25 of them
-            let part = number as f64 / (CHECKED - 1) as f64;
+            #[allow(clippy::cast_precision_loss)] // a few dozen
+            let part = number as f64 / (count - 1) as f64;
             let acceleration = from * (to / from).powf(part);
             let next = sorted.iter().find(|it| {
                 it.acceleration_mm_per_s2() >= acceleration * (1.0 - f64::EPSILON.sqrt())
             });
             next.unwrap_or(last).with_acceleration(acceleration)
         };
-        (0..CHECKED).map(at).collect()
+        (0..count).map(at).collect()
     }
 
     fn by_acceleration(&self) -> Vec<Circle> {
@@ -198,7 +202,7 @@ impl Task {
         axis: PlaneAxis,
         (circle, number): (Circle, usize),
         compensation: Option<&Method>,
-    ) -> Result<Heights, CircleError> {
+    ) -> Result<f64, CircleError> {
         let trial = Trial::all().nth(number).unwrap_or(Trial {
             deviating: Deviating::Nothing,
             place: PLACES[0],
@@ -212,8 +216,7 @@ impl Task {
             reading: self.reading,
             phase: phase_at(trial.place, axis, &circle),
         };
-        let glitch = alone.glitch_um(circle, compensation.filter(|_| trial.is_on))?;
-        Ok(Heights(vec![glitch]))
+        alone.glitch_um(circle, compensation.filter(|_| trial.is_on))
     }
 
     /// The glitch at the reversal of an axis on a machine that deviates.

@@ -8,19 +8,20 @@
 
 mod candidate;
 mod check;
-pub(super) mod cma_es;
+mod descent;
 mod heights;
+mod minimax;
 mod ranges;
 pub(super) mod reversal;
 mod search;
-pub(super) mod shape;
+mod shape;
 mod space;
 mod task;
 mod tuned;
 
 pub use candidate::Candidate;
 pub use check::RemainingGlitch;
-pub use heights::Heights;
+pub(in crate::circle) use heights::Heights;
 pub use ranges::{FreeParameter, Ranges};
 pub use task::{Shaping, Task, TuningAim};
 pub use tuned::{FeedResult, Robust, Simulations, Tuned, TunedAxis, tune, tune_with};

@@ -19,7 +19,8 @@ const WINDOW: f64 = 8.0 * PI / 180.0;
 const SETTLING: f64 = 0.15;
 
 /// Maximum time from the start of the window to the reversal, in s. With the settling that
-/// is 0.6 s in which the slow points of a list act before the reversal, too (R5.25).
+/// is 0.6 s in which the slow points of a list act before the reversal, too (R5.25). On fast circles the window
+/// is shorter, and outside it an axis is too fast for those points.
 const BEFORE: f64 = 0.45;
 
 /// Minimum length of the window after the reversal, in s.
@@ -72,7 +73,23 @@ impl AxisAlone<'_> {
         circle: Circle,
         compensation: Option<&Method>,
     ) -> Result<f64, CircleError> {
-        Ok(self.path(circle, compensation)?.height() * UM_PER_M)
+        let extremes = self.extremes(circle, compensation)?;
+        let least = extremes.iter().map(|it| it[0]).fold(f64::MAX, f64::min);
+        let most = extremes.iter().map(|it| it[1]).fold(f64::MIN, f64::max);
+        Ok(most - least)
+    }
+
+    /// The least and the largest deviation outwards in µm of each CNC cycle in the window of a reversal, less the
+    /// straight line from one end of the window to the other.
+    ///
+    /// # Errors
+    /// A drive that is unstable.
+    pub(super) fn extremes(
+        &self,
+        circle: Circle,
+        compensation: Option<&Method>,
+    ) -> Result<Vec<[f64; 2]>, CircleError> {
+        Ok(self.path(circle, compensation)?.straightened())
     }
 
     /// The deviation outwards at a reversal: for each CNC cycle the time of its middle since the reversal in s,
@@ -95,13 +112,35 @@ impl AxisAlone<'_> {
         Ok(path.cycles.iter().enumerate().map(middle).collect())
     }
 
+    /// The same for several compensations: simulated side by side, they take little longer than one.
+    ///
+    /// # Errors
+    /// A drive that is unstable.
+    pub(super) fn extremes_of_each<const N: usize>(
+        &self,
+        circle: Circle,
+        compensations: [&Method; N],
+    ) -> Result<[Vec<[f64; 2]>; N], CircleError> {
+        let paths = self.paths(circle, compensations.map(Some))?;
+        Ok(paths.map(|path| path.straightened()))
+    }
+
     /// The path of the axis in the window of a reversal.
     fn path(&self, circle: Circle, compensation: Option<&Method>) -> Result<Path, CircleError> {
+        let [path] = self.paths(circle, [compensation])?;
+        Ok(path)
+    }
+
+    /// The paths of the axis with each of these compensations.
+    fn paths<const N: usize>(
+        &self,
+        circle: Circle,
+        compensations: [Option<&Method>; N],
+    ) -> Result<[Path; N], CircleError> {
         let window = CycleWindow::of(&circle, self.axis);
-        let lead = compensation
-            .and_then(Method::list)
-            .map_or(0, |list| window.lead(&circle, list));
-        let first = window.begin.saturating_sub(lead);
+        let lists = compensations.iter().flatten().filter_map(|it| it.list());
+        let leads = lists.map(|list| window.lead(&circle, list));
+        let first = window.begin.saturating_sub(leads.max().unwrap_or_default());
         let turning = circle.angular_velocity() * circle.cycle_time_s;
         let stretch = CircleArc {
             start: (real(first) - self.phase) * turning,
@@ -113,13 +152,13 @@ impl AxisAlone<'_> {
             circle,
             model: self.model,
             reading: self.reading,
-            axes: [AxisRun {
+            axes: compensations.map(|compensation| AxisRun {
                 axis: self.axis,
                 drive: self.drive,
                 compensation,
-            }],
+            }),
         };
-        let mut path = Path {
+        let mut paths = compensations.map(|_| Path {
             circle,
             stretch,
             axis: self.axis,
@@ -127,13 +166,15 @@ impl AxisAlone<'_> {
             chord: [0.0; 2],
             steps: 0,
             cycles: Vec::with_capacity(window.end - window.from),
-        };
-        run.simulate(stretch, |cycle, [place]| {
+        });
+        run.simulate(stretch, |cycle, places| {
             if (window.from..window.end).contains(&(first + cycle)) {
-                path.take(cycle, place);
+                for (path, place) in paths.iter_mut().zip(places) {
+                    path.take(cycle, place);
+                }
             }
         })?;
-        Ok(path)
+        Ok(paths)
     }
 }
 
@@ -177,8 +218,8 @@ impl Path {
         }
     }
 
-    /// From the least to the largest deviation, less the line through both ends.
-    fn height(&self) -> f64 {
+    /// The least and the largest deviation of each cycle in µm, less the line through both ends.
+    fn straightened(&self) -> Vec<[f64; 2]> {
         let ends = ENDS.min(self.cycles.len() / 2).max(1);
         let mean = |cycles: &[[f64; 2]]| {
             let middles = cycles
@@ -191,14 +232,11 @@ impl Path {
             mean(&self.cycles[self.cycles.len() - ends..]),
         ];
         let slope = (last - first) / real((self.cycles.len() - ends).max(1));
-        let mut line = first;
-        let [mut lowest, mut highest] = [f64::MAX, f64::MIN];
-        for [least, most] in &self.cycles {
-            lowest = lowest.min(least - line);
-            highest = highest.max(most - line);
-            line += slope;
-        }
-        highest - lowest
+        let straight = |(at, extremes): (usize, &[f64; 2])| {
+            let line = first + slope * real(at);
+            extremes.map(|it| (it - line) * UM_PER_M)
+        };
+        self.cycles.iter().enumerate().map(straight).collect()
     }
 }
 
@@ -225,7 +263,7 @@ impl CycleWindow {
         let reversal = reversal(axis) / turning;
         let window = WINDOW / turning;
         let from = cycle(reversal - window.min(BEFORE));
-        let ahead_s = (BEFORE + SETTLING).min(reversal);
+        let ahead_s = (window.min(BEFORE) + SETTLING).min(reversal);
         Self {
             ahead: ahead_s * turning,
             begin: cycle(reversal - ahead_s),
@@ -233,6 +271,12 @@ impl CycleWindow {
             end: cycle(reversal + window.clamp(AFTER, LONGEST)).max(from + 2),
         }
     }
+}
+
+/// The number of CNC cycles in the window of a reversal.
+pub(super) fn cycles_of_window(circle: &Circle, axis: PlaneAxis) -> usize {
+    let window = CycleWindow::of(circle, axis);
+    window.end - window.from
 }
 
 impl CycleWindow {

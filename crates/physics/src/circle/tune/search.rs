@@ -73,6 +73,13 @@ impl<S: Space> Search<S> {
         AS_GOOD * self.least()
     }
 
+    /// The glitches that the best candidate leaves.
+    pub(super) fn best_heights(&self) -> Option<&Heights> {
+        let (_, best) = self.best?;
+        let found = self.good.iter().find(|(_, candidate)| *candidate == best);
+        found.map(|(heights, _)| heights)
+    }
+
     /// The smallest of the largest glitches so far.
     fn least(&self) -> f64 {
         self.best.map_or(f64::INFINITY, |(value, _)| value)

@@ -7,271 +7,188 @@
 //! `reversal_lookahead`.
 
 use super::candidate::Candidate;
-use super::cma_es::{CmaEs, POINTS};
-use super::heights::Heights;
-use super::ranges::Ranges;
 use crate::simulation::{DriveParameters, plant_list_at};
 use frictcomp::lists::{FrictionList, Points, TablePoint};
 
-/// The velocities of the points in µm/s, the first ones free.
-pub(in crate::circle) const INPUTS: [f64; 20] = [
-    0.0, 10.0, 20.0, 35.0, 60.0, 100.0, 150.0, 220.0, 330.0, 500.0, 700.0, 1000.0, 2000.0, 3500.0,
-    6000.0, 10_000.0, 25_000.0, 80_000.0, 200_000.0, 500_000.0,
+/// The velocities of the free points in µm/s. They are close where contacts bend: a circle of 0.5 to 5 m/min
+/// has moved by some µm there.
+const INPUTS: [f64; FREE] = [
+    0.0, 9.0, 18.0, 29.0, 42.0, 57.0, 74.0, 95.0, 122.0, 160.0, 210.0, 280.0, 380.0, 530.0, 740.0,
+    1000.0,
 ];
 
 /// Points up to 1 mm/s.
-pub(in crate::circle) const FREE: usize = 12;
+pub(super) const FREE: usize = 16;
+
+/// The fastest point.
+const FASTEST_UM_PER_S: f64 = 500_000.0;
+
+/// Points between the free ones and the fastest.
+const BETWEEN: usize = 3;
+
+/// Places for them, evenly on a logarithmic scale.
+const PLACES: i32 = 18;
 
 /// Greatest distance of an output from the curve, as a share.
-pub(in crate::circle) const BOUND: f64 = 0.6;
+pub(super) const BOUND: f64 = 0.6;
 
 /// Greatest bend of the shares of three neighbours: second difference of outputs by their curve
 /// (R5.29).
-const BEND: f64 = 0.15;
+pub(super) const BEND: f64 = 0.15;
 
-/// The first step of the search, as a part of the curve.
-const STEP: f64 = 0.15;
-
-/// Cycles of `delay_cycles` for a step of 1.
-const DELAY: f64 = 20.0;
-
-/// Units of `position_delay` for a step of 1.
-const DISTANCE: f64 = 20.0;
-
-/// Cycles of `reversal_lookahead` for a step of 1.
-const LOOKAHEAD: f64 = 10.0;
-
-/// Delay at which each search begins, relative to the unshaped list, in cycles: it ends in another
-/// valley.
-const LATER: [f64; RUNS] = [0.0, 10.0, 20.0];
+/// Greatest bend before outputs are rounded, which bends them a little more.
+pub(super) const ALLOWED: f64 = 0.97 * BEND;
 
 /// A scaling factor with which only the outputs scale the table.
 const UNSCALED: i16 = 1000;
 
-/// Number of searches that begin at different places.
-const RUNS: usize = 3;
+/// A shape: the distance of each slow output from the curve as a share, and the times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shape {
+    pub(super) factors: [f64; FREE],
+    pub(super) times: Candidate,
+}
 
-/// Generations of each search, before only the best of them continues.
-const TRIAL: usize = 40;
-
-/// Maximum number of generations, of all searches together.
-const MOST: usize = 300;
-
-/// Generations without a gain after which the search ends.
-const IDLE: usize = 60;
-
-/// Smallest gain that counts, as a share.
-const GAIN: f64 = 0.001;
-
-/// A search for outputs and times.
+/// The lists of shapes.
 #[derive(Debug, Clone)]
-pub(super) struct ShapeSearch {
-    runs: [SearchRun; RUNS],
-    /// Index of the current one.
-    current: usize,
-    start: Candidate,
-    ranges: Ranges,
+pub(super) struct Shapes {
     curve: FrictionList,
     points: Points,
-    asked: Vec<Vec<f64>>,
-    best: Option<(f64, FrictionList)>,
-    generations: usize,
-    idle: usize,
-    goal: f64,
 }
 
-/// One of the searches, and the least value that it found.
-#[derive(Debug, Clone)]
-struct SearchRun {
-    cma_es: CmaEs,
-    least: f64,
-}
-
-impl ShapeSearch {
-    /// Maximum number of lists that a search tries.
-    pub(super) const MOST_TRIALS: usize = MOST * POINTS;
-
-    /// A search around the friction curve of a drive with the parameters that are best without a
-    /// shape. Outputs are written as `points`.
-    pub(super) fn new(
-        drive: &DriveParameters,
-        start: Candidate,
-        ranges: &Ranges,
-        points: Points,
-    ) -> Self {
-        let begin = |run: usize| {
-            let mut mean = vec![0.0; FREE];
-            mean.extend([LATER[run] / DELAY, 0.0, 0.0]);
-            SearchRun {
-                cma_es: CmaEs::new(mean, STEP, run as u64),
-                least: f64::INFINITY,
-            }
-        };
+impl Shapes {
+    /// The shapes around the friction curve of a drive, outputs written as `points`.
+    pub(super) fn new(drive: &DriveParameters, points: Points) -> Self {
         Self {
-            runs: std::array::from_fn(begin),
-            current: 0,
-            start: Candidate {
-                scaling_factor: UNSCALED,
-                ..start
-            },
-            ranges: ranges.clone(),
-            curve: plant_list_at(drive, &INPUTS),
+            curve: plant_list_at(drive, &inputs(drive)),
             points,
-            asked: Vec::new(),
-            best: None,
-            generations: 0,
-            idle: 0,
-            goal: f64::INFINITY,
         }
     }
 
-    /// The lists to try next; `None` when the search is over.
-    pub(super) fn next_trials(&mut self) -> Option<Vec<FrictionList>> {
-        if self.generations >= MOST || self.idle >= IDLE {
-            return None;
+    /// The curve itself with these times.
+    pub(super) fn plain(times: Candidate) -> Shape {
+        Shape {
+            factors: [0.0; FREE],
+            times: Candidate {
+                scaling_factor: UNSCALED,
+                ..times
+            },
         }
-        self.current = self.generations / TRIAL;
-        if self.current >= RUNS {
-            let best = (0..RUNS)
-                .min_by(|&one, &other| self.runs[one].least.total_cmp(&self.runs[other].least));
-            self.current = best.unwrap_or_default();
-        }
-        self.asked = self.runs[self.current].cma_es.ask();
-        let lists = self.asked.iter().map(|point| self.shaped(point));
-        Some(lists.collect())
     }
 
-    /// Takes the results of the lists, in their order.
-    pub(super) fn take(&mut self, heights: &[Heights]) {
-        self.generations += 1;
-        self.idle += 1;
-        let asked = std::mem::take(&mut self.asked);
-        let mut values = Vec::new();
-        let run = &mut self.runs[self.current];
-        for heights in heights {
-            run.least = run.least.min(heights.worst_um());
-        }
-        for (point, heights) in asked.iter().zip(heights) {
-            let worst = heights.worst_um();
-            if self.best.as_ref().is_none_or(|(least, _)| worst < *least) {
-                self.best = Some((worst, self.shaped(point)));
-            }
-            values.push(heights.smooth_um() * (1.0 + self.excess(point)));
-        }
-        let least = self
-            .best
-            .as_ref()
-            .map_or(f64::INFINITY, |(least, _)| *least);
-        // While the searches compete, none of them is abandoned.
-        if least < self.goal * (1.0 - GAIN) || self.generations <= RUNS * TRIAL {
-            self.goal = least;
-            self.idle = 0;
-        }
-        self.runs[self.current].cma_es.tell(&values);
-    }
-
-    /// The best list that was tried.
-    pub(super) fn best(self) -> Option<FrictionList> {
-        self.best.map(|(_, list)| list)
-    }
-
-    /// The list of a point of the search, within all bounds.
-    fn shaped(&self, point: &[f64]) -> FrictionList {
-        let candidate = self.candidate(point);
-        let factors = smoothed(point);
-        let factors = factors.iter().chain(std::iter::repeat(&0.0));
+    /// The list of a shape before its outputs are rounded.
+    pub(super) fn exact(&self, shape: &Shape) -> FrictionList {
+        let factors = shape.factors.iter().chain(std::iter::repeat(&0.0));
         let bent = self.curve.table.iter().zip(factors);
         let bent = bent.map(|(point, factor)| TablePoint {
             input: point.input,
             output: point.output * (1.0 + factor),
         });
-        let list = FrictionList {
+        FrictionList {
             table: bent.collect(),
+            position_delay: shape.times.position_delay,
+            reversal_lookahead: shape.times.reversal_lookahead,
+            delay_cycles: shape.times.delay_cycles,
+            scaling_factor: shape.times.scaling_factor,
             ..self.curve.clone()
-        };
-        candidate.with_table(&list, self.points)
-    }
-
-    /// The parameters of a point of the search, within their ranges.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // within the ranges
-    fn candidate(&self, point: &[f64]) -> Candidate {
-        let [delay, distance, lookahead] = self.free(point);
-        let ranges = &self.ranges;
-        Candidate {
-            delay_cycles: (delay as i16)
-                .clamp(*ranges.delay_cycles.start(), *ranges.delay_cycles.end()),
-            position_delay: (distance as i32)
-                .clamp(*ranges.position_delay.start(), *ranges.position_delay.end()),
-            reversal_lookahead: (lookahead as u16).clamp(
-                *ranges.reversal_lookahead.start(),
-                *ranges.reversal_lookahead.end(),
-            ),
-            ..self.start
         }
     }
 
-    /// `delay_cycles`, `position_delay` and `reversal_lookahead` of a point as whole numbers, without regard to
-    /// their ranges.
-    fn free(&self, point: &[f64]) -> [f64; 3] {
-        let start = &self.start;
-        let starts = [
-            (f64::from(start.delay_cycles), DELAY),
-            (f64::from(start.position_delay), DISTANCE),
-            (f64::from(start.reversal_lookahead), LOOKAHEAD),
-        ];
-        let moved = point.get(FREE..).unwrap_or_default();
-        std::array::from_fn(|at| {
-            let (start, unit) = starts[at];
-            (start + unit * moved.get(at).copied().unwrap_or_default()).round()
-        })
+    /// The list of a shape as it is written.
+    pub(super) fn written(&self, shape: &Shape) -> FrictionList {
+        shape.times.with_table(&self.exact(shape), self.points)
     }
 
-    /// Returns the distance of a point of the search from its bounds.
-    fn excess(&self, point: &[f64]) -> f64 {
-        let smoothed = smoothed(point);
-        let factors = point.iter().zip(smoothed);
-        let outside = factors.map(|(wanted, taken)| (wanted - taken).powi(2));
-        let candidate = self.candidate(point);
-        let taken = [
-            f64::from(candidate.delay_cycles),
-            f64::from(candidate.position_delay),
-            f64::from(candidate.reversal_lookahead),
-        ];
-        let units = [DELAY, DISTANCE, LOOKAHEAD];
-        let wanted = self.free(point).into_iter().zip(taken).zip(units);
-        let beyond = wanted.map(|((wanted, taken), unit)| ((wanted - taken) / unit).powi(2));
-        outside.sum::<f64>() + beyond.sum::<f64>()
+    /// The change of an output by one unit, as a share.
+    pub(super) fn unit(&self, at: usize) -> f64 {
+        1.0 / self.curve.table[at].output
+    }
+
+    /// The shape whose outputs are those of another as they are written.
+    pub(super) fn rounded(&self, shape: &Shape) -> Shape {
+        let written = self.written(shape);
+        Shape {
+            factors: std::array::from_fn(|at| {
+                written.table[at].output / self.curve.table[at].output - 1.0
+            }),
+            ..*shape
+        }
+    }
+
+    /// The largest bend of the outputs of a shape, those above 1 mm/s as they are written.
+    pub(super) fn bend(&self, factors: &[f64; FREE]) -> f64 {
+        let rounded = self.points.rounded(&self.curve.table);
+        let share = |at: usize| match factors.get(at) {
+            Some(factor) => *factor,
+            None => rounded[at].output / self.curve.table[at].output - 1.0,
+        };
+        let bend = |at: usize| (share(at - 1) - 2.0 * share(at) + share(at + 1)).abs();
+        (1..=FREE).map(bend).fold(0.0, f64::max)
     }
 }
 
-/// The factors of a point of the search, within their bounds and without kinks: repeatedly, three
-/// neighbours that bend too much share the excess. The following points of the curve are not free.
-pub(in crate::circle) fn smoothed(point: &[f64]) -> [f64; FREE] {
-    const ROUNDS: usize = 200;
-    // Rounded outputs bend a little more.
-    const ALLOWED: f64 = 0.93 * BEND;
-    let mut factors = [0.0; FREE + 2];
-    for (factor, wanted) in factors.iter_mut().zip(&point[..FREE]) {
-        *factor = wanted.clamp(-BOUND, BOUND);
+/// The velocities of all points: above 1 mm/s those between which the curve is closest to straight lines.
+fn inputs(drive: &DriveParameters) -> Vec<f64> {
+    let slowest = INPUTS[FREE - 1];
+    let place = |at: i32| {
+        let part = f64::from(at) / f64::from(PLACES + 1);
+        (slowest * (FASTEST_UM_PER_S / slowest).powf(part)).round()
+    };
+    let places: Vec<f64> = (0..=PLACES + 1).map(place).collect();
+    let curve: Vec<f64> = places
+        .iter()
+        .map(|it| drive.friction_n(it * 1e-6))
+        .collect();
+    // The largest distance of the curve from the line between two places.
+    let missed = |from: usize, to: usize| {
+        let slope = (curve[to] - curve[from]) / (places[to] - places[from]);
+        let between = (from + 1..to).map(|at| {
+            let line = curve[from] + slope * (places[at] - places[from]);
+            (curve[at] - line).abs()
+        });
+        between.fold(0.0, f64::max)
+    };
+    // For each place the least distance with the points so far, and the points.
+    let mut best: Vec<(f64, Vec<usize>)> = (0..places.len())
+        .map(|to| (missed(0, to), Vec::new()))
+        .collect();
+    for _ in 0..BETWEEN {
+        let longer = |to: usize| {
+            let each = (1..to).map(|at| {
+                let (before, points) = &best[at];
+                let points = points.iter().copied().chain([at]).collect();
+                (before.max(missed(at, to)), points)
+            });
+            let least = each.min_by(|one: &(f64, Vec<usize>), other| one.0.total_cmp(&other.0));
+            least.unwrap_or_else(|| best[to].clone())
+        };
+        best = (0..places.len()).map(longer).collect();
     }
-    for _ in 0..ROUNDS {
-        let mut is_smooth = true;
-        for at in 1..=FREE {
-            let bend = factors[at - 1] - 2.0 * factors[at] + factors[at + 1];
-            let excess = bend - bend.clamp(-ALLOWED, ALLOWED);
-            if excess.abs() > 1e-3 {
-                is_smooth = false;
-            }
-            // The normal of the bound is 1, -2, 1; points that are not free do not move.
-            let moved = |at: usize| if at < FREE { 1.0 } else { 0.0 };
-            let length = moved(at - 1) + 4.0 * moved(at) + moved(at + 1);
-            for (place, weight) in [(at - 1, 1.0), (at, -2.0), (at + 1, 1.0)] {
-                factors[place] -= moved(place) * weight * excess / length;
-            }
-        }
-        if is_smooth {
-            break;
+    let chosen = best.pop().map(|it| it.1).unwrap_or_default();
+    let between = chosen.into_iter().map(|at| places[at]);
+    INPUTS
+        .into_iter()
+        .chain(between)
+        .chain([FASTEST_UM_PER_S])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Preset;
+
+    #[test]
+    fn the_fast_points_follow_the_curve() {
+        // R5.25
+        let drive = Preset::Mid.plant().x;
+        let list = Shapes::new(&drive, Points::Whole).curve;
+        assert_eq!(list.table.len(), 20);
+        for pair in list.table.windows(2) {
+            let middle = f64::midpoint(pair[0].input, pair[1].input);
+            let line = f64::midpoint(pair[0].output, pair[1].output);
+            let curve = drive.friction_n(middle * 1e-6) / drive.force_per_unit_n;
+            assert!((line - curve).abs() < 0.005 * curve, "{pair:?}: {curve}");
         }
     }
-    std::array::from_fn(|at| factors[at].clamp(-BOUND, BOUND))
 }

@@ -120,19 +120,15 @@ impl Task {
     }
 
     /// Returns the remaining glitches of a compensation at reversals of single axes, on each
-    /// circle. As soon as one reaches `bound_um` the candidate has lost.
+    /// circle, simulated in this order. As soon as one reaches `bound_um` the candidate has lost.
     pub(super) fn heights(
         &self,
         axes: &[PlaneAxis],
         compensation: &Method,
-        (circles, bound_um): (&[Circle], f64),
+        (circles, order, bound_um): (&[Circle], &[usize], f64),
     ) -> Result<Heights, CircleError> {
         let mut heights = vec![0.0; circles.len()];
-        let mut order: Vec<usize> = (0..circles.len()).collect();
-        // The fastest circle is the shortest simulation.
-        let feed = |at: &usize| circles[*at].feed_mm_per_min;
-        order.sort_by(|one, other| feed(other).total_cmp(&feed(one)));
-        for at in order {
+        for &at in order {
             heights[at] = self.glitch_um(axes, circles[at], Some(compensation))?;
             if heights[at] >= bound_um {
                 return Ok(Heights::lost());

@@ -7,9 +7,9 @@ use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
 use super::check::{CHECKED, Deviating, RemainingGlitch};
+use super::descent::Descent;
 use super::heights::Heights;
 use super::search::Search;
-use super::shape::ShapeSearch;
 use super::space::{Lists, Space, Stictions};
 use super::task::TuningAim;
 use super::task::{Shaping, Task, Variant};
@@ -127,15 +127,15 @@ impl Tuned {
 
 /// Independent simulations: their number, and a function that makes one of them.
 pub trait Simulations: Send + Sync {
-    /// Makes all of them, in any order, and returns their results in the original order.
+    /// Makes all of them, in any order, and returns the values of each in the original order.
     ///
     /// # Errors
     /// A circle that cannot be simulated.
     fn make(
         &self,
         count: usize,
-        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
-    ) -> Result<Vec<Heights>, CircleError>;
+        simulation: &(dyn Fn(usize) -> Result<Vec<f64>, CircleError> + Sync),
+    ) -> Result<Vec<Vec<f64>>, CircleError>;
 }
 
 /// One after the other.
@@ -146,8 +146,8 @@ impl Simulations for InOrder {
     fn make(
         &self,
         count: usize,
-        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
-    ) -> Result<Vec<Heights>, CircleError> {
+        simulation: &(dyn Fn(usize) -> Result<Vec<f64>, CircleError> + Sync),
+    ) -> Result<Vec<Vec<f64>>, CircleError> {
         (0..count).map(simulation).collect()
     }
 }
@@ -234,10 +234,10 @@ struct TunedLists {
 
 /// A list that without a shape removes most of the glitch beyond the tuned range must
 /// do so with a shape, too.
-#[derive(Debug, Clone, Copy)]
-struct Reserve {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reserve {
     /// A circle beyond the range.
-    circle: Circle,
+    pub(super) circle: Circle,
     /// Remaining glitch of the unshaped list there, in µm.
     left_um: f64,
 }
@@ -259,10 +259,10 @@ impl Reserve {
         Ok(holds.then_some(Self { circle, left_um }))
     }
 
-    /// Converts a glitch beyond the range to one within it, for a list that leaves `worst_um` there: larger than
-    /// that if too much is left.
-    fn weighed(&self, worst_um: f64, glitch_um: f64) -> f64 {
-        worst_um * glitch_um / self.left_um.max(MORE * worst_um)
+    /// The weight of a glitch beyond the range for a list that leaves `worst_um` within it: with too much left
+    /// there, it counts as more than that.
+    pub(super) fn weight(&self, worst_um: f64) -> f64 {
+        worst_um / self.left_um.max(MORE * worst_um)
     }
 }
 
@@ -272,7 +272,7 @@ impl Task {
         /// Usual number of lists in the search for the parameters of a list.
         const PARAMETERS: usize = 400;
         let shapes = match self.shaping {
-            Shaping::Allowed => ShapeSearch::MOST_TRIALS,
+            Shaping::Allowed => Descent::USUAL_SIMULATIONS,
             Shaping::None => 0,
         };
         let searches = match self.aim {
@@ -351,7 +351,7 @@ impl Tuning<'_> {
         let looked_at = &PlaneAxis::ALL[..if is_same { 1 } else { 2 }];
         let reversals = Task::reversals_of_a_check();
         let count = looked_at.len() * circles.len() * reversals;
-        let heights = self.simulations.make(count, &|at| {
+        let glitches = self.simulations.make(count, &|at| {
             let (row, reversal) = (at / reversals, at % reversals);
             let plane_axis = looked_at[row / circles.len()];
             let compensation = match plane_axis {
@@ -359,13 +359,11 @@ impl Tuning<'_> {
                 PlaneAxis::Y => &axes[1],
             };
             let circle = circles[row % circles.len()];
-            task.check_reversal(
-                plane_axis,
-                (circle, reversal),
-                compensation.compensation.as_ref(),
-            )
+            let compensation = compensation.compensation.as_ref();
+            let glitch = task.check_reversal(plane_axis, (circle, reversal), compensation)?;
+            Ok(vec![glitch])
         })?;
-        let glitches: Vec<f64> = heights.iter().map(Heights::worst_um).collect();
+        let glitches = glitches.concat();
         let rows: Vec<RemainingGlitch> = glitches
             .chunks(reversals)
             .enumerate()
@@ -385,12 +383,11 @@ impl Tuning<'_> {
         &self,
         axes: &[PlaneAxis],
         compensation: &Method,
-        bound_um: f64,
+        (order, bound_um): (&[usize], f64),
     ) -> Result<Heights, CircleError> {
         let Some(limit_um) = self.limit_um else {
-            return self
-                .task
-                .heights(axes, compensation, (&self.searched, bound_um));
+            let circles = (&self.searched[..], order, bound_um);
+            return self.task.heights(axes, compensation, circles);
         };
         let of = |circle: &Circle| {
             let glitches = Deviating::ALL.map(|deviating| {
@@ -429,7 +426,7 @@ impl Tuning<'_> {
             is_shaped: false,
         };
         let shaped = match task.shaping {
-            Shaping::Allowed => self.shape(axes, candidate, trials)?,
+            Shaping::Allowed => Some(self.shape(axes, candidate, trials)?),
             Shaping::None => None,
         };
         Ok((plain, shaped))
@@ -470,12 +467,27 @@ impl Tuning<'_> {
         let mut search = Search::new(space);
         while let Some(trials) = search.next_trials() {
             let bound = search.bound();
+            let order = self.order(search.best_heights());
             let heights = self.simulations.make(trials.len(), &|at| {
-                self.heights(axes, &of(trials[at]), bound)
+                let heights = self.heights(axes, &of(trials[at]), (&order, bound))?;
+                Ok(heights.0)
             })?;
+            let heights: Vec<Heights> = heights.into_iter().map(Heights).collect();
             search.take(&trials, &heights);
         }
         Ok(search)
+    }
+
+    /// The order in which circles are simulated: first those on which the best candidate leaves most, since
+    /// another one loses there soonest; without one the fastest, which is the shortest simulation.
+    fn order(&self, best: Option<&Heights>) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.searched.len()).collect();
+        let rank = |at: usize| match best {
+            Some(best) => best.0[at],
+            None => self.searched[at].feed_mm_per_min,
+        };
+        order.sort_by(|&one, &other| rank(other).total_cmp(&rank(one)));
+        order
     }
 
     /// The best shape of the points below 1 mm/s.
@@ -484,30 +496,20 @@ impl Tuning<'_> {
         axes: &[PlaneAxis],
         start: Candidate,
         trials: &mut usize,
-    ) -> Result<Option<TunedAxis>, CircleError> {
+    ) -> Result<TunedAxis, CircleError> {
         let task = self.task;
-        let drive = task.drive(axes[0]);
-        let plain = start.list(drive, task.points).into();
-        let reserve = Reserve::of(task, axes, &plain)?;
-        let mut search = ShapeSearch::new(drive, start, &task.ranges, task.points);
-        while let Some(lists) = search.next_trials() {
-            *trials += lists.len();
-            let lists: Vec<Method> = lists.into_iter().map(Method::from).collect();
-            let heights = self.simulations.make(lists.len(), &|at| {
-                let list = &lists[at];
-                let mut heights = self.heights(axes, list, f64::INFINITY)?;
-                if let Some(reserve) = &reserve {
-                    let glitch = task.glitch_um(axes, reserve.circle, Some(list))?;
-                    heights.0.push(reserve.weighed(heights.worst_um(), glitch));
-                }
-                Ok(heights)
-            })?;
-            search.take(&heights);
+        let plain = start.list(task.drive(axes[0]), task.points).into();
+        let mut descent = Descent::new(task, axes[0], self.simulations);
+        descent.judge(&self.searched, self.limit_um);
+        if let Some(reserve) = Reserve::of(task, axes, &plain)? {
+            descent.keep(reserve);
         }
-        Ok(search.best().map(|list| TunedAxis {
+        let list = descent.best(start, self.limit_um)?;
+        *trials += descent.trials();
+        Ok(TunedAxis {
             compensation: Some(list.into()),
             is_shaped: true,
-        }))
+        })
     }
 
     /// The glitches of whole circles with the result: for each circle one per variant.
@@ -525,9 +527,9 @@ impl Tuning<'_> {
                 let glitch =
                     self.task
                         .whole_um(circles[circle], &compensation, variants[variant])?;
-                Ok(Heights(vec![glitch]))
+                Ok(vec![glitch])
             })?;
-        let values: Vec<f64> = glitches.iter().map(Heights::worst_um).collect();
+        let values = glitches.concat();
         Ok(values
             .chunks(variants.len().max(1))
             .map(<[f64]>::to_vec)

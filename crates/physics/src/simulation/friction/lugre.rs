@@ -11,6 +11,10 @@ use super::curve::{Friction, LEAST_N, fading};
 #[derive(Debug, Clone)]
 pub(in crate::simulation) struct Lugre {
     friction: Friction,
+    /// Reciprocal of the stiffness: a step multiplies where it would wait for a division.
+    per_stiffness: f64,
+    /// Reciprocal of the velocity above which the damping fades.
+    per_damping_velocity: f64,
     /// Deflection z in m.
     deflection: f64,
 }
@@ -21,6 +25,8 @@ impl Lugre {
         let deflection = slides * friction.level_towards_n(velocity) / friction.stiffness_n_per_m;
         Self {
             friction: friction.clone(),
+            per_stiffness: friction.stiffness_n_per_m.recip(),
+            per_damping_velocity: friction.damping_velocity_m_per_s.recip(),
             deflection: deflection.copysign(velocity),
         }
     }
@@ -33,11 +39,13 @@ impl Lugre {
         let speed = velocity.abs();
         let level = contact.level_towards_n(velocity).max(LEAST_N);
         let rate = contact.stiffness_n_per_m * speed / level;
-        let steady = (level / contact.stiffness_n_per_m).copysign(velocity);
+        let steady = (level * self.per_stiffness).copysign(velocity);
         self.deflection = steady + (self.deflection - steady) * fading(rate * STEP_S);
         let bending = velocity - rate * self.deflection;
+        // The damping fades with the velocity (R5.11).
+        let ratio = velocity * self.per_damping_velocity;
         contact.stiffness_n_per_m * self.deflection
-            + contact.micro_damping(velocity) * bending
+            + contact.damping_n_s_per_m * fading(ratio * ratio) * bending
             + contact.viscous_n_s_per_m * velocity
     }
 }

@@ -1,11 +1,9 @@
 mod advice;
-mod lints;
 mod model;
 mod program;
 mod saved;
 mod sessions;
 mod undescribed;
-mod unknown;
 mod versions;
 mod ways;
 mod ways_counted;

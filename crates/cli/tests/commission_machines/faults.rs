@@ -154,14 +154,17 @@ pub(crate) fn of_lists_off() -> Vec<Fault> {
     vec![
         Fault {
             lists: |it| times(it, [0.5; 2]),
+            driven: |text| text.replace("[COMP OFF", "[COMP ON"),
             ..Fault::off("half of the lists on in stage 1", ALREADY)
         },
         Fault {
             lists: |it| it.map(Some),
+            driven: |text| text.replace("[COMP OFF", "[COMP ON"),
             ..Fault::off("the lists on in stage 1", ALREADY)
         },
         Fault {
             lists: |[_, y]| [None, Some(y)],
+            driven: |text| text.replace("[COMP OFF", "[COMP ON"),
             ..Fault::off("the list of Y on in stage 1", ALREADY)
         },
         Fault {

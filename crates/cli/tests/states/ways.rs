@@ -55,15 +55,6 @@ fn of_code(said: &str, code: Code) -> Vec<&str> {
     said.lines().filter(|line| line.contains(&word)).collect()
 }
 
-/// Two commands under conditions, and the FC401 of the axis.
-fn left_by(between: &str, [first, second]: [&str; 2]) -> String {
-    let off = format!("$IF {first}\nX[COMP OFF FRICT]\n$ENDIF\n");
-    let on = format!("$IF {second}\nX[COMP ON FRICT]\n$ENDIF\n");
-    let program = format!("{off}{between}{on}M30\n");
-    let said = said(&Bench::new(), &[&program]);
-    of_code(&said, Code::Fc401).join("\n")
-}
-
 #[test]
 fn a_possible_state_stays_in_the_set_and_in_what_the_next_program_finds() {
     // R14.1 R14.7
@@ -111,36 +102,6 @@ fn no_setting_raises_what_needs_a_change_and_errors_stay_errors() {
     let refused = of_code(&refused, Code::PErr70495)[0];
     assert!(refused.starts_with("error"), "{refused}");
 }
-
-/// The block of a message with a code, and the text before it on all ways.
-const IN_A_BRANCH: [(Code, &str, &str); 22] = [
-    (Code::PErr21301, "", "X[COMPP ON FRICT]"),
-    (
-        Code::PErr21403,
-        "#AX LINK [1, X = Y]\n#AX LINK ON [1]\n",
-        "X[COMP OFF FRICT]",
-    ),
-    (Code::PErr70495, "", "Z[COMP ON FRICT]"),
-    (Code::Fc201, "", "X[COMP ON]"),
-    (Code::Fc202, "", "X[COMP ON FRIC]"),
-    (Code::Fc203, "", "X[COMP OFF_ALL FRICT]"),
-    (Code::Fc204, "", "X[COMP ON OFF FRICT]"),
-    (Code::Fc205, "", "X[COMP ON FRICT"),
-    (Code::Fc207, "", "X5 = = 7"),
-    (Code::Fc301, "", "X[COMP ON FRICT] X[COMP OFF FRICT]"),
-    (Code::Fc302, "", "S[COMP ON FRICT]"),
-    (Code::Fc303, "", "B[COMP ON FRICT]"),
-    (Code::Fc311, "", "V.P.Q = P99"),
-    (Code::Fc312, "", "P1 = 1 / 0"),
-    (Code::Fc313, "", "G00 G01 X5"),
-    (Code::Fc316, "G17 G01 X0 Y0 F100\n", "G02 X0 Y0 R5"),
-    (Code::Fc320, "", "L missing.nc"),
-    (Code::Fc402, "X[COMP OFF FRICT]\n", "X[COMP OFF FRICT]"),
-    (Code::Fc405, "", "X[COMP OFF FRICT] G01 X5 F100"),
-    (Code::Fc409, "", "G01 X0 F100\nX5\nX[COMP OFF FRICT]\nX9"),
-    (Code::Fc902, "", "L V.E.NAME"),
-    (Code::Fc901, "", "$IF V.E.B == 1\nY[COMP OFF FRICT]\n$ENDIF"),
-];
 
 #[test]
 fn a_case_says_what_a_value_is_only_where_it_is_asked_for_by_itself() {
@@ -213,4 +174,3 @@ fn what_a_program_of_the_machine_leaves_is_a_way() {
         })
     );
 }
-

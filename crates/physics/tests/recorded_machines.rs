@@ -1,4 +1,4 @@
-//! Recorded circles of machines that share no code with the plants of this package (R16.10, R16.11, R16.15, R16.19).
+//! Recorded circles of machines that share no code with the plants of this package (R16.10, R16.11, R16.15).
 
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp_physics::circle::{
@@ -195,7 +195,7 @@ fn fitted(machine: &Machine, seed: u64) -> [FittedDrive; 2] {
     ]
 }
 
-/// R16.19: of 40 fits on machines of the structure of the plants, each interval of contact, Kp, friction and delay
+/// Of 40 fits on machines of the structure of the plants, each interval of contact, Kp, friction and delay
 /// contains the truth in 35 or more, and is narrow, or one-sided. The table of docs/reliability.md.
 #[test]
 #[ignore = "minutes"]

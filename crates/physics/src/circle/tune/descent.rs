@@ -12,9 +12,9 @@ use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
 use super::check::{Deviating, PLACES};
-use super::minimax::{LinearCurve, LinearModel, LinearValue, Row};
+use super::minimax::{FreeValues, LinearCurve, LinearModel, LinearValue};
 use super::reversal::{AxisAlone, cycles_of_window, phase_at};
-use super::shape::{ALLOWED, BEND, BOUND, FREE, Shape, Shapes};
+use super::shape::{ALLOWED, BEND, BOUND, FREE, ListShape, ShapedLists};
 use super::task::Task;
 use super::tuned::{Reserve, Simulations};
 use crate::simulation::DriveParameters;
@@ -98,7 +98,7 @@ struct JudgedReversal {
 /// A shape that was simulated.
 #[derive(Debug, Clone)]
 struct DrivenShape {
-    shape: Shape,
+    shape: ListShape,
     /// The extremes of each cycle at each reversal.
     extremes: Vec<Vec<[f64; 2]>>,
     /// Weight of each reversal.
@@ -112,7 +112,7 @@ pub(super) struct Descent<'a> {
     task: &'a Task,
     axis: PlaneAxis,
     simulations: &'a dyn Simulations,
-    shapes: Shapes,
+    shapes: ShapedLists,
     reversals: Vec<JudgedReversal>,
     trials: usize,
 }
@@ -126,7 +126,7 @@ impl<'a> Descent<'a> {
             task,
             axis,
             simulations,
-            shapes: Shapes::new(task.drive(axis), task.points),
+            shapes: ShapedLists::new(task.drive(axis), task.points),
             reversals: Vec::new(),
             trials: 0,
         }
@@ -195,7 +195,7 @@ impl<'a> Descent<'a> {
         // Half of the circles show in which valley to search.
         let all = self.reversals.clone();
         self.reversals = all.iter().step_by(2).cloned().collect();
-        let first = self.drive(Shapes::plain(start))?;
+        let first = self.drive(ShapedLists::plain(start))?;
         let best = self.descend(first, TRIAL)?;
         self.reversals = all;
         let best = self.drive(best.shape)?;
@@ -208,7 +208,7 @@ impl<'a> Descent<'a> {
             best = self.descend(best, AGAIN)?;
         }
         // Whole numbers may leave more elsewhere.
-        let mut written: Option<(f64, Shape)> = None;
+        let mut written: Option<(f64, ListShape)> = None;
         for _ in 0..EXCHANGES {
             let whole = self.whole(&best)?;
             let (largest, is_missed) = self.exchange(&whole, limit_um)?;
@@ -276,12 +276,12 @@ impl<'a> Descent<'a> {
         }
     }
 
-    fn drive(&mut self, shape: Shape) -> Result<DrivenShape, CircleError> {
+    fn drive(&mut self, shape: ListShape) -> Result<DrivenShape, CircleError> {
         let driven = self.drive_all(&[shape])?;
         Ok(driven.into_iter().next().expect("as many as shapes"))
     }
 
-    fn drive_all(&mut self, shapes: &[Shape]) -> Result<Vec<DrivenShape>, CircleError> {
+    fn drive_all(&mut self, shapes: &[ListShape]) -> Result<Vec<DrivenShape>, CircleError> {
         self.trials += shapes.len();
         let lists: Vec<Method> = shapes
             .iter()
@@ -303,7 +303,7 @@ impl<'a> Descent<'a> {
             };
             Ok(extremes.into_flattened())
         })?;
-        let judged = |(number, shape): (usize, &Shape)| {
+        let judged = |(number, shape): (usize, &ListShape)| {
             let of_reversal = |reversal: usize| {
                 let values = &driven[number / LANES * count + reversal];
                 let (pairs, _) = values.as_chunks::<2>();
@@ -317,7 +317,7 @@ impl<'a> Descent<'a> {
     }
 
     /// A shape with the extremes at each reversal.
-    fn judged(&self, shape: Shape, extremes: Vec<Vec<[f64; 2]>>) -> DrivenShape {
+    fn judged(&self, shape: ListShape, extremes: Vec<Vec<[f64; 2]>>) -> DrivenShape {
         let heights: Vec<f64> = extremes.iter().map(|it| height(it)).collect();
         let inside = self.reversals.iter().zip(&heights);
         let inside = inside.filter(|(it, _)| !matches!(it.role, Role::Beyond(_)));
@@ -391,7 +391,7 @@ impl<'a> Descent<'a> {
     ) -> Result<(Vec<DrivenShape>, Vec<DrivenShape>), CircleError> {
         let mut shapes = probes(&best.shape).to_vec();
         let others = self.other_times(&best.shape.times, later);
-        shapes.extend(others.into_iter().map(|times| Shape {
+        shapes.extend(others.into_iter().map(|times| ListShape {
             times,
             ..best.shape
         }));
@@ -441,7 +441,7 @@ impl<'a> Descent<'a> {
         best: &DrivenShape,
         (probes, others): (&[DrivenShape], &[DrivenShape]),
         reach: f64,
-    ) -> Result<Vec<Shape>, CircleError> {
+    ) -> Result<Vec<ListShape>, CircleError> {
         let from = |number: usize| others.get(number).unwrap_or(best);
         let slopes = self.linear(best, probes);
         // Pieces of work: each of the others, and the best itself with both steps.
@@ -520,7 +520,7 @@ impl<'a> Descent<'a> {
         }
         let model = self.pruned(exact)?;
         let starts = [nearest.factors, self.dive(&exact.shape, &model)];
-        let from = |start: [f64; FREE]| Shape {
+        let from = |start: [f64; FREE]| ListShape {
             factors: self.whole_step(start, (&exact.shape.factors, &model)),
             ..exact.shape
         };
@@ -533,7 +533,7 @@ impl<'a> Descent<'a> {
         for _ in 0..WHOLE {
             let model = self.pruned(&best)?;
             let factors = best.shape.factors;
-            let next = Shape {
+            let next = ListShape {
                 factors: self.whole_step(factors, (&factors, &model)),
                 ..best.shape
             };
@@ -574,7 +574,7 @@ impl<'a> Descent<'a> {
 
     /// Factors of whole outputs: the output that is closest to a whole number becomes that or the other one
     /// beside it, whichever leaves less once the others have followed, and so on.
-    fn dive(&self, shape: &Shape, model: &LinearModel) -> [f64; FREE] {
+    fn dive(&self, shape: &ListShape, model: &LinearModel) -> [f64; FREE] {
         let mut model = model.clone();
         let mut change = model.minimum();
         let mut free: Vec<usize> = (0..FREE).collect();
@@ -649,7 +649,7 @@ impl<'a> Descent<'a> {
 }
 
 /// The shapes with each output changed.
-fn probes(shape: &Shape) -> [Shape; FREE] {
+fn probes(shape: &ListShape) -> [ListShape; FREE] {
     std::array::from_fn(|at| {
         let mut probe = *shape;
         probe.factors[at] += PROBE;
@@ -658,11 +658,11 @@ fn probes(shape: &Shape) -> [Shape; FREE] {
 }
 
 /// The limits of a step from a shape.
-fn limits(shape: &Shape, reach: f64) -> Vec<LinearValue> {
+fn limits(shape: &ListShape, reach: f64) -> Vec<LinearValue> {
     /// A limit that is reached leaves this much.
     const LEAST: f64 = 1e-4;
     let mut limits = Vec::new();
-    let mut limit = |slopes: Row, room: f64| {
+    let mut limit = |slopes: FreeValues, room: f64| {
         limits.push(LinearValue {
             base: -room.max(LEAST),
             slopes,

@@ -8,7 +8,7 @@ use super::super::linear::Normal;
 use super::shape::FREE;
 
 /// A value for each variable: the outputs up to 1 mm/s.
-pub(super) type Row = [f64; FREE];
+pub(super) type FreeValues = [f64; FREE];
 
 /// The smoothing at each stage, as a part of the largest height.
 const SMOOTH: [f64; 3] = [0.03, 0.008, 0.003];
@@ -26,11 +26,11 @@ const NEGLIGIBLE: f64 = 12.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LinearValue {
     pub(super) base: f64,
-    pub(super) slopes: Row,
+    pub(super) slopes: FreeValues,
 }
 
 impl LinearValue {
-    fn at(&self, point: &Row) -> f64 {
+    fn at(&self, point: &FreeValues) -> f64 {
         self.base + product(&self.slopes, point)
     }
 
@@ -48,7 +48,7 @@ pub(super) struct LinearCurve {
 }
 
 impl LinearCurve {
-    fn height(&self, point: &Row) -> f64 {
+    fn height(&self, point: &FreeValues) -> f64 {
         let most = |side: &Vec<LinearValue>| {
             let values = side.iter().map(|it| it.at(point));
             values.fold(f64::NEG_INFINITY, f64::max)
@@ -67,13 +67,13 @@ pub(super) struct LinearModel {
 /// A smooth value with its first and second derivatives.
 struct Smooth {
     value: f64,
-    slopes: Row,
+    slopes: FreeValues,
     bends: Normal<FREE>,
 }
 
 impl LinearModel {
     /// The largest height at a point.
-    pub(super) fn worst(&self, point: &Row) -> f64 {
+    pub(super) fn worst(&self, point: &FreeValues) -> f64 {
         let heights = self.curves.iter().map(|it| it.height(point));
         heights.fold(0.0, f64::max)
     }
@@ -100,7 +100,7 @@ impl LinearModel {
     }
 
     /// The point within the limits whose largest height is smallest. The limits must hold at 0.
-    pub(super) fn minimum(&self) -> Row {
+    pub(super) fn minimum(&self) -> FreeValues {
         let mut point = [0.0; FREE];
         let worst = self.worst(&point);
         if worst <= 0.0 {
@@ -122,7 +122,11 @@ impl LinearModel {
     }
 
     /// The furthest point along a step that is lower than the one where it begins.
-    fn downhill(&self, point: &Row, (step, smoothing): (&Row, f64)) -> Option<Row> {
+    fn downhill(
+        &self,
+        point: &FreeValues,
+        (step, smoothing): (&FreeValues, f64),
+    ) -> Option<FreeValues> {
         let before = self.value(point, smoothing)?;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
@@ -138,7 +142,7 @@ impl LinearModel {
     }
 
     /// The smooth height at a point with the barriers; `None` beyond a limit.
-    fn value(&self, point: &Row, smoothing: f64) -> Option<f64> {
+    fn value(&self, point: &FreeValues, smoothing: f64) -> Option<f64> {
         let heights = self.curves.iter().map(|curve| {
             let sides = curve.sides.iter();
             let of_side = |side: &Vec<LinearValue>| {
@@ -159,7 +163,7 @@ impl LinearModel {
         Some(value)
     }
 
-    fn newton_step(&self, point: &Row, smoothing: f64) -> Option<Row> {
+    fn newton_step(&self, point: &FreeValues, smoothing: f64) -> Option<FreeValues> {
         let curves = self.curves.iter().map(|curve| {
             let [mut upper, lower] = curve
                 .sides
@@ -205,7 +209,7 @@ impl LinearModel {
 
 impl Smooth {
     /// The smooth largest of values.
-    fn most_of(values: &[LinearValue], (point, smoothing): (&Row, f64)) -> Self {
+    fn most_of(values: &[LinearValue], (point, smoothing): (&FreeValues, f64)) -> Self {
         let at: Vec<f64> = values.iter().map(|it| it.at(point)).collect();
         let shares = shares(&at, smoothing);
         let mut slopes = [0.0; FREE];
@@ -236,7 +240,7 @@ impl Smooth {
     }
 }
 
-fn product(one: &Row, other: &Row) -> f64 {
+fn product(one: &FreeValues, other: &FreeValues) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 

@@ -44,19 +44,19 @@ const UNSCALED: i16 = 1000;
 
 /// A shape: the distance of each slow output from the curve as a share, and the times.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Shape {
+pub(super) struct ListShape {
     pub(super) factors: [f64; FREE],
     pub(super) times: Candidate,
 }
 
 /// The lists of shapes.
 #[derive(Debug, Clone)]
-pub(super) struct Shapes {
+pub(super) struct ShapedLists {
     curve: FrictionList,
     points: Points,
 }
 
-impl Shapes {
+impl ShapedLists {
     /// The shapes around the friction curve of a drive, outputs written as `points`.
     pub(super) fn new(drive: &DriveParameters, points: Points) -> Self {
         Self {
@@ -66,8 +66,8 @@ impl Shapes {
     }
 
     /// The curve itself with these times.
-    pub(super) fn plain(times: Candidate) -> Shape {
-        Shape {
+    pub(super) fn plain(times: Candidate) -> ListShape {
+        ListShape {
             factors: [0.0; FREE],
             times: Candidate {
                 scaling_factor: UNSCALED,
@@ -77,7 +77,7 @@ impl Shapes {
     }
 
     /// The list of a shape before its outputs are rounded.
-    pub(super) fn exact(&self, shape: &Shape) -> FrictionList {
+    pub(super) fn exact(&self, shape: &ListShape) -> FrictionList {
         let factors = shape.factors.iter().chain(std::iter::repeat(&0.0));
         let bent = self.curve.table.iter().zip(factors);
         let bent = bent.map(|(point, factor)| TablePoint {
@@ -95,7 +95,7 @@ impl Shapes {
     }
 
     /// The list of a shape as it is written.
-    pub(super) fn written(&self, shape: &Shape) -> FrictionList {
+    pub(super) fn written(&self, shape: &ListShape) -> FrictionList {
         shape.times.with_table(&self.exact(shape), self.points)
     }
 
@@ -105,9 +105,9 @@ impl Shapes {
     }
 
     /// The shape whose outputs are those of another as they are written.
-    pub(super) fn rounded(&self, shape: &Shape) -> Shape {
+    pub(super) fn rounded(&self, shape: &ListShape) -> ListShape {
         let written = self.written(shape);
-        Shape {
+        ListShape {
             factors: std::array::from_fn(|at| {
                 written.table[at].output / self.curve.table[at].output - 1.0
             }),
@@ -182,7 +182,7 @@ mod tests {
     fn the_fast_points_follow_the_curve() {
         // R5.25
         let drive = Preset::Mid.plant().x;
-        let list = Shapes::new(&drive, Points::Whole).curve;
+        let list = ShapedLists::new(&drive, Points::Whole).curve;
         assert_eq!(list.table.len(), 20);
         for pair in list.table.windows(2) {
             let middle = f64::midpoint(pair[0].input, pair[1].input);

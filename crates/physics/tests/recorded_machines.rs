@@ -195,7 +195,7 @@ fn fitted(machine: &Machine, seed: u64) -> [FittedDrive; 2] {
     ]
 }
 
-/// Of 40 fits on machines of the structure of the plants, each interval of contact, Kp, friction and delay
+/// R16.19: of 40 fits on machines of the structure of the plants, each interval of contact, Kp, friction and delay
 /// contains the truth in 35 or more, and is narrow, or one-sided. The table of docs/reliability.md.
 #[test]
 #[ignore = "minutes"]
@@ -242,7 +242,7 @@ fn intervals_hold_the_truth() {
                 let [value, low, high] = [it.value, it.low, it.high].map(|it| it / truth);
                 println!("{} {value:.3} ({low:.3} to {high:.3}) {holds}", NAMES[at]);
                 match at {
-                    0 => {}
+                    0 => assert!(is_one_sided || high <= 1.4 * low, "{}: {it:?}", NAMES[at]),
                     1 | 2 => assert!(high <= 1.15 * low, "{}: {it:?}", NAMES[at]),
                     _ => assert!(it.high - it.low <= 2e-3, "{it:?}"),
                 }

@@ -326,7 +326,7 @@ const tests = {
     await page.getByLabel("radius").fill("20");
     const before = Date.now();
     await page.getByRole("button", { name: "Tune", exact: true }).click();
-    await page.locator("#progress").getByText(/tune: \d+ of \d+ runs/).waitFor({ timeout: 60_000 });
+    await page.locator("#progress").getByText(/tune: \[[#.]+\] \d+ %/).waitFor({ timeout: 60_000 });
     // The page responds in the meantime.
     await page.getByRole("searchbox", { name: "find" }).count();
     await page.locator("#tuned img").waitFor({ timeout: 300_000 });

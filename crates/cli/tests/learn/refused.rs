@@ -104,7 +104,7 @@ fn take_of(feed: f64, take: u64) -> String {
 /// Each wrong input, its change to a recorded round, and the expected message.
 #[test]
 fn recordings_that_are_no_round_are_refused() {
-    // R16.4: a missing second recording, too few feeds, no positions, another axis, another list, two machines, no
+    // R16.4, R16.17: a missing second recording, too few feeds, no positions, another axis, another list, two machines, no
     // times, a copy.
     type Wrong = (&'static str, fn(&Bench), &'static [&'static str]);
     let wrong: [Wrong; 9] = [

@@ -1,5 +1,6 @@
 //! Feed moves without a feed (R2.110; TF5200 Diagnosis, error 20008).
 
+use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::effects::called_words::Configured;
@@ -92,7 +93,7 @@ impl Interpreter {
                 self.scratch.diagnostics.push(said);
             } else {
                 self.say_before_parting(said);
-                self.perhaps_stop((REFUSAL, true), at.in_block(span), at);
+                self.perhaps_stop((REFUSAL, StopScope::Rest), at.in_block(span), at);
             }
         }
         self.state.control.modal.functions.give_feed();
@@ -104,7 +105,7 @@ impl Interpreter {
             format!("the feed of this move is 0; the control may refuse it (20008) {PLC}");
         let fault = Fault::new(Code::Fc327, at.in_block(span), message);
         self.say_before_parting(at.diagnostic(fault.with_help("write a feed above 0")));
-        self.perhaps_stop((REFUSAL, true), at.in_block(span), at);
+        self.perhaps_stop((REFUSAL, StopScope::Rest), at.in_block(span), at);
     }
 
     /// Whether the block moves along its axis words at the feed in force.

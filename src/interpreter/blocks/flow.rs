@@ -6,6 +6,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::reported::StopScope;
 use crate::diagnostic::Code;
 use crate::interpreter::effects::plc::Doubt;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
@@ -357,7 +358,7 @@ impl Interpreter {
                 if self.note_jump(&Exit::AnyLabel, cause) {
                     self.doubt_jump("where this jump goes", cause, span, at);
                 }
-                self.perhaps_stop(("a missing jump label", false), span, at);
+                self.perhaps_stop(("a missing jump label", StopScope::Block), span, at);
                 return Ok(None);
             }
         };

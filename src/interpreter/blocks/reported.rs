@@ -35,6 +35,15 @@ enum RemedyClass {
     Unknown(Expression, Doubt),
 }
 
+/// The blocks to which it applies whether an error ends the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum StopScope {
+    /// This block; each other one asks anew.
+    Block,
+    /// This block and all later ones.
+    Rest,
+}
+
 impl Interpreter {
     /// The program reports an error of its own. With the class 0 it goes on.
     pub(in crate::interpreter) fn report_error(
@@ -147,10 +156,10 @@ impl Interpreter {
     }
 
     /// An error ends the program at the block, or it goes on, which only the machine knows: both ways are followed.
-    /// Where they cannot be, it goes on. A lasting answer is that of each later block, too.
+    /// Where they cannot be, it goes on.
     pub(in crate::interpreter) fn perhaps_stop(
         &mut self,
-        (error, is_lasting): (&'static str, bool),
+        (error, scope): (&'static str, StopScope),
         span: Span,
         at: &BlockContext<'_>,
     ) {
@@ -164,7 +173,7 @@ impl Interpreter {
             span,
             texts: vec![error.into()],
             cause: error.into(),
-            reads: is_lasting.then_some(asking),
+            reads: (scope == StopScope::Rest).then_some(asking),
             kept: None,
         };
         let ways = self.part_at_error(question, at);

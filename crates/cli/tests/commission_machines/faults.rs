@@ -177,51 +177,65 @@ pub(crate) fn of_lists_off() -> Vec<Fault> {
     ]
 }
 
-fn of_circles_on() -> Vec<Fault> {
+/// What spoils circles off as well as on.
+fn of_circles(of: fn(&'static str, &'static [&'static str]) -> Fault) -> Vec<Fault> {
     vec![
         Fault {
             recorder: |it| it.is_commanded = true,
-            ..Fault::on("commanded as actual positions", &["commanded ones"])
-        },
-        Fault {
-            recorder: |it| (it.is_commanded, it.noise_um) = (true, 0.8),
-            ..Fault::on("the same with 0.8 µm of noise", &["commanded ones"])
+            ..of("commanded as actual positions", &["commanded ones"])
         },
         Fault {
             recorder: |it| it.averaged = 20,
-            ..Fault::on("positions averaged over 20 ms", AVERAGED)
+            ..of("positions averaged over 20 ms", AVERAGED)
         },
         Fault {
             recorder: |it| it.averaged = 60,
-            ..Fault::on("positions averaged over 60 ms", AVERAGED)
+            ..of("positions averaged over 60 ms", AVERAGED)
         },
         Fault {
             recorder: |it| it.y_late = 3,
-            ..Fault::on("Y recorded 3 ms after X", APART)
+            ..of("Y recorded 3 ms after X", APART)
         },
         Fault {
             recorder: |it| it.y_factor = 1.003,
-            ..Fault::on("Y scaled by 0.3 %", &["longer"])
+            ..of("Y scaled by 0.3 %", &["longer"])
         },
         Fault {
             recorder: |it| it.missing = vec![[0.3, 0.305], [0.7, 0.705]],
-            ..Fault::on("half a percent of the rows missing at two places", ROWS)
+            ..of("half a percent of the rows missing at two places", ROWS)
+        },
+        Fault {
+            recorder: |it| it.missing = vec![[0.85, 1.0]],
+            ..of("the last 15 % missing", ENDS)
+        },
+        Fault {
+            rows: Some(|it| it.swap(3, 7)),
+            ..of("actual positions of X and Y exchanged", MIXED)
+        },
+        Fault {
+            driven: |text| text.replace("F2400", "F1600").replace("F3600", "F2400"),
+            ..of("circles driven at the feeds of others", &["driven at"])
+        },
+        Fault {
+            recorder: |it| it.every = 4,
+            ..of("a row every 4 ms", &["a sample every"])
+        },
+    ]
+}
+
+fn of_circles_on() -> Vec<Fault> {
+    let own = vec![
+        Fault {
+            recorder: |it| (it.is_commanded, it.noise_um) = (true, 0.8),
+            ..Fault::on("the same with 0.8 µm of noise", &["commanded ones"])
         },
         Fault {
             rows: Some(|it| it.keep(|at| at % 1000 != 0)),
             ..Fault::on("every thousandth row missing", ROWS)
         },
         Fault {
-            recorder: |it| it.missing = vec![[0.85, 1.0]],
-            ..Fault::on("the last 15 % missing", ENDS)
-        },
-        Fault {
             recorder: |it| it.missing = vec![[0.5, 1.0]],
             ..Fault::on("clockwise circles missing", ENDS)
-        },
-        Fault {
-            rows: Some(|it| it.swap(3, 7)),
-            ..Fault::on("actual positions of X and Y exchanged", MIXED)
         },
         Fault {
             rows: Some(|it| (1..5).for_each(|column| it.swap(column, column + 4))),
@@ -239,16 +253,8 @@ fn of_circles_on() -> Vec<Fault> {
             ..Fault::on("actual positions in m, said to be mm", &["unit", "radius"])
         },
         Fault {
-            driven: |text| text.replace("F2400", "F1600").replace("F3600", "F2400"),
-            ..Fault::on("circles driven at the feeds of others", &["driven at"])
-        },
-        Fault {
             machine: |it| it.control.part = 0.9,
             ..Fault::on("driven at 90 %", &["driven at"])
-        },
-        Fault {
-            recorder: |it| it.every = 4,
-            ..Fault::on("a row every 4 ms", &["a sample every"])
         },
         Fault {
             rows: Some(|it| {
@@ -261,52 +267,12 @@ fn of_circles_on() -> Vec<Fault> {
             rows: Some(|it| it.times(4, -1.0)),
             ..Fault::on("torque of X with the other sign", NOT_ON)
         },
-    ]
+    ];
+    of_circles(Fault::on).into_iter().chain(own).collect()
 }
 
 fn of_circles_off() -> Vec<Fault> {
-    vec![
-        Fault {
-            recorder: |it| it.is_commanded = true,
-            ..Fault::off("commanded as actual positions", &["commanded ones"])
-        },
-        Fault {
-            recorder: |it| it.averaged = 20,
-            ..Fault::off("positions averaged over 20 ms", AVERAGED)
-        },
-        Fault {
-            recorder: |it| it.averaged = 60,
-            ..Fault::off("positions averaged over 60 ms", AVERAGED)
-        },
-        Fault {
-            recorder: |it| it.y_late = 3,
-            ..Fault::off("Y recorded 3 ms after X", APART)
-        },
-        Fault {
-            recorder: |it| it.y_factor = 1.003,
-            ..Fault::off("Y scaled by 0.3 %", &["longer"])
-        },
-        Fault {
-            recorder: |it| it.missing = vec![[0.3, 0.305], [0.7, 0.705]],
-            ..Fault::off("half a percent of the rows missing at two places", ROWS)
-        },
-        Fault {
-            recorder: |it| it.missing = vec![[0.85, 1.0]],
-            ..Fault::off("the last 15 % missing", ENDS)
-        },
-        Fault {
-            rows: Some(|it| it.swap(3, 7)),
-            ..Fault::off("actual positions of X and Y exchanged", MIXED)
-        },
-        Fault {
-            driven: |text| text.replace("F2400", "F1600").replace("F3600", "F2400"),
-            ..Fault::off("circles driven at the feeds of others", &["driven at"])
-        },
-        Fault {
-            recorder: |it| it.every = 4,
-            ..Fault::off("a row every 4 ms", &["a sample every"])
-        },
-    ]
+    of_circles(Fault::off)
 }
 
 fn of_friction() -> Vec<Fault> {

@@ -5,7 +5,7 @@ use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
 use crate::interpreter::coordinates::geometry::{Geometry, WordValue};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
-    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
+    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, ToolCompensation, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::block_scratch::BlockScratch;
@@ -108,12 +108,14 @@ impl Interpreter {
         let Some(from) = from else { return };
         let geometry = geometry.unwrap_or_default();
         let motion = self.motion(&geometry, from, words);
-        if let Some(Motion::Travel(travel)) = &motion
-            && matches!(travel.form, PathForm::Arc(_))
-        {
-            self.scratch.aside.arc = Some(travel.clone());
+        let is_taken = self.options.motions == Motions::Taken;
+        match motion {
+            Some(Motion::Travel(travel)) if matches!(travel.form, PathForm::Arc(_)) => {
+                self.scratch.motion = is_taken.then(|| Motion::Travel(travel.clone()));
+                self.scratch.aside.arc = Some(travel);
+            }
+            motion => self.scratch.motion = motion.filter(|_| is_taken),
         }
-        self.scratch.motion = motion.filter(|_| self.options.motions == Motions::Taken);
     }
 
     fn motion(
@@ -151,6 +153,7 @@ impl Interpreter {
             contouring: modal.contouring(geometry.simplified),
             slope: modal.slope(),
             end_feed_per_min: self.end_feed(geometry),
+            tool: self.tool_compensation(),
             simplified: modal.simplified.union(geometry.simplified),
         }))
     }
@@ -168,6 +171,16 @@ impl Interpreter {
             1 => PathForm::Line,
             motion => self.arc(motion, geometry, from),
         }
+    }
+
+    fn tool_compensation(&self) -> Option<ToolCompensation> {
+        let modal = &self.state.control.modal;
+        let side = modal.tool_side()?;
+        let axis = |letter| self.letter_axis(modal.main_axis(letter)?);
+        Some(ToolCompensation {
+            axes: [axis(b'X')?, axis(b'Y')?],
+            side,
+        })
     }
 
     fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> PathForm {

@@ -497,7 +497,7 @@ fn a_bore_under_tool_radius_compensation_is_judged() {
         let document = document(bench, &arguments);
         assert_eq!(document["verdict"], "within", "{document}");
         let glitches = document["reversals"].as_array().expect("reversals").iter();
-        let figures = glitches.filter_map(|it| it["glitch"]["programmed"].as_f64());
+        let figures = glitches.filter_map(|it| it["glitch"].as_f64());
         let figures: Vec<f64> = figures.collect();
         assert!(figures.len() >= 4, "{document}");
         figures

@@ -189,7 +189,9 @@ impl AskArgs {
             machine,
             selection: &ChannelSelection {
                 torque: self.torque.clone(),
-                lead_mm: selection.lead_mm.or(lead_mm.and_then(|it| it.motor_lead_mm)),
+                lead_mm: selection
+                    .lead_mm
+                    .or(lead_mm.and_then(|it| it.motor_lead_mm)),
                 ..selection
             },
             cycle_s: self.cycle.seconds()?.or(of_machine),

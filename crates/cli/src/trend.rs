@@ -115,7 +115,11 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
 
 impl TrendArgs {
     /// Returns the friction of a recording with its date, and the unit of its torque.
-    fn dated(&self, path: &Path, registry: &FileRegistry) -> Result<(DatedFriction, String), Failure> {
+    fn dated(
+        &self,
+        path: &Path,
+        registry: &FileRegistry,
+    ) -> Result<(DatedFriction, String), Failure> {
         let (date, day) = date_of(path).unwrap_or_default();
         let cycle = self.cycle.seconds()?;
         let recording = read_axis(path, &self.channels.selection(path, registry)?, cycle)?;

@@ -392,7 +392,10 @@ fn the_lead_of_an_axis_is_that_of_its_recordings() {
     let demo = include_str!("../../../programs/demo/recordings/friction_x.csv");
     let mut text = "t,SetVelo,ActTorque\n".to_owned();
     for line in demo.lines() {
-        let cells: Vec<f64> = line.split('\t').filter_map(|cell| cell.parse().ok()).collect();
+        let cells: Vec<f64> = line
+            .split('\t')
+            .filter_map(|cell| cell.parse().ok())
+            .collect();
         if let [ms, velocity, torque] = cells[..] {
             let _ = writeln!(text, "{},{},{torque}", ms / 1000.0, velocity / 10_000.0);
         }
@@ -406,11 +409,13 @@ fn the_lead_of_an_axis_is_that_of_its_recordings() {
     let bare = tempfile::tempdir().expect("a folder");
     write(bare.path(), &[("runs/x.csv", &text)]);
     let identified = |folder: &Path, further: &[&str]| {
-        let fixed = "identify runs/x.csv --velocity SetVelo --torque ActTorque --unit SetVelo=rev/s";
+        let fixed =
+            "identify runs/x.csv --velocity SetVelo --torque ActTorque --unit SetVelo=rev/s";
         let arguments: Vec<&str> = fixed.split(' ').chain(further.iter().copied()).collect();
         // The first line names the axis, where it is given.
         let text = out(&tool(folder, &arguments));
-        text.split_once('\n').map_or(String::new(), |(_, rest)| rest.to_owned())
+        text.split_once('\n')
+            .map_or(String::new(), |(_, rest)| rest.to_owned())
     };
     let given = identified(bare.path(), &["--lead", "10"]);
     assert!(given.contains("value list"), "{given}");
@@ -434,7 +439,12 @@ fn numbers_without_a_header_and_a_time_are_no_recording() {
         let mut arguments: Vec<&str> = command.split(' ').collect();
         arguments.extend(["x.csv", "--velocity", "column 1", "--torque", "column 2"]);
         let output = tool(folder.path(), &arguments);
-        assert_eq!(output.status.code(), Some(2), "{command}: {}", said(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{command}: {}",
+            said(&output)
+        );
         assert!(said(&output).contains("has no times"), "{}", said(&output));
     }
 }

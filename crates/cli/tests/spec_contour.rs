@@ -198,7 +198,8 @@ fn what_is_not_known_is_left_out_and_counted() {
         bench.call(&["contour", "part.nc", "--start", "X0,Y0", "--svg", "a.svg"]);
         bench.read("a.svg")
     };
-    let turned = "G01 X10 Y5 F1000\n#ROTATION ON [ANGLE 30]\nX20 Y5\nX25\n#ROTATION OFF\nX30 Y5\nM30\n";
+    let turned =
+        "G01 X10 Y5 F1000\n#ROTATION ON [ANGLE 30]\nX20 Y5\nX25\n#ROTATION OFF\nX30 Y5\nM30\n";
     assert!(picture(&self::bench(turned)).contains(">left out</text>"));
     assert!(!picture(&self::bench("G01 X10 Y5 F1000\nM30\n")).contains("left out"));
     let found = contour(&bench, &[]);

@@ -503,10 +503,16 @@ fn a_bore_under_tool_radius_compensation_is_judged() {
         figures
     };
     let programmed = figures(&compensated, &[]);
-    assert_eq!(programmed, figures(&self::bench(&bore("", 20.0), MACHINE), &[]));
+    assert_eq!(
+        programmed,
+        figures(&self::bench(&bore("", 20.0), MACHINE), &[])
+    );
     let (status, _, said) = contour(&compensated, &["--fail-above", "500"]);
     assert_eq!(status, Some(0));
-    assert!(said.contains("programmed contour") && said.contains("--tool-radius"), "{said}");
+    assert!(
+        said.contains("programmed contour") && said.contains("--tool-radius"),
+        "{said}"
+    );
     let tool = figures(&compensated, &["--tool-radius", "8"]);
     let smaller = figures(&self::bench(&bore("", 12.0), MACHINE), &[]);
     for (tool, smaller) in tool.iter().zip(&smaller) {

@@ -281,7 +281,7 @@ mod tests {
                 end_feed_per_min: None,
                 simplified: frictcomp::interpreter::Simplifications::default(),
                 contouring: None,
-            tool: None,
+                tool: None,
             };
             along_arc(&travel, arc, 0)
         };

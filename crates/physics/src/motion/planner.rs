@@ -7,9 +7,9 @@ use super::limits::MachineLimits;
 use super::look_ahead::LookAhead;
 use super::remarks::{MotionRemark, MotionRemarks, RemarkPlace};
 use super::rounding::{Rounding, Transitions};
-use super::tool_path::ToolPath;
 use super::sampler::Sampler;
 use super::segment::{Ends, PathSegment};
+use super::tool_path::ToolPath;
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
@@ -258,7 +258,10 @@ impl TrajectoryPlanner {
         self.stand.clone_from(&travel.to);
         self.end.clear();
         self.end.extend_from_slice(segment.ends());
-        match self.path.add((segment, travel.contouring), travel.tool, sink) {
+        match self
+            .path
+            .add((segment, travel.contouring), travel.tool, sink)
+        {
             Ok(flow) => flow,
             Err(reason) => self.lose(row, reason, sink),
         }

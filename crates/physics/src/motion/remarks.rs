@@ -159,7 +159,11 @@ impl MotionRemarks {
             message,
             help: help.into(),
         };
-        self.say_once((remark.code, Arc::from(""), 0, subject), &RemarkPlace::of(row), remark);
+        self.say_once(
+            (remark.code, Arc::from(""), 0, subject),
+            &RemarkPlace::of(row),
+            remark,
+        );
     }
 
     /// FC907: the path of the tool beside a contour.
@@ -170,7 +174,11 @@ impl MotionRemarks {
                       in its own way (`G41`, `G42`)",
             help: Advice::ReadPage(Code::Fc907),
         };
-        self.say_once((remark.code, Arc::from(""), 0, "tool"), &RemarkPlace::of(row), remark);
+        self.say_once(
+            (remark.code, Arc::from(""), 0, "tool"),
+            &RemarkPlace::of(row),
+            remark,
+        );
     }
 
     /// FC903: a motion is left out.

@@ -350,8 +350,8 @@ impl Corner {
         };
         let places = meetings([last, next].map(|it| it.outline(plane))).into_iter();
         let places = places.flatten().filter(is_on_both);
-        let nearest = places
-            .min_by(|one, other| distance(*one, vertex).total_cmp(&distance(*other, vertex)));
+        let nearest =
+            places.min_by(|one, other| distance(*one, vertex).total_cmp(&distance(*other, vertex)));
         match nearest {
             Some(place) => Ok(Self::Meets(place)),
             // A slight kink at an arc: the tangents meet.
@@ -387,7 +387,10 @@ fn meetings(outlines: [Outline; 2]) -> [Option<[f64; 2]>; 2] {
             let cross = d[0] * e[1] - d[1] * e[0];
             let along = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / cross;
             let place = [p[0] + along * d[0], p[1] + along * d[1]];
-            [Some(place).filter(|place| place[0].is_finite() && place[1].is_finite()), None]
+            [
+                Some(place).filter(|place| place[0].is_finite() && place[1].is_finite()),
+                None,
+            ]
         }
         [
             Outline::Line { through, direction },

@@ -37,10 +37,13 @@ fn distance(polyline: &[[f64; 2]], place: [f64; 2]) -> f64 {
 fn a_bore_is_driven_at_the_radius_of_the_tool_centre() {
     // R11.30
     for (side, radius) in [("G41", 15.0), ("G42", 25.0)] {
-        let program =
-            format!("G01 X0 Y0 F1000\n{side} X20\nG03 I-20\nG40 G01 X0\nX1\nM30");
+        let program = format!("G01 X0 Y0 F1000\n{side} X20\nG03 I-20\nG40 G01 X0\nX1\nM30");
         let trace = followed(&program, 5.0);
-        assert!(trace.left_out.len() == 1, "only the first motion: {:?}", trace.said);
+        assert!(
+            trace.left_out.len() == 1,
+            "only the first motion: {:?}",
+            trace.said
+        );
         let circle = places(&trace, 3..=3);
         assert!(circle.len() > 1000);
         for [x, y] in circle {
@@ -48,7 +51,12 @@ fn a_bore_is_driven_at_the_radius_of_the_tool_centre() {
         }
         assert!((trace.end()[0] - 1.0).abs() < 1e-9 && trace.end()[1].abs() < 1e-9);
         assert_limits(MACHINE, &AXES, &trace);
-        assert!(trace.causes.iter().all(|cause| cause.frame == PositionFrame::Machine));
+        assert!(
+            trace
+                .causes
+                .iter()
+                .all(|cause| cause.frame == PositionFrame::Machine)
+        );
         let said: Vec<&str> = trace.said.iter().map(|(code, _)| code.as_str()).collect();
         assert_eq!(said, ["FC906", "FC907"]);
     }
@@ -61,7 +69,12 @@ fn without_a_radius_the_programmed_contour_is_followed_and_that_is_said() {
     for [x, y] in places(&trace, 3..=3) {
         assert!((x.hypot(y) - 20.0).abs() < 1e-6);
     }
-    assert!(trace.messages.iter().any(|it| it.contains("programmed contour")));
+    assert!(
+        trace
+            .messages
+            .iter()
+            .any(|it| it.contains("programmed contour"))
+    );
     let frames = trace.causes.iter().map(|cause| cause.frame);
     assert_eq!(frames.max(), Some(PositionFrame::Contour));
 }
@@ -70,7 +83,13 @@ fn without_a_radius_the_programmed_contour_is_followed_and_that_is_said() {
 fn the_tool_keeps_its_radius_from_every_contour() {
     // R11.30: polygons with inner and outer corners, tangential arcs between lines, in short and long blocks,
     // against the distance from the programmed contour.
-    let square = [[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0], [0.0, 0.0]];
+    let square = [
+        [0.0, 0.0],
+        [40.0, 0.0],
+        [40.0, 30.0],
+        [0.0, 30.0],
+        [0.0, 0.0],
+    ];
     let star: Vec<[f64; 2]> = (0..=10)
         .map(|at| {
             let radius = if at % 2 == 0 { 60.0 } else { 30.0 };
@@ -136,10 +155,18 @@ fn lines_and_arcs_meet_beside_their_corners() {
                 };
                 let from_shape = {
                     let line = distance(&[[0.0, -20.0], [0.0, 20.0]], [x, y]);
-                    let arc = if x >= 0.0 { (x.hypot(y) - 20.0).abs() } else { line };
+                    let arc = if x >= 0.0 {
+                        (x.hypot(y) - 20.0).abs()
+                    } else {
+                        line
+                    };
                     line.min(arc)
                 };
-                if lines.end() == &8 { from_slot } else { from_shape }
+                if lines.end() == &8 {
+                    from_slot
+                } else {
+                    from_shape
+                }
             });
             let off: Vec<f64> = off.collect();
             let nearest = off.iter().copied().fold(f64::INFINITY, f64::min);
@@ -154,7 +181,10 @@ fn a_motion_across_the_plane_and_a_dwell_keep_the_tool_beside_the_contour() {
     let program = "G01 X0 Y0 Z0 F1000\nG41 X20 Y0\nY20\nZ-5\nG04 0.1\nY40\nZ5\nG40 X0\nM30";
     let trace = followed(program, 5.0);
     for [x, y] in places(&trace, 4..=4) {
-        assert!((x - 15.0).abs() < 1e-9 && (y - 20.0).abs() < 1e-9, "{x} {y}");
+        assert!(
+            (x - 15.0).abs() < 1e-9 && (y - 20.0).abs() < 1e-9,
+            "{x} {y}"
+        );
     }
     for [x, _] in places(&trace, 6..=7) {
         assert!((x - 15.0).abs() < 1e-9);
@@ -189,7 +219,10 @@ fn an_origin_of_the_machine_leaves_paths_as_they_are() {
         let frames = trace.causes.iter().map(|cause| cause.frame);
         assert_eq!(frames.max(), Some(PositionFrame::Shifted), "{origin}");
     }
-    let turned = trace("G01 X0 Y0 F1000\n#ROTATION ON [ANGLE 30]\nM123\nX0 Y0\nX10\nM30", &AXES);
+    let turned = trace(
+        "G01 X0 Y0 F1000\n#ROTATION ON [ANGLE 30]\nM123\nX0 Y0\nX10\nM30",
+        &AXES,
+    );
     let frames = turned.causes.iter().map(|cause| cause.frame);
     assert_eq!(frames.max(), Some(PositionFrame::Programmed));
 }

@@ -87,13 +87,13 @@ impl AxisChannelArgs {
     ) -> Result<Option<f64>, Failure> {
         let folder = recording.parent().unwrap_or(Path::new(""));
         let loaded = Machines::new(MachineOptions::default(), registry).for_folder(folder)?;
-        let axes = &loaded.machine.axes;
-        let axis = match (&self.axis, axes.as_slice()) {
-            (Some(name), axes) => axes.iter().find(|axis| axis.name == *name),
+        let described = loaded.machine.axes.as_slice();
+        let axis = match (&self.axis, described) {
+            (Some(name), _) => described.iter().find(|it| it.name == *name),
             (None, [only]) => Some(only),
             (None, _) => None,
         };
-        Ok(axis.and_then(|axis| axis.motor_lead_mm))
+        Ok(axis.and_then(|it| it.motor_lead_mm))
     }
 }
 

@@ -13,7 +13,6 @@ use workspace::root;
 
 /// A package that others may use.
 struct Package {
-    name: &'static str,
     /// Its folder.
     folder: &'static str,
     /// The prefix of its rooms in the list.
@@ -21,21 +20,17 @@ struct Package {
 }
 
 const PACKAGES: [Package; 7] = [
-    package("frictcomp", ".", ""),
-    package("frictcomp-physics", "crates/physics", ""),
-    package("frictcomp-recordings", "crates/recordings", ""),
-    package("frictcomp-drives", "crates/drives", "drives"),
-    package("frictcomp-report", "crates/report", "report"),
-    package("frictcomp-host", "crates/host", "host"),
-    package("frictcomp-editor", "crates/editor", ""),
+    package(".", ""),
+    package("crates/physics", ""),
+    package("crates/recordings", ""),
+    package("crates/drives", "drives"),
+    package("crates/report", "report"),
+    package("crates/host", "host"),
+    package("crates/editor", ""),
 ];
 
-const fn package(name: &'static str, folder: &'static str, prefix: &'static str) -> Package {
-    Package {
-        name,
-        folder,
-        prefix,
-    }
+const fn package(folder: &'static str, prefix: &'static str) -> Package {
+    Package { folder, prefix }
 }
 
 impl Package {

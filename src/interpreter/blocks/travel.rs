@@ -5,7 +5,7 @@ use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
 use crate::interpreter::coordinates::geometry::{Geometry, WordValue};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
-    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, ToolCompensation, Travel, Turn,
+    Arc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
 };
 use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::block_scratch::BlockScratch;
@@ -153,7 +153,7 @@ impl Interpreter {
             contouring: modal.contouring(geometry.simplified),
             slope: modal.slope(),
             end_feed_per_min: self.end_feed(geometry),
-            tool: self.tool_compensation(),
+            tool: modal.tool_side(),
             simplified: modal.simplified.union(geometry.simplified),
         }))
     }
@@ -171,16 +171,6 @@ impl Interpreter {
             1 => PathForm::Line,
             motion => self.arc(motion, geometry, from),
         }
-    }
-
-    fn tool_compensation(&self) -> Option<ToolCompensation> {
-        let modal = &self.state.control.modal;
-        let side = modal.tool_side()?;
-        let axis = |letter| self.letter_axis(modal.main_axis(letter)?);
-        Some(ToolCompensation {
-            axes: [axis(b'X')?, axis(b'Y')?],
-            side,
-        })
     }
 
     fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> PathForm {

@@ -52,23 +52,13 @@ pub struct Travel {
     pub slope: Option<SlopeProfile>,
     /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
     pub end_feed_per_min: Option<f64>,
-    /// Tool radius compensation, where it is known to be active.
-    pub tool: Option<ToolCompensation>,
+    /// The side on which the tool follows, where tool radius compensation is known to be active.
+    pub tool: Option<ToolSide>,
     /// Functions on the path or its velocity that a commanded trace does not follow.
     pub simplified: Simplifications,
 }
 
-/// Tool radius compensation (PM/207729163).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
-pub struct ToolCompensation {
-    /// The first and the second axis of its plane.
-    pub axes: [AxisIndex; 2],
-    /// The side of the programmed contour on which the tool follows it.
-    pub side: ToolSide,
-}
-
-/// The side of a contour, seen in the direction of motion.
+/// The side of a contour on which the tool follows it, seen in the direction of motion (PM/207729163).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ToolSide {

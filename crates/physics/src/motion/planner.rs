@@ -13,7 +13,9 @@ use super::tool_path::ToolPath;
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
-use frictcomp::interpreter::{Motion, PathFeed, PathForm, PositionFrame, SAME_PLACE, Travel};
+use frictcomp::interpreter::{
+    Group, Motion, PathFeed, PathForm, PositionFrame, SAME_PLACE, Travel,
+};
 use frictcomp::machine::{Axis, Machine};
 use frictcomp::timeline::Row;
 
@@ -238,7 +240,7 @@ impl TrajectoryPlanner {
             return ControlFlow::Continue(());
         };
         self.remarks.say_frame(row, segment.cause.frame);
-        if travel.tool.is_some() && self.path.has_radius() {
+        if travel.tool.is_some() && segment.cause.frame == PositionFrame::Machine {
             self.remarks.say_tool(row);
         }
         let jumped = self.stand.iter().zip(&travel.from);
@@ -258,19 +260,31 @@ impl TrajectoryPlanner {
         self.stand.clone_from(&travel.to);
         self.end.clear();
         self.end.extend_from_slice(segment.ends());
-        match self
-            .path
-            .add((segment, travel.contouring), travel.tool, sink)
-        {
+        let tool = travel.tool.zip(self.plane(row));
+        match self.path.add((segment, travel.contouring), tool, sink) {
             Ok(flow) => flow,
             Err(reason) => self.lose(row, reason, sink),
         }
     }
 
+    /// The axes of the plane in force.
+    fn plane(&self, row: &Row<'_>) -> Option<[usize; 2]> {
+        let axis = |name: &str| self.names.iter().position(|it| it == name);
+        let [one, two] = match row.modal.functions.plane {
+            _ if !row.modal.is_known(Group::Plane) => return None,
+            18 => ["Z", "X"],
+            19 => ["Y", "Z"],
+            _ => ["X", "Y"],
+        };
+        Some([axis(one)?, axis(two)?])
+    }
+
     /// What separates the path that is followed from that of the machine.
     fn frame(&self, row: &Row<'_>, travel: &Travel) -> PositionFrame {
         match row.modal.frame() {
-            PositionFrame::Contour if self.path.has_radius() && travel.tool.is_some() => {
+            PositionFrame::Contour
+                if self.path.has_radius() && travel.tool.is_some() && self.plane(row).is_some() =>
+            {
                 PositionFrame::Machine
             }
             frame => frame,

@@ -228,10 +228,10 @@ impl PathSegment {
 
     /// The part of its length at a place of a plane on its outline; below 0 before its start, above 1 beyond
     /// its end.
-    pub(super) fn part_at(&self, plane: [usize; 2], place: [f64; 2]) -> f64 {
+    pub(super) fn part_at(&self, axes: [usize; 2], place: [f64; 2]) -> f64 {
         let Some(circle) = self.circle() else {
-            let way = plane.map(|axis| self.to[axis] - self.from[axis]);
-            let gone = [0, 1].map(|at| place[at] - self.from[plane[at]]);
+            let way = axes.map(|axis| self.to[axis] - self.from[axis]);
+            let gone = [0, 1].map(|at| place[at] - self.from[axes[at]]);
             return (gone[0] * way[0] + gone[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
         };
         let angle = (place[1] - circle.centre[1]).atan2(place[0] - circle.centre[0]);
@@ -245,7 +245,7 @@ impl PathSegment {
     pub(super) fn between(
         &self,
         parts: [f64; 2],
-        (plane, places): ([usize; 2], [[f64; 2]; 2]),
+        (axes, places): ([usize; 2], [[f64; 2]; 2]),
     ) -> Self {
         let mut cut = self.clone();
         let share = parts[1] - parts[0];
@@ -254,7 +254,7 @@ impl PathSegment {
             for axis in 0..self.from.len() {
                 end[axis] = self.from[axis] + (self.to[axis] - self.from[axis]) * part;
             }
-            (end[plane[0]], end[plane[1]]) = (place[0], place[1]);
+            (end[axes[0]], end[axes[1]]) = (place[0], place[1]);
         }
         if let SegmentShape::Arc(circle) = &mut cut.shape {
             circle.start += circle.sweep * parts[0];

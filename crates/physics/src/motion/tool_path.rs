@@ -12,9 +12,7 @@ use super::rounding::Rounding;
 use super::segment::{Outline, PathSegment};
 use super::trace::{Dwell, TraceSink};
 use frictcomp::comp::AxisIndex;
-use frictcomp::interpreter::{
-    Centre, CircularArc, Contouring, SAME_PLACE, ToolCompensation, ToolSide, Turn,
-};
+use frictcomp::interpreter::{Centre, CircularArc, Contouring, SAME_PLACE, ToolSide, Turn};
 
 /// The sine of a kink, 5°, below which a corner beside an arc is passed without an arc of its own.
 const SLIGHT: f64 = 0.09;
@@ -43,17 +41,18 @@ enum Held {
 struct Block {
     segment: PathSegment,
     contouring: Option<Contouring>,
-    plane: [usize; 2],
+    axes: [usize; 2],
 }
 
 /// Compensation with the radius of the tool.
 struct Offset {
-    plane: [usize; 2],
+    axes: [usize; 2],
     /// The distance to the left of the contour, in mm.
     left: f64,
 }
 
 /// How the path beside a corner goes on.
+#[derive(Debug, Clone, Copy)]
 enum Corner {
     /// Both blocks end at one place.
     Meets([f64; 2]),
@@ -82,19 +81,20 @@ impl ToolPath {
         self.radius_mm.is_some()
     }
 
-    /// Adds the next block of the program.
+    /// Adds the next block of the program, with the side of the tool and the axes of its plane.
     ///
     /// # Errors
     /// The reason why the tool cannot follow it.
     pub(super) fn add(
         &mut self,
         (segment, contouring): (PathSegment, Option<Contouring>),
-        tool: Option<ToolCompensation>,
+        tool: Option<(ToolSide, [usize; 2])>,
         sink: &mut dyn TraceSink,
     ) -> Result<ControlFlow<()>, &'static str> {
-        let offset = tool.zip(self.radius_mm).map(|(tool, radius)| Offset {
-            plane: tool.axes.map(AxisIndex::get),
-            left: if tool.side == ToolSide::Left {
+        let offset = tool.zip(self.radius_mm);
+        let offset = offset.map(|((side, axes), radius)| Offset {
+            axes,
+            left: if side == ToolSide::Left {
                 radius
             } else {
                 -radius
@@ -103,11 +103,11 @@ impl ToolPath {
         let Some(offset) = offset else {
             return self.leave((segment, contouring), sink);
         };
-        let plane = offset.plane;
+        let axes = offset.axes;
         let block = Block {
             segment,
             contouring,
-            plane,
+            axes,
         };
         if block.stays() {
             return Ok(self.pass_beside(block, sink));
@@ -119,7 +119,7 @@ impl ToolPath {
             self.held = Held::Approach(block);
             return Ok(ControlFlow::Continue(()));
         }
-        let segment = block.segment.beside(plane, offset.left)?;
+        let segment = block.segment.beside(axes, offset.left)?;
         let beside = Block { segment, ..block };
         let corner = match &self.held {
             Held::Beside(last) => Corner::between(&last.segment, &beside.segment, &offset)?,
@@ -173,15 +173,15 @@ impl ToolPath {
         (segment, contouring): (PathSegment, Option<Contouring>),
         sink: &mut dyn TraceSink,
     ) -> Result<ControlFlow<()>, &'static str> {
-        let plane = match &self.held {
+        let axes = match &self.held {
             Held::Nothing => return Ok(self.rounding.add((segment, contouring), sink)),
-            Held::Approach(block) | Held::Beside(block) => block.plane,
-            Held::Place(plane, _) => *plane,
+            Held::Approach(block) | Held::Beside(block) => block.axes,
+            Held::Place(axes, _) => *axes,
         };
         let next = Block {
             segment,
             contouring,
-            plane,
+            axes,
         };
         if next.stays() {
             return Ok(self.pass_beside(next, sink));
@@ -195,7 +195,7 @@ impl ToolPath {
         };
         let line = match place {
             Some(place) => {
-                let from = at_place(next.segment.starts(), plane, place);
+                let from = at_place(next.segment.starts(), axes, place);
                 next.segment.moved(&from, next.segment.ends(), &self.main)
             }
             None => Some(next.segment),
@@ -222,13 +222,13 @@ impl ToolPath {
 
     /// Passes on what is held; the tool stays beside the contour.
     fn rest_beside(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
-        let plane = match &self.held {
-            Held::Beside(block) => block.plane,
-            Held::Place(plane, _) => *plane,
+        let axes = match &self.held {
+            Held::Beside(block) => block.axes,
+            Held::Place(axes, _) => *axes,
             Held::Nothing | Held::Approach(_) => [0, 1],
         };
         if let Some(place) = self.release(sink)? {
-            self.held = Held::Place(plane, place);
+            self.held = Held::Place(axes, place);
         }
         ControlFlow::Continue(())
     }
@@ -236,11 +236,11 @@ impl ToolPath {
     /// A block that does not move in the plane: the tool stays where it is there.
     fn pass_beside(&mut self, block: Block, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.rest_beside(sink)?;
-        let Held::Place(plane, place) = self.held else {
+        let Held::Place(axes, place) = self.held else {
             return self.hand_on(Some(block.segment), block.contouring, sink);
         };
         let ends = [block.segment.starts(), block.segment.ends()];
-        let [from, to] = ends.map(|end| at_place(end, plane, place));
+        let [from, to] = ends.map(|end| at_place(end, axes, place));
         let line = block.segment.moved(&from, &to, &self.main);
         self.hand_on(line, block.contouring, sink)
     }
@@ -248,7 +248,7 @@ impl ToolPath {
     /// A straight piece of a block in the plane, at its start.
     fn straight(&self, block: &Block, places: [[f64; 2]; 2]) -> Option<PathSegment> {
         let starts = block.segment.starts();
-        let [from, to] = places.map(|place| at_place(starts, block.plane, place));
+        let [from, to] = places.map(|place| at_place(starts, block.axes, place));
         block.segment.moved(&from, &to, &self.main)
     }
 
@@ -280,11 +280,16 @@ impl ToolPath {
 impl Block {
     /// Whether it does not move in the plane.
     fn stays(&self) -> bool {
-        self.segment.direction(self.plane, 0.0) == [0.0; 2]
+        let moves = |step: f64| step.abs() > 0.0;
+        !self
+            .segment
+            .direction(self.axes, 0.0)
+            .into_iter()
+            .any(moves)
     }
 
     fn place(&self, of: fn(&PathSegment) -> &[f64]) -> [f64; 2] {
-        self.plane.map(|axis| of(&self.segment)[axis])
+        self.axes.map(|axis| of(&self.segment)[axis])
     }
 
     /// Lets an end of it be at a place of its outline.
@@ -294,16 +299,16 @@ impl Block {
             self.place(PathSegment::starts),
             self.place(PathSegment::ends),
         ];
-        parts[end] = self.segment.part_at(self.plane, place);
+        parts[end] = self.segment.part_at(self.axes, place);
         places[end] = place;
-        self.segment = self.segment.between(parts, (self.plane, places));
+        self.segment = self.segment.between(parts, (self.axes, places));
     }
 }
 
-fn at_place(axes: &[f64], plane: [usize; 2], place: [f64; 2]) -> Vec<f64> {
-    let mut axes = axes.to_vec();
-    (axes[plane[0]], axes[plane[1]]) = (place[0], place[1]);
-    axes
+fn at_place(positions: &[f64], axes: [usize; 2], place: [f64; 2]) -> Vec<f64> {
+    let mut positions = positions.to_vec();
+    (positions[axes[0]], positions[axes[1]]) = (place[0], place[1]);
+    positions
 }
 
 impl Corner {
@@ -313,14 +318,14 @@ impl Corner {
         next: &PathSegment,
         offset: &Offset,
     ) -> Result<Self, &'static str> {
-        let plane = offset.plane;
-        let end = plane.map(|axis| last.ends()[axis]);
-        let start = plane.map(|axis| next.starts()[axis]);
+        let axes = offset.axes;
+        let end = axes.map(|axis| last.ends()[axis]);
+        let start = axes.map(|axis| next.starts()[axis]);
         if distance(end, start) < SAME_PLACE {
             return Ok(Self::Straight);
         }
-        let before = last.direction(plane, last.length);
-        let after = next.direction(plane, 0.0);
+        let before = last.direction(axes, last.length);
+        let after = next.direction(axes, 0.0);
         let cosine = before[0] * after[0] + before[1] * after[1];
         let sine = before[0] * after[1] - before[1] * after[0];
         let is_inner = sine * offset.left > 0.0;
@@ -330,12 +335,13 @@ impl Corner {
             start[1] - offset.left * after[0],
         ];
         let both_straight = last.is_straight() && next.is_straight();
-        if !is_inner && !(both_straight && cosine >= 0.0) {
+        let is_extended = both_straight && cosine >= 0.0;
+        if !(is_inner || is_extended) {
             if is_slight {
                 return Ok(Self::Straight);
             }
             return Ok(Self::Around(CircularArc {
-                axes: plane.map(AxisIndex::new),
+                axes: axes.map(AxisIndex::new),
                 turn: if offset.left > 0.0 {
                     Turn::Clockwise
                 } else {
@@ -346,9 +352,9 @@ impl Corner {
         }
         // At an inner corner neither block is extended.
         let is_on_both = |place: &[f64; 2]| {
-            !is_inner || (last.part_at(plane, *place) > 0.0 && next.part_at(plane, *place) < 1.0)
+            !is_inner || (last.part_at(axes, *place) > 0.0 && next.part_at(axes, *place) < 1.0)
         };
-        let places = meetings([last, next].map(|it| it.outline(plane))).into_iter();
+        let places = meetings([last, next].map(|it| it.outline(axes))).into_iter();
         let places = places.flatten().filter(is_on_both);
         let nearest =
             places.min_by(|one, other| distance(*one, vertex).total_cmp(&distance(*other, vertex)));

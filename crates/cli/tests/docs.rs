@@ -40,6 +40,22 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
+/// The demo with recordings, into which commands write.
+const RECORDED: &str = "programs/demo/recorded";
+
+/// A folder with a copy of the demo at its place.
+fn copied() -> tempfile::TempDir {
+    let copy = tempfile::tempdir().expect("a folder");
+    for path in files(RECORDED, &["csv", "lis", "json"]) {
+        let to = copy
+            .path()
+            .join(path.strip_prefix(root()).expect("in the tree"));
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(&path, to).expect("copied");
+    }
+    copy
+}
+
 /// What a command prints: stdout, stderr, and `? 1` for an exit status other than 0.
 fn play(command: &str) -> String {
     let mut words = command.split_whitespace();
@@ -48,8 +64,9 @@ fn play(command: &str) -> String {
         Some("frictcomp"),
         "`{command}` is no call of the tool"
     );
+    let copy = command.contains(RECORDED).then(copied);
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(root())
+        .current_dir(copy.as_ref().map_or(root(), |it| it.path()))
         .args(words)
         .stdin(Stdio::null())
         .output()

@@ -14,6 +14,8 @@ mod layouts;
 mod machine;
 #[path = "learn/refused.rs"]
 mod refused;
+#[path = "learn/stand_ins.rs"]
+mod stand_ins;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -70,6 +70,8 @@ pub enum Advice {
     CompleteMotion,
     /// Give the start positions of these axes.
     GiveStart(Vec<String>),
+    /// Give the radius of the tool, for the path beside a contour.
+    GiveToolRadius,
     /// Allow calls of programs in the folder of this one, or anywhere.
     AllowOutside,
     /// Take what is hidden or ignored, too, or exclude it.
@@ -178,6 +180,9 @@ impl fmt::Display for Advice {
             Self::GiveStart(axes) => {
                 write!(f, "give the start position of {}", axes.join(", "))
             }
+            Self::GiveToolRadius => f.write_str(
+                "give the radius: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration",
+            ),
             Self::AllowOutside => f.write_str(
                 "add its folder to `program_dirs`, or allow calls from anywhere",
             ),

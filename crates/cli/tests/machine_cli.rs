@@ -429,8 +429,8 @@ fn the_lead_of_an_axis_is_that_of_its_recordings() {
 fn numbers_without_a_header_and_a_time_are_no_recording() {
     // R6.27
     let folder = tempfile::tempdir().expect("a folder");
-    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].input 0\n\
-                frict_comp.table[0].output 100\n";
+    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\n\
+                frict_comp.table[0].out 100\n";
     write(
         folder.path(),
         &[("x.csv", "5,6\n3,2\n4,1\n4,1\n"), ("x.lis", list)],

@@ -40,6 +40,10 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             let start: Vec<String> = axes.iter().map(|axis| start_word(axis)).collect();
             format!("give it, for example with `--start {}`", start.join(","))
         }
+        Advice::GiveToolRadius => {
+            "give it with `--tool-radius`, in mm: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration"
+                .to_owned()
+        }
         Advice::AllowOutside => {
             "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"
                 .to_owned()

@@ -141,23 +141,23 @@ impl MotionRemarks {
             PositionFrame::Shifted => (
                 "origin",
                 "from here on the trace has the places of the program: only the machine knows the origin",
-                "paths and velocities are those of the machine",
+                "paths and velocities are those of the machine".into(),
             ),
             PositionFrame::Contour => (
                 "tool",
                 "from here on the trace is that of the programmed contour: the radius of the tool is not known",
-                "give it with `--tool-radius`, in mm: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration",
+                Advice::GiveToolRadius,
             ),
             PositionFrame::Programmed => (
                 "",
                 "from here on the trace is that of the program, not of the machine: a transformation is active",
-                "the axes of the machine move differently",
+                "the axes of the machine move differently".into(),
             ),
         };
         let remark = MotionRemark {
             code: Code::Fc904,
             message,
-            help: help.into(),
+            help,
         };
         self.say_once(
             (remark.code, Arc::from(""), 0, subject),

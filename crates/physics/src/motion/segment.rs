@@ -61,7 +61,7 @@ struct PlaneArc {
 
 /// The line or the circle of a plane on which a segment lies.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Outline {
+pub(super) enum SegmentOutline {
     Line {
         through: [f64; 2],
         direction: [f64; 2],
@@ -213,13 +213,13 @@ impl PathSegment {
     }
 
     /// The line or the circle of a plane on which it lies.
-    pub(super) fn outline(&self, plane: [usize; 2]) -> Outline {
+    pub(super) fn outline(&self, plane: [usize; 2]) -> SegmentOutline {
         match self.circle() {
-            Some(circle) => Outline::Circle {
+            Some(circle) => SegmentOutline::Circle {
                 centre: circle.centre,
                 radius: circle.radius,
             },
-            None => Outline::Line {
+            None => SegmentOutline::Line {
                 through: plane.map(|axis| self.from[axis]),
                 direction: self.direction(plane, 0.0),
             },

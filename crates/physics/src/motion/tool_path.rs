@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::rounding::Rounding;
-use super::segment::{Outline, PathSegment};
+use super::segment::{PathSegment, SegmentOutline};
 use super::trace::{Dwell, TraceSink};
 use frictcomp::comp::AxisIndex;
 use frictcomp::interpreter::{Centre, CircularArc, Contouring, SAME_PLACE, ToolSide, Turn};
@@ -31,14 +31,14 @@ enum Held {
     /// Nothing: the tool is on the programmed path.
     Nothing,
     /// The block that leads to the contour.
-    Approach(Block),
+    Approach(HeldBlock),
     /// A block beside the contour, whose end is that without a corner.
-    Beside(Block),
+    Beside(HeldBlock),
     /// The tool is beside the contour, at this place of the plane.
     Place([usize; 2], [f64; 2]),
 }
 
-struct Block {
+struct HeldBlock {
     segment: PathSegment,
     contouring: Option<Contouring>,
     axes: [usize; 2],
@@ -53,7 +53,7 @@ struct Offset {
 
 /// How the path beside a corner goes on.
 #[derive(Debug, Clone, Copy)]
-enum Corner {
+enum CornerBeside {
     /// Both blocks end at one place.
     Meets([f64; 2]),
     /// A straight piece leads from one to the other, if they are apart.
@@ -104,7 +104,7 @@ impl ToolPath {
             return self.leave((segment, contouring), sink);
         };
         let axes = offset.axes;
-        let block = Block {
+        let block = HeldBlock {
             segment,
             contouring,
             axes,
@@ -120,10 +120,10 @@ impl ToolPath {
             return Ok(ControlFlow::Continue(()));
         }
         let segment = block.segment.beside(axes, offset.left)?;
-        let beside = Block { segment, ..block };
+        let beside = HeldBlock { segment, ..block };
         let corner = match &self.held {
-            Held::Beside(last) => Corner::between(&last.segment, &beside.segment, &offset)?,
-            _ => Corner::Straight,
+            Held::Beside(last) => CornerBeside::between(&last.segment, &beside.segment, &offset)?,
+            _ => CornerBeside::Straight,
         };
         Ok(self.join(corner, beside, sink))
     }
@@ -131,8 +131,8 @@ impl ToolPath {
     /// Leads what is held to the next block beside the contour.
     fn join(
         &mut self,
-        corner: Corner,
-        mut next: Block,
+        corner: CornerBeside,
+        mut next: HeldBlock,
         sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         let start = next.place(PathSegment::starts);
@@ -149,15 +149,15 @@ impl ToolPath {
             }
             Held::Beside(mut last) => {
                 let between = match corner {
-                    Corner::Meets(place) => {
+                    CornerBeside::Meets(place) => {
                         last.cut(1, place);
                         next.cut(0, place);
                         None
                     }
-                    Corner::Straight => {
+                    CornerBeside::Straight => {
                         self.straight(&next, [last.place(PathSegment::ends), start])
                     }
-                    Corner::Around(arc) => last.segment.around(&arc, start, &self.main),
+                    CornerBeside::Around(arc) => last.segment.around(&arc, start, &self.main),
                 };
                 self.hand_on(Some(last.segment), last.contouring, sink)?;
                 self.hand_on(between, next.contouring, sink)?;
@@ -178,7 +178,7 @@ impl ToolPath {
             Held::Approach(block) | Held::Beside(block) => block.axes,
             Held::Place(axes, _) => *axes,
         };
-        let next = Block {
+        let next = HeldBlock {
             segment,
             contouring,
             axes,
@@ -234,7 +234,7 @@ impl ToolPath {
     }
 
     /// A block that does not move in the plane: the tool stays where it is there.
-    fn pass_beside(&mut self, block: Block, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+    fn pass_beside(&mut self, block: HeldBlock, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.rest_beside(sink)?;
         let Held::Place(axes, place) = self.held else {
             return self.hand_on(Some(block.segment), block.contouring, sink);
@@ -246,7 +246,7 @@ impl ToolPath {
     }
 
     /// A straight piece of a block in the plane, at its start.
-    fn straight(&self, block: &Block, places: [[f64; 2]; 2]) -> Option<PathSegment> {
+    fn straight(&self, block: &HeldBlock, places: [[f64; 2]; 2]) -> Option<PathSegment> {
         let starts = block.segment.starts();
         let [from, to] = places.map(|place| at_place(starts, block.axes, place));
         block.segment.moved(&from, &to, &self.main)
@@ -277,7 +277,7 @@ impl ToolPath {
     }
 }
 
-impl Block {
+impl HeldBlock {
     /// Whether it does not move in the plane.
     fn stays(&self) -> bool {
         let moves = |step: f64| step.abs() > 0.0;
@@ -311,7 +311,7 @@ fn at_place(positions: &[f64], axes: [usize; 2], place: [f64; 2]) -> Vec<f64> {
     positions
 }
 
-impl Corner {
+impl CornerBeside {
     /// The corner between two blocks beside the contour.
     fn between(
         last: &PathSegment,
@@ -378,14 +378,14 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
 }
 
 /// The places where two outlines meet.
-fn meetings(outlines: [Outline; 2]) -> [Option<[f64; 2]>; 2] {
+fn meetings(outlines: [SegmentOutline; 2]) -> [Option<[f64; 2]>; 2] {
     match outlines {
         [
-            Outline::Line {
+            SegmentOutline::Line {
                 through: p,
                 direction: d,
             },
-            Outline::Line {
+            SegmentOutline::Line {
                 through: q,
                 direction: e,
             },
@@ -399,19 +399,19 @@ fn meetings(outlines: [Outline; 2]) -> [Option<[f64; 2]>; 2] {
             ]
         }
         [
-            Outline::Line { through, direction },
-            Outline::Circle { centre, radius },
+            SegmentOutline::Line { through, direction },
+            SegmentOutline::Circle { centre, radius },
         ]
         | [
-            Outline::Circle { centre, radius },
-            Outline::Line { through, direction },
+            SegmentOutline::Circle { centre, radius },
+            SegmentOutline::Line { through, direction },
         ] => on_chord(through, direction, (centre, radius)),
         [
-            Outline::Circle {
+            SegmentOutline::Circle {
                 centre: a,
                 radius: r,
             },
-            Outline::Circle {
+            SegmentOutline::Circle {
                 centre: b,
                 radius: s,
             },

@@ -30,6 +30,8 @@ pub(crate) struct AxisTable {
     pub(crate) max_acceleration: Option<f64>,
     /// The maximum jerk in m/s³ or °/s³.
     pub(crate) max_jerk: Option<f64>,
+    /// The way in mm in a turn of the motor.
+    pub(crate) lead: Option<f64>,
 }
 
 pub(super) const AXIS: Shape = Shape {
@@ -49,6 +51,7 @@ pub(super) const AXIS: Shape = Shape {
         "max_velocity",
         "max_acceleration",
         "max_jerk",
+        "lead",
     ]),
 };
 
@@ -95,6 +98,7 @@ impl AxisTable {
             max_velocity: section.positive("max_velocity")?,
             max_acceleration: section.positive("max_acceleration")?,
             max_jerk: section.positive("max_jerk")?,
+            lead: section.positive("lead")?,
             name,
         })
     }

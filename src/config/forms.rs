@@ -250,6 +250,11 @@ pub static CONFIG_FORMS: [TableForm; 12] = [
                     "in m/s\u{b2} or \u{b0}/s\u{b2}",
                 ),
                 key("max_jerk", Form::Positive, "in m/s\u{b3} or \u{b0}/s\u{b3}"),
+                key(
+                    "lead",
+                    Form::Positive,
+                    "mm in a turn of the motor, for recordings",
+                ),
             ],
         )
     },

@@ -25,7 +25,8 @@ pub use coordinates::g_functions::GFunctions;
 pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Modal, PositionFrame};
 pub use coordinates::motion::{
-    Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, Travel, Turn,
+    Arc as CircularArc, BlockEnd, Centre, Motion, Motions, PathFeed, PathForm, ToolSide, Travel,
+    Turn,
 };
 pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;

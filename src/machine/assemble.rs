@@ -55,6 +55,8 @@ pub(super) struct ConfiguredDynamics {
     pub(super) velocity: Option<f64>,
     pub(super) acceleration: Option<f64>,
     pub(super) jerk: Option<f64>,
+    /// The way in mm in a turn of the motor.
+    pub(super) lead: Option<f64>,
 }
 
 /// One axis while its sources are being read.
@@ -179,6 +181,7 @@ impl AxisDraft {
             max_velocity_per_min: self.dynamics.velocity,
             max_acceleration_per_s2: self.dynamics.acceleration,
             max_jerk_per_s3: self.dynamics.jerk,
+            motor_lead_mm: self.dynamics.lead,
             listed: self.values.dynamics.dynamics(),
             torque_scale: TorqueScale::default(),
         };

@@ -67,6 +67,8 @@ pub struct Axis {
     pub max_acceleration_per_s2: Option<f64>,
     /// The maximum jerk in m/s³ or °/s³, if known.
     pub max_jerk_per_s3: Option<f64>,
+    /// The way in mm in a turn of the motor, for recordings of the motor.
+    pub motor_lead_mm: Option<f64>,
     /// Velocity, acceleration and ramp times from the axis list; values in `frictcomp.toml` take precedence.
     pub listed: ListedDynamics,
     /// The factor for the torque to the drive, P-AXIS-00325 and P-AXIS-00326.
@@ -93,6 +95,7 @@ impl Axis {
             max_velocity_per_min: None,
             max_acceleration_per_s2: None,
             max_jerk_per_s3: None,
+            motor_lead_mm: None,
             listed: ListedDynamics::default(),
             torque_scale: TorqueScale::default(),
         }

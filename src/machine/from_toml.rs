@@ -142,6 +142,7 @@ impl AxisDraft {
             velocity: table.max_velocity,
             acceleration: table.max_acceleration,
             jerk: table.max_jerk,
+            lead: table.lead,
         };
     }
 }

@@ -68,7 +68,11 @@ fn unclosed(code: &str) -> Result<Vec<usize>, Fault> {
     let bytes = code.as_bytes();
     let mut open = Vec::new();
     // A short block nests only by brackets and powers.
-    if bytes.len() <= MAX_BRACKETS && memchr::memchr2(b'[', b'*', bytes).is_none() {
+    let is_power = |at| bytes.get(at + 1) == Some(&b'*');
+    if bytes.len() <= MAX_BRACKETS
+        && memchr::memchr(b'[', bytes).is_none()
+        && !memchr::memchr_iter(b'*', bytes).any(is_power)
+    {
         return Ok(open);
     }
     let texts = Texts::new(code.as_bytes());
@@ -93,7 +97,7 @@ fn unclosed(code: &str) -> Result<Vec<usize>, Fault> {
             b']' => {
                 open.pop();
             }
-            b'*' if bytes.get(at + 1) == Some(&b'*') => powers += 1,
+            b'*' if is_power(at) => powers += 1,
             _ => {}
         }
         if open.len().max(powers).max(addresses) > MAX_BRACKETS {

@@ -164,7 +164,12 @@ struct ExpressionLowering<'a> {
 impl ExpressionLowering<'_> {
     fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let span = pair.as_span();
-        let length = span.as_str().trim_end().len();
+        let text = span.as_str();
+        // Most end with a digit, a letter or a bracket.
+        let length = match text.as_bytes().last() {
+            Some(last) if last.is_ascii_graphic() => text.len(),
+            _ => text.trim_end().len(),
+        };
         Span::new(span.start(), span.start() + length).shifted(self.base)
     }
 

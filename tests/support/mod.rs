@@ -221,7 +221,7 @@ impl Bench {
                         .map_or("?".to_owned(), |value| value.to_string());
                     let mark = match position.frame {
                         PositionFrame::Machine => "",
-                        PositionFrame::Programmed => "*",
+                        _ => "*",
                     };
                     write!(lines, " {}:{value}{mark}", axis.name).expect("text");
                 }

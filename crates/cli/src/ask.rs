@@ -181,12 +181,18 @@ impl AskArgs {
             return Err(Failure::new(format!("`{}` holds no answer", shown(path))).with_help(LINES));
         }
         let of_machine = machine.cycle_time_ms.map(|ms| ms / 1000.0);
+        let axis = self.axis(machine)?;
+        let selection = self.channels.selection();
+        let lead_mm = machine.axes.iter().find(|it| it.name == axis.name);
         let asked = RecordedQuestions {
-            axis: &self.axis(machine)?,
+            axis: &axis,
             machine,
             selection: &ChannelSelection {
                 torque: self.torque.clone(),
-                ..self.channels.selection()
+                lead_mm: selection
+                    .lead_mm
+                    .or(lead_mm.and_then(|it| it.motor_lead_mm)),
+                ..selection
             },
             cycle_s: self.cycle.seconds()?.or(of_machine),
         };

@@ -1,7 +1,11 @@
 //! The channels of a recorded trace on the command line.
 
+use std::path::Path;
+
 use clap::{Args, ValueEnum};
 
+use super::failure::Failure;
+use frictcomp_host::{FileRegistry, MachineOptions, Machines};
 use frictcomp_physics::current::Switched;
 use frictcomp_recordings::identify::{Measured, TorqueKind};
 use frictcomp_recordings::trace::{ChannelSelection, Unit};
@@ -22,7 +26,7 @@ pub(super) struct MotionChannels {
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
     /// The way of the axis in mm in a turn of its motor, where positions and velocities are recorded in turns,
-    /// degrees or radians of the motor
+    /// degrees or radians of the motor; by default `lead` of the axis in `frictcomp.toml`
     #[arg(long, value_name = "MM", value_parser = parse_lead)]
     lead: Option<f64>,
 }
@@ -55,13 +59,41 @@ pub(super) struct AxisChannelArgs {
 }
 
 impl AxisChannelArgs {
-    /// Returns the user's selection of channels.
-    pub(super) fn selection(&self) -> ChannelSelection {
-        ChannelSelection {
+    /// Returns the user's selection of the channels of a recording. The way in a turn of the motor is that of the
+    /// machine to whose folder the recording belongs, if it is not given.
+    pub(super) fn selection(
+        &self,
+        recording: &Path,
+        registry: &FileRegistry,
+    ) -> Result<ChannelSelection, Failure> {
+        let selection = self.motion.selection();
+        let lead_mm = match selection.lead_mm {
+            Some(given) => Some(given),
+            None => self.lead_of_machine(recording, registry)?,
+        };
+        Ok(ChannelSelection {
             axis: self.axis.clone(),
             torque: self.torque.clone(),
-            ..self.motion.selection()
-        }
+            lead_mm,
+            ..selection
+        })
+    }
+
+    /// Returns the way in a turn of the motor of the axis, or of the machine's only one, in mm.
+    fn lead_of_machine(
+        &self,
+        recording: &Path,
+        registry: &FileRegistry,
+    ) -> Result<Option<f64>, Failure> {
+        let folder = recording.parent().unwrap_or(Path::new(""));
+        let loaded = Machines::new(MachineOptions::default(), registry).for_folder(folder)?;
+        let described = loaded.machine.axes.as_slice();
+        let axis = match (&self.axis, described) {
+            (Some(name), _) => described.iter().find(|it| it.name == *name),
+            (None, [only]) => Some(only),
+            (None, _) => None,
+        };
+        Ok(axis.and_then(|it| it.motor_lead_mm))
     }
 }
 

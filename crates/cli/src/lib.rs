@@ -65,6 +65,7 @@ mod simulated;
 mod sole_file;
 mod start;
 mod stiction;
+mod tool_radius;
 mod trace;
 mod trend;
 mod tune;

@@ -10,6 +10,7 @@ use super::execution::ExecutionArgs;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::start::StartArgs;
+use super::tool_radius::ToolArgs;
 use super::values;
 use frictcomp::session::StopPolicy;
 use frictcomp::text::shown_path;
@@ -38,6 +39,8 @@ pub(super) struct SimulationArgs {
     #[command(flatten)]
     pub(super) start: StartArgs,
     #[command(flatten)]
+    tool: ToolArgs,
+    #[command(flatten)]
     cycle: CycleArgs,
     /// The largest number of CNC cycles; by default 100 million
     #[arg(long, value_name = "N")]
@@ -59,6 +62,7 @@ impl SimulationArgs {
             ("--model", self.model.is_some()),
             ("--value-list", !self.value_list.is_empty()),
             ("--start", !self.start.given().is_empty()),
+            ("--tool-radius", self.tool.radius_mm.is_some()),
             ("--cycle-time-ms", self.cycle.seconds()?.is_some()),
             ("--max-cycles", self.max_cycles.is_some()),
         ];
@@ -104,6 +108,7 @@ impl SimulationArgs {
         Ok(PlannerOptions {
             cycle_s: check_cycle(cycle.unwrap_or(usual.cycle_s))?,
             max_cycles: self.max_cycles.unwrap_or(usual.max_cycles),
+            tool_radius_mm: self.tool.radius_mm,
         })
     }
 }

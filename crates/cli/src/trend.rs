@@ -70,7 +70,7 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
             report.left_out.push((shown_path(path), reason));
             continue;
         }
-        match args.dated(path) {
+        match args.dated(path, &registry) {
             Ok((dated, unit)) if report.unit.is_empty() || report.unit == unit => {
                 report.unit = unit;
                 report.dates.push(dated);
@@ -115,10 +115,14 @@ pub(super) fn run(args: &TrendArgs, console: Console) -> Result<u8, Failure> {
 
 impl TrendArgs {
     /// Returns the friction of a recording with its date, and the unit of its torque.
-    fn dated(&self, path: &Path) -> Result<(DatedFriction, String), Failure> {
+    fn dated(
+        &self,
+        path: &Path,
+        registry: &FileRegistry,
+    ) -> Result<(DatedFriction, String), Failure> {
         let (date, day) = date_of(path).unwrap_or_default();
         let cycle = self.cycle.seconds()?;
-        let recording = read_axis(path, &self.channels.selection(), cycle)?;
+        let recording = read_axis(path, &self.channels.selection(path, registry)?, cycle)?;
         let options = IdentifyOptions {
             measured: self.torque.measured(recording.measured),
             ..IdentifyOptions::default()

@@ -69,7 +69,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let selection = ChannelSelection {
         actual_position: args.actual_position.clone(),
         following_error: args.following_error.clone(),
-        ..args.channels.selection()
+        ..args.channels.selection(&args.trace, &registry)?
     };
     let recording = read_axis(&args.trace, &selection, cycle_s)?;
     let predictor = Predictor {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -383,4 +384,67 @@ fn axes_that_nobody_described_are_not_taken_for_others() {
         "{text}"
     );
     assert!(text.contains("`[[axis]]` with `name = \"Y\"`"), "{text}");
+}
+
+#[test]
+fn the_lead_of_an_axis_is_that_of_its_recordings() {
+    // R6.26: a recording in turns of the motor, with the lead beside it, above it, or on the command line.
+    let demo = include_str!("../../../programs/demo/recordings/friction_x.csv");
+    let mut text = "t,SetVelo,ActTorque\n".to_owned();
+    for line in demo.lines() {
+        let cells: Vec<f64> = line
+            .split('\t')
+            .filter_map(|cell| cell.parse().ok())
+            .collect();
+        if let [ms, velocity, torque] = cells[..] {
+            let _ = writeln!(text, "{},{},{torque}", ms / 1000.0, velocity / 10_000.0);
+        }
+    }
+    let described = tempfile::tempdir().expect("a folder");
+    let axis = "[[axis]]\nname = \"X\"\nlead = 10\n";
+    write(
+        described.path(),
+        &[("frictcomp.toml", axis), ("runs/x.csv", &text)],
+    );
+    let bare = tempfile::tempdir().expect("a folder");
+    write(bare.path(), &[("runs/x.csv", &text)]);
+    let identified = |folder: &Path, further: &[&str]| {
+        let fixed =
+            "identify runs/x.csv --velocity SetVelo --torque ActTorque --unit SetVelo=rev/s";
+        let arguments: Vec<&str> = fixed.split(' ').chain(further.iter().copied()).collect();
+        // The first line names the axis, where it is given.
+        let text = out(&tool(folder, &arguments));
+        text.split_once('\n')
+            .map_or(String::new(), |(_, rest)| rest.to_owned())
+    };
+    let given = identified(bare.path(), &["--lead", "10"]);
+    assert!(given.contains("value list"), "{given}");
+    assert_eq!(identified(described.path(), &[]), given);
+    assert_eq!(identified(described.path(), &["--axis", "X"]), given);
+    assert_ne!(identified(described.path(), &["--lead", "5"]), given);
+    assert_ne!(identified(bare.path(), &[]), given);
+}
+
+#[test]
+fn numbers_without_a_header_and_a_time_are_no_recording() {
+    // R6.27
+    let folder = tempfile::tempdir().expect("a folder");
+    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].input 0\n\
+                frict_comp.table[0].output 100\n";
+    write(
+        folder.path(),
+        &[("x.csv", "5,6\n3,2\n4,1\n4,1\n"), ("x.lis", list)],
+    );
+    for command in ["identify", "verify --value-list x.lis"] {
+        let mut arguments: Vec<&str> = command.split(' ').collect();
+        arguments.extend(["x.csv", "--velocity", "column 1", "--torque", "column 2"]);
+        let output = tool(folder.path(), &arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{command}: {}",
+            said(&output)
+        );
+        assert!(said(&output).contains("has no times"), "{}", said(&output));
+    }
 }

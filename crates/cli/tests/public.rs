@@ -1,10 +1,7 @@
-//! The promises to hosts: the public names, and that all of them can be sent to another
-//! thread.
+//! The promises to hosts: a type has one name, can grow, and can be sent to another thread.
 
 #[path = "workspace/files.rs"]
 mod files;
-#[path = "public/sent.rs"]
-mod sent;
 mod workspace;
 
 use std::collections::BTreeMap;
@@ -16,7 +13,6 @@ use workspace::root;
 
 /// A package that others may use.
 struct Package {
-    name: &'static str,
     /// Its folder.
     folder: &'static str,
     /// The prefix of its rooms in the list.
@@ -24,21 +20,17 @@ struct Package {
 }
 
 const PACKAGES: [Package; 7] = [
-    package("frictcomp", ".", ""),
-    package("frictcomp-physics", "crates/physics", ""),
-    package("frictcomp-recordings", "crates/recordings", ""),
-    package("frictcomp-drives", "crates/drives", "drives"),
-    package("frictcomp-report", "crates/report", "report"),
-    package("frictcomp-host", "crates/host", "host"),
-    package("frictcomp-editor", "crates/editor", ""),
+    package(".", ""),
+    package("crates/physics", ""),
+    package("crates/recordings", ""),
+    package("crates/drives", "drives"),
+    package("crates/report", "report"),
+    package("crates/host", "host"),
+    package("crates/editor", ""),
 ];
 
-const fn package(name: &'static str, folder: &'static str, prefix: &'static str) -> Package {
-    Package {
-        name,
-        folder,
-        prefix,
-    }
+const fn package(folder: &'static str, prefix: &'static str) -> Package {
+    Package { folder, prefix }
 }
 
 impl Package {
@@ -150,23 +142,6 @@ fn public(code: &str) -> Vec<Public> {
     found
 }
 
-/// Every public name of every package, sorted.
-fn items() -> Vec<String> {
-    let mut items: Vec<String> = PACKAGES.iter().flat_map(Package::items).collect();
-    items.sort();
-    items
-}
-
-#[test]
-fn the_public_names_change_on_purpose() {
-    // `INSTA_UPDATE=always cargo test --test public` accepts a change.
-    let listed = PACKAGES.iter().map(|package| {
-        let items = package.items().join("\n");
-        format!("# {}\n{items}\n", package.name)
-    });
-    insta::assert_snapshot!("public_items", listed.collect::<Vec<_>>().join("\n"));
-}
-
 #[test]
 fn a_type_has_a_name_of_its_own() {
     let mut rooms: BTreeMap<String, Vec<String>> = BTreeMap::new();
@@ -187,26 +162,6 @@ fn a_type_has_a_name_of_its_own() {
     }
     rooms.retain(|_, rooms| rooms.len() > 1);
     assert_eq!(rooms, BTreeMap::new());
-}
-
-/// Whether a public name is that of a trait.
-fn is_trait(name: &str) -> bool {
-    const TRAITS: [&str; 13] = [
-        "ContourSink",
-        "CurrentSink",
-        "Finder",
-        "LineSource",
-        "ListFiles",
-        "Observer",
-        "Report",
-        "Simulations",
-        "ScanQuestion",
-        "Sources",
-        "Sink",
-        "TraceSink",
-        "Watcher",
-    ];
-    TRAITS.contains(&name)
 }
 
 /// The types that a caller fills in: all fields have to be named, so that a new field is a new question.
@@ -323,26 +278,19 @@ fn what_is_read_can_grow() {
 }
 
 #[test]
-fn every_public_type_is_checked_to_be_send() {
-    let is_type = |item: &String| {
-        let name = item.rsplit("::").next().unwrap_or(item);
-        item.contains("::")
-            && name.starts_with(|c: char| c.is_ascii_uppercase())
-            && name.contains(|c: char| c.is_ascii_lowercase())
-            && !is_trait(name)
-    };
-    let public = items().into_iter().map(|item| {
-        let path = item.split(' ').next().unwrap_or_default();
-        path.to_owned()
-    });
-    // They borrow the flushing output of the thread that runs the programs.
-    let is_at_home = |item: &String| item == "host::RunContext";
-    let public: Vec<String> = public
-        .filter(|item| is_type(item) && !is_at_home(item))
-        .collect();
-    let sent: Vec<String> = sent::SENT
-        .iter()
-        .map(|name| name.split('<').next().unwrap_or(name).replace(' ', ""))
-        .collect();
-    assert_eq!(sent, public, "the list in crates/cli/tests/public/sent.rs");
+fn what_hosts_keep_can_be_sent_to_another_thread() {
+    fn is_send<T: Send>() {}
+    is_send::<frictcomp::audit::Archive>();
+    is_send::<frictcomp::diagnostic::Diagnostic>();
+    is_send::<frictcomp::interpreter::Interpreter>();
+    is_send::<frictcomp::interpreter::Snapshot>();
+    is_send::<frictcomp::machine::Machine>();
+    is_send::<frictcomp::session::SavedState>();
+    is_send::<frictcomp::session::Session>();
+    is_send::<frictcomp_host::HostError>();
+    is_send::<frictcomp_host::LoadedMachine>();
+    is_send::<frictcomp_physics::circle::Learner>();
+    is_send::<frictcomp_physics::contour::ProgramContour<()>>();
+    is_send::<frictcomp_physics::simulation::Drive>();
+    is_send::<frictcomp_recordings::trace::TraceRecording>();
 }

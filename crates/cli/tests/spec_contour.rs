@@ -198,8 +198,9 @@ fn what_is_not_known_is_left_out_and_counted() {
         bench.call(&["contour", "part.nc", "--start", "X0,Y0", "--svg", "a.svg"]);
         bench.read("a.svg")
     };
-    let with_radius = self::bench("G01 X10 Y5 F1000\nG41\nX20 Y5\nG40\nX30 Y5\nM30\n");
-    assert!(picture(&with_radius).contains(">left out</text>"));
+    let turned =
+        "G01 X10 Y5 F1000\n#ROTATION ON [ANGLE 30]\nX20 Y5\nX25\n#ROTATION OFF\nX30 Y5\nM30\n";
+    assert!(picture(&self::bench(turned)).contains(">left out</text>"));
     assert!(!picture(&self::bench("G01 X10 Y5 F1000\nM30\n")).contains("left out"));
     let found = contour(&bench, &[]);
     assert!(number(&found["left_out"]) >= 1.0, "{found}");
@@ -255,8 +256,8 @@ fn feed_moves_that_were_left_out_are_no_all_clear() {
     };
     assert_eq!(status("G01 X10 Y0 F2000\nG01 X20\nM30\n"), Some(1));
     assert_eq!(status("G00 X10 Y0\nG01 X20 F2000\nM30\n"), Some(0));
-    let with_radius = "G00 X10 Y0\nG01 X20 F2000\nG41\nX30\nG40\nX40\nM30\n";
-    assert_eq!(status(with_radius), Some(1));
+    let turned = "G00 X10 Y0\nG01 X20 F2000\n#ROTATION ON [ANGLE 30]\nX30 Y0\nX40\nM30\n";
+    assert_eq!(status(turned), Some(1));
 }
 
 #[test]

@@ -257,7 +257,7 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
     }
     out.extend_from_slice(match frame {
         PositionFrame::Machine => b"machine,",
-        PositionFrame::Programmed => b"programmed,",
+        _ => b"programmed,",
     });
 }
 

@@ -105,7 +105,12 @@ pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     let mut column = 0;
     let text = visible_line(text);
     for (count, word) in text.split(' ').enumerate() {
-        let columns = word.width();
+        // A visible character of ASCII is a column.
+        let columns = if word.is_ascii() {
+            word.len()
+        } else {
+            word.width()
+        };
         if count > 0 && column + 1 + columns > room && !is_command(word) {
             wrapped.push('\n');
             column = 0;

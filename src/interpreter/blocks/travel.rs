@@ -108,12 +108,14 @@ impl Interpreter {
         let Some(from) = from else { return };
         let geometry = geometry.unwrap_or_default();
         let motion = self.motion(&geometry, from, words);
-        if let Some(Motion::Travel(travel)) = &motion
-            && matches!(travel.form, PathForm::Arc(_))
-        {
-            self.scratch.aside.arc = Some(travel.clone());
+        let is_taken = self.options.motions == Motions::Taken;
+        match motion {
+            Some(Motion::Travel(travel)) if matches!(travel.form, PathForm::Arc(_)) => {
+                self.scratch.motion = is_taken.then(|| Motion::Travel(travel.clone()));
+                self.scratch.aside.arc = Some(travel);
+            }
+            motion => self.scratch.motion = motion.filter(|_| is_taken),
         }
-        self.scratch.motion = motion.filter(|_| self.options.motions == Motions::Taken);
     }
 
     fn motion(
@@ -151,6 +153,7 @@ impl Interpreter {
             contouring: modal.contouring(geometry.simplified),
             slope: modal.slope(),
             end_feed_per_min: self.end_feed(geometry),
+            tool: modal.tool_side(),
             simplified: modal.simplified.union(geometry.simplified),
         }))
     }

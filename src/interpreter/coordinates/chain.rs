@@ -4,6 +4,7 @@
 //! PM/n is page n of the TF5200 programming manual.
 
 use super::group::Group;
+use super::modal::PositionFrame;
 
 /// Effect of a `#` command on positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,6 +89,20 @@ pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, Chain
         words
     };
     Some((words, step, off))
+}
+
+/// What the command or function of a name makes of positions (R11.30): an M, T or D function that may move the
+/// origin leaves paths as they are; one whose number is not known may call any program.
+pub(super) fn frame(name: &str) -> PositionFrame {
+    if name == "G41" {
+        return PositionFrame::Contour;
+    }
+    let is_function = name.starts_with(['M', 'T', 'D']) && name[1..].parse::<u64>().is_ok();
+    match command(name) {
+        Some((_, ChainStep::Origin | ChainStep::Machine, _)) => PositionFrame::Shifted,
+        None if is_function => PositionFrame::Shifted,
+        _ => PositionFrame::Programmed,
+    }
 }
 
 /// M functions that are known not to move an origin: those of DIN 66025-2 and of the manual's overview

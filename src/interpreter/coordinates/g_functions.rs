@@ -30,6 +30,9 @@ pub struct GFunctions {
     pub offset: u32,
     /// Whether the circle centre is absolute, G161.
     pub centre_absolute: bool,
+    /// G40 to G42.
+    #[serde(default = "without_compensation")]
+    pub(super) tool_side: u32,
     /// Condition for the end of blocks, G359 and G360.
     pub block_end: BlockEnd,
     /// Groups whose active function is not known offline (R2.51).
@@ -37,6 +40,10 @@ pub struct GFunctions {
     /// Modes of F without a feed.
     #[serde(default)]
     pub(super) lacking: LackingFeeds,
+}
+
+fn without_compensation() -> u32 {
+    40
 }
 
 impl Default for GFunctions {
@@ -51,6 +58,7 @@ impl Default for GFunctions {
             feeds: [None; 4],
             offset: 53,
             centre_absolute: false,
+            tool_side: without_compensation(),
             block_end: BlockEnd::Through,
             unknown: GroupSet::default(),
             lacking: LackingFeeds::all(),

@@ -9,21 +9,27 @@ use super::chain::{self, ChainStep};
 use super::contouring::{Contouring, ContouringCommand};
 use super::g_functions::{GFunctions, PER_MINUTE, PER_REVOLUTION};
 use super::group::Group;
-use super::motion::BlockEnd;
+use super::motion::{BlockEnd, ToolSide};
 use super::pace::{Pace, ProgrammedFeed};
 use super::simplified::{self, Holds, Simplification, Simplifications};
 use super::slope::SlopeSelection;
 use crate::comp::AxisIndex;
 use crate::machine::{ChannelSettings, SlopeProfile};
 
-/// Whether a position is one of the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// Whether a position is one of the machine, and if not, what separates it from one; what separates more
+/// comes later.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PositionFrame {
     /// No transformation is active.
     Machine,
-    /// A transformation, rotation, mirroring or cutter radius compensation is active: positions
-    /// are those of the program (R2.47).
+    /// An origin that only the machine knows: paths and velocities are those of the machine, places
+    /// are those of the program (R11.30).
+    Shifted,
+    /// Tool radius compensation is active: positions are those of the programmed contour, which the tool
+    /// follows beside it.
+    Contour,
+    /// A transformation, rotation or mirroring is active: positions are those of the program (R2.47).
     Programmed,
 }
 
@@ -168,7 +174,10 @@ impl Modal {
                 }
                 self.functions.offset = number;
             }
-            Group::CutterRadius => self.transform("G41", number != 40),
+            Group::CutterRadius => {
+                self.functions.tool_side = number;
+                self.transform("G41", number != 40);
+            }
             Group::CircleCentre => self.functions.centre_absolute = number == 161,
             Group::ExactStop if number == 360 => self.functions.block_end = BlockEnd::ExactStop,
             Group::ExactStop => self.functions.block_end = BlockEnd::Through,
@@ -332,7 +341,7 @@ impl Modal {
             Group::Distance => u32::from(functions.absolute),
             Group::Feed => functions.feed_mode,
             Group::Offset => functions.offset,
-            Group::CutterRadius => u32::from(self.transformed.contains("G41")),
+            Group::CutterRadius => functions.tool_side,
             Group::CircleCentre => u32::from(functions.centre_absolute),
             Group::ExactStop => u32::from(functions.block_end == BlockEnd::ExactStop),
         }
@@ -540,11 +549,25 @@ impl Modal {
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {
             value: self.positions[axis.get()],
-            frame: if self.transformed.is_empty() {
-                PositionFrame::Machine
-            } else {
-                PositionFrame::Programmed
-            },
+            frame: self.frame(),
+        }
+    }
+
+    /// What separates positions from those of the machine.
+    pub fn frame(&self) -> PositionFrame {
+        let names = self.transformed.iter();
+        let frames = names.map(|name| chain::frame(name));
+        frames.max().unwrap_or(PositionFrame::Machine)
+    }
+
+    /// The side of the programmed contour on which the tool follows it, where that is known; `None` without
+    /// tool radius compensation.
+    pub(in crate::interpreter) fn tool_side(&self) -> Option<ToolSide> {
+        match self.functions.tool_side {
+            _ if !self.is_known(Group::CutterRadius) => None,
+            41 => Some(ToolSide::Left),
+            42 => Some(ToolSide::Right),
+            _ => None,
         }
     }
 }

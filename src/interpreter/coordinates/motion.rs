@@ -52,8 +52,20 @@ pub struct Travel {
     pub slope: Option<SlopeProfile>,
     /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
     pub end_feed_per_min: Option<f64>,
+    /// The side on which the tool follows, where tool radius compensation is known to be active.
+    pub tool: Option<ToolSide>,
     /// Functions on the path or its velocity that a commanded trace does not follow.
     pub simplified: Simplifications,
+}
+
+/// The side of a contour on which the tool follows it, seen in the direction of motion (PM/207729163).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ToolSide {
+    /// G41.
+    Left,
+    /// G42.
+    Right,
 }
 
 /// Shape of the path.

@@ -106,10 +106,10 @@ impl Condition {
 
     /// Whether it is the same question at the same place, at any time.
     pub(in crate::interpreter) fn is_like(&self, other: &Self) -> bool {
-        self.kind == other.kind
-            && self.place.first_line == other.place.first_line
-            && self.place.file == other.place.file
+        self.place.first_line == other.place.first_line
             && self.place.span == other.place.span
+            && self.kind == other.kind
+            && self.place.file == other.place.file
             && self.texts == other.texts
     }
 }

@@ -245,6 +245,19 @@ pub struct ProgramEnd {
     pub compensation: Compensation,
 }
 
+impl ProgramEnd {
+    /// What decides whether the program ends there, in words: `` `V.E.A` ``, a missing jump label.
+    pub(crate) fn decided_by(&self) -> Option<String> {
+        let cause = self.cause.as_deref()?;
+        let is_words = cause.contains(' ') && !cause.starts_with('#');
+        Some(if is_words {
+            cause.to_owned()
+        } else {
+            format!("`{cause}`")
+        })
+    }
+}
+
 /// The state at the errors after which a run goes on: on the control, the program ends there (R9.20).
 #[derive(Debug)]
 pub(crate) struct StoppedState {

@@ -270,8 +270,8 @@ impl LeftAwayKind<'_> {
                 EndedBy::Budget => "only a reset ends the program here",
                 _ => "the program ends here",
             };
-            let text = match &end.cause {
-                Some(cause) => format!("{what}, depending on `{cause}`"),
+            let text = match end.decided_by() {
+                Some(cause) => format!("{what}, depending on {cause}"),
                 None if has_others => format!("{what} otherwise"),
                 None => what.to_owned(),
             };

@@ -230,7 +230,7 @@ impl Batch {
             let position = row.modal.position(AxisIndex::new(at));
             // Rounded to a nanometre, as in CSV.
             column.push(position.value.map(|value| (value * 1e6).round() / 1e6));
-            frame = i32::from(position.frame == PositionFrame::Programmed);
+            frame = i32::from(position.frame != PositionFrame::Machine);
         }
         self.frames.push(frame);
     }

@@ -10,6 +10,7 @@ use super::super::execution::ExecutionArgs;
 use super::super::failure::Failure;
 use super::super::machine::MachineArgs;
 use super::super::start::StartArgs;
+use super::super::tool_radius::ToolArgs;
 use frictcomp_physics::current::{ChosenOptions, DeadBand, Resampling, TraceOptions};
 use frictcomp_physics::motion::PlannerOptions;
 
@@ -92,12 +93,15 @@ pub(crate) struct CurrentArgs {
     #[command(flatten)]
     pub(super) start: StartArgs,
     #[command(flatten)]
+    pub(super) tool: ToolArgs,
+    #[command(flatten)]
     pub(super) execution: ExecutionArgs,
 }
 
 /// Options that have no effect on a trace (R9.71).
-const OF_PROGRAMS: [&str; 15] = [
+const OF_PROGRAMS: [&str; 16] = [
     "max_cycles",
+    "radius_mm",
     "start",
     "config",
     "isolated",

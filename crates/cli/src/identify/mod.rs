@@ -48,7 +48,11 @@ pub(crate) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     outputs.check()?;
     let read = |path: &PathBuf| {
         let cycle = args.cycle.seconds()?;
-        Ok::<_, Failure>(read_axis(path, &args.channels.selection(), cycle)?)
+        Ok::<_, Failure>(read_axis(
+            path,
+            &args.channels.selection(path, &registry)?,
+            cycle,
+        )?)
     };
     if args.circles {
         refuse_copies(&args.traces)?;

@@ -43,7 +43,7 @@ pub(super) fn run(
     refuse_copies(&paths)?;
     let cycle = args.cycle.seconds()?;
     let states = args.recording.iter().map(|(name, path)| {
-        let recording = read_axis(path, &args.channels.selection(), cycle)?;
+        let recording = read_axis(path, &args.channels.selection(path, &registry)?, cycle)?;
         Ok((name.clone(), args.identified(path, recording, options)?))
     });
     let states = states.collect::<Result<Vec<_>, Failure>>()?;

@@ -481,3 +481,56 @@ fn a_message_that_is_allowed_decides_nothing() {
         assert!(text.contains(" at part.nc:2"), "{text}");
     }
 }
+
+#[test]
+fn a_bore_under_tool_radius_compensation_is_judged() {
+    // R11.30: without the radius as programmed, which is said; with it as the tool runs.
+    let bore = |side: &str, radius: f64| {
+        format!(
+            "X[COMP OFF FRICT] Y[COMP OFF FRICT]\nG01 X0 Y0 F1000\n{side} X{radius} Y0\nG03 I-{radius}\nI-{radius}\n\
+             G40 G01 X0\nM30\n"
+        )
+    };
+    let compensated = self::bench(&bore("G41", 20.0), MACHINE);
+    let figures = |bench: &Bench, arguments: &[&str]| {
+        let arguments = [&["--fail-above", "500"], arguments].concat();
+        let document = document(bench, &arguments);
+        assert_eq!(document["verdict"], "within", "{document}");
+        let glitches = document["reversals"].as_array().expect("reversals").iter();
+        let figures = glitches.filter_map(|it| it["glitch"].as_f64());
+        let figures: Vec<f64> = figures.collect();
+        assert!(figures.len() >= 4, "{document}");
+        figures
+    };
+    let programmed = figures(&compensated, &[]);
+    assert_eq!(
+        programmed,
+        figures(&self::bench(&bore("", 20.0), MACHINE), &[])
+    );
+    let (status, _, said) = contour(&compensated, &["--fail-above", "500"]);
+    assert_eq!(status, Some(0));
+    assert!(
+        said.contains("programmed contour") && said.contains("--tool-radius"),
+        "{said}"
+    );
+    let tool = figures(&compensated, &["--tool-radius", "8"]);
+    let smaller = figures(&self::bench(&bore("", 12.0), MACHINE), &[]);
+    for (tool, smaller) in tool.iter().zip(&smaller) {
+        assert!((tool - smaller).abs() < 0.05 * smaller, "{tool} {smaller}");
+    }
+    assert_ne!(tool, programmed);
+}
+
+#[test]
+fn an_origin_that_only_the_machine_knows_is_judged() {
+    // R11.30
+    for origin in ["G54", "#PSET[X10]", "M123"] {
+        let program = format!("{origin}\nG00 X0 Y0 Z0\nG01 X20 F1000\nG03 I-20\nM30\n");
+        let bench = self::bench(&program, MACHINE);
+        let document = document(&bench, &["--fail-above", "500"]);
+        assert_eq!(document["verdict"], "within", "{origin}: {document}");
+    }
+    let turned = "#ROTATION ON [ANGLE 30]\nG00 X0 Y0 Z0\nG01 X20 F1000\nG03 I-20\nM30\n";
+    let document = document(&self::bench(turned, MACHINE), &["--fail-above", "500"]);
+    assert_eq!(document["verdict"], "not judged");
+}

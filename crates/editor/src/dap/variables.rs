@@ -163,7 +163,7 @@ fn position(position: AxisPosition) -> String {
     match (position.value, position.frame) {
         (None, _) => "position unknown".to_owned(),
         (Some(value), PositionFrame::Machine) => format!("at {value}"),
-        (Some(value), PositionFrame::Programmed) => format!("at {value} of the program"),
+        (Some(value), _) => format!("at {value} of the program"),
     }
 }
 

@@ -231,6 +231,7 @@ mod tests {
             end_feed_per_min: None,
             simplified: frictcomp::interpreter::Simplifications::default(),
             contouring: None,
+            tool: None,
         };
         [0, 1].map(|which| along_arc(&travel, arc, which))
     }
@@ -280,6 +281,7 @@ mod tests {
                 end_feed_per_min: None,
                 simplified: frictcomp::interpreter::Simplifications::default(),
                 contouring: None,
+                tool: None,
             };
             along_arc(&travel, arc, 0)
         };

@@ -502,7 +502,7 @@ impl<S: ContourSink> Tracer<S> {
         self.path.forget_before(cycle.point);
         self.cycles += 1;
         let count = options.axes.len();
-        let is_of_machine = cycle.cause.frame == PositionFrame::Machine;
+        let is_of_machine = cycle.cause.frame != PositionFrame::Programmed;
         self.not_of_the_machine += u64::from(!is_of_machine);
         let counts = is_of_machine && cycle.cause.movement == Movement::Feed;
         let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);

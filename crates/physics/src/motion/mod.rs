@@ -25,6 +25,7 @@ mod sampler;
 mod segment;
 mod share;
 mod smoothing;
+mod tool_path;
 mod trace;
 mod turns;
 

@@ -9,10 +9,13 @@ use super::remarks::{MotionRemark, MotionRemarks, RemarkPlace};
 use super::rounding::{Rounding, Transitions};
 use super::sampler::Sampler;
 use super::segment::{Ends, PathSegment};
+use super::tool_path::ToolPath;
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
-use frictcomp::interpreter::{Motion, PathFeed, PathForm, PositionFrame, SAME_PLACE, Travel};
+use frictcomp::interpreter::{
+    Group, Motion, PathFeed, PathForm, PositionFrame, SAME_PLACE, Travel,
+};
 use frictcomp::machine::{Axis, Machine};
 use frictcomp::timeline::Row;
 
@@ -24,6 +27,8 @@ pub struct PlannerOptions {
     pub cycle_s: f64,
     /// Limit of the cycles of the trace.
     pub max_cycles: u64,
+    /// The radius of the tool in mm, for G41 and G42; without one the programmed contour is followed (R11.30).
+    pub tool_radius_mm: Option<f64>,
 }
 
 impl PlannerOptions {
@@ -38,6 +43,12 @@ impl PlannerOptions {
         self.max_cycles = max_cycles;
         self
     }
+
+    /// Sets [`tool_radius_mm`](Self::tool_radius_mm).
+    pub fn with_tool_radius_mm(mut self, tool_radius_mm: f64) -> Self {
+        self.tool_radius_mm = Some(tool_radius_mm);
+        self
+    }
 }
 
 impl Default for PlannerOptions {
@@ -46,6 +57,7 @@ impl Default for PlannerOptions {
         Self {
             cycle_s: 0.001,
             max_cycles: 100_000_000,
+            tool_radius_mm: None,
         }
     }
 }
@@ -55,7 +67,7 @@ const UNKNOWN_START: &str = "the position of the axes before this motion is not 
 
 /// Turns the rows of a session into the commanded trace of some axes.
 pub struct TrajectoryPlanner {
-    path: Rounding,
+    path: ToolPath,
     followed: Vec<AxisIndex>,
     /// The name of each axis.
     names: Vec<String>,
@@ -115,7 +127,11 @@ impl TrajectoryPlanner {
         let is_main = |axis: &Axis| matches!(axis.name.as_str(), "X" | "Y" | "Z");
         let main: Arc<[bool]> = machine.axes.iter().map(is_main).collect();
         Self {
-            path: Rounding::new(LookAhead::new(limits, sampler), Arc::clone(&main)),
+            path: ToolPath::new(
+                Rounding::new(LookAhead::new(limits, sampler), Arc::clone(&main)),
+                Arc::clone(&main),
+                options.tool_radius_mm,
+            ),
             followed: followed.to_vec(),
             main,
             stand: Vec::new(),
@@ -152,7 +168,7 @@ impl TrajectoryPlanner {
 
     /// FC915 at the last block that moved something.
     fn check_budget(&mut self) {
-        if self.path.look_ahead().is_over() {
+        if self.path.rounding().look_ahead().is_over() {
             let at = RemarkPlace {
                 file: &Arc::clone(&self.file),
                 text: &std::mem::take(&mut self.text),
@@ -182,7 +198,7 @@ impl TrajectoryPlanner {
 
     /// Returns the treatment of the transitions between feed moves.
     pub fn transitions(&self) -> Transitions {
-        self.path.transitions()
+        self.path.rounding().transitions()
     }
 
     /// Returns the number of motions that the trace leaves out.
@@ -223,14 +239,9 @@ impl TrajectoryPlanner {
             }
             return ControlFlow::Continue(());
         };
-        if !row.modal.transformed.is_empty() {
-            let remark = MotionRemark {
-                code: Code::Fc904,
-                message: "from here on the trace is that of the program, not of the machine: a \
-                          transformation is active",
-                help: "the axes of the machine move differently".into(),
-            };
-            self.remarks.say(&RemarkPlace::of(row), remark);
+        self.remarks.say_frame(row, segment.cause.frame);
+        if travel.tool.is_some() && segment.cause.frame == PositionFrame::Machine {
+            self.remarks.say_tool(row);
         }
         let jumped = self.stand.iter().zip(&travel.from);
         if self.running == Running::Yes
@@ -243,13 +254,41 @@ impl TrajectoryPlanner {
         }
         if self.running == Running::No {
             self.remarks.say_before();
-            sink.begin(self.path.look_ahead().time_s(), &segment.cause)?;
+            sink.begin(self.path.rounding().look_ahead().time_s(), &segment.cause)?;
             self.running = Running::Yes;
         }
         self.stand.clone_from(&travel.to);
         self.end.clear();
         self.end.extend_from_slice(segment.ends());
-        self.path.add((segment, travel.contouring), sink)
+        let tool = travel.tool.zip(self.plane(row));
+        match self.path.add((segment, travel.contouring), tool, sink) {
+            Ok(flow) => flow,
+            Err(reason) => self.lose(row, reason, sink),
+        }
+    }
+
+    /// The axes of the plane in force.
+    fn plane(&self, row: &Row<'_>) -> Option<[usize; 2]> {
+        let axis = |name: &str| self.names.iter().position(|it| it == name);
+        let [one, two] = match row.modal.functions.plane {
+            _ if !row.modal.is_known(Group::Plane) => return None,
+            18 => ["Z", "X"],
+            19 => ["Y", "Z"],
+            _ => ["X", "Y"],
+        };
+        Some([axis(one)?, axis(two)?])
+    }
+
+    /// What separates the path that is followed from that of the machine.
+    fn frame(&self, row: &Row<'_>, travel: &Travel) -> PositionFrame {
+        match row.modal.frame() {
+            PositionFrame::Contour
+                if self.path.has_radius() && travel.tool.is_some() && self.plane(row).is_some() =>
+            {
+                PositionFrame::Machine
+            }
+            frame => frame,
+        }
     }
 
     fn dwell(
@@ -265,7 +304,7 @@ impl TrajectoryPlanner {
             Some(seconds) if seconds >= 0.0 && seconds.is_finite() => {
                 let dwell = Dwell {
                     seconds,
-                    cause: &self.cause(row, Movement::Dwell),
+                    cause: &self.cause(row, Movement::Dwell, row.modal.frame()),
                 };
                 self.path.rest(dwell, sink)
             }
@@ -340,7 +379,7 @@ impl TrajectoryPlanner {
             _ => Movement::Feed,
         };
         self.remarks.say_simplified(row, travel.simplified);
-        let cause = self.cause(row, movement);
+        let cause = self.cause(row, movement, self.frame(row, travel));
         let ends = Ends {
             from: from.into(),
             to: to.into(),
@@ -362,7 +401,7 @@ impl TrajectoryPlanner {
             PathFeed::PerMinute(feed) => feed / 60.0,
             PathFeed::Seconds(seconds) => segment.length / seconds,
             PathFeed::OfAxes(share) if share >= 1.0 => f64::INFINITY,
-            PathFeed::OfAxes(share) => self.path.look_ahead().fastest(&segment) * share,
+            PathFeed::OfAxes(share) => self.path.rounding().look_ahead().fastest(&segment) * share,
             PathFeed::Unknown(reason) => return Err(PlanObstacle::Reason(reason)),
         };
         segment.end = travel.end;
@@ -373,7 +412,7 @@ impl TrajectoryPlanner {
         Ok(Some(segment))
     }
 
-    fn cause(&mut self, row: &Row<'_>, movement: Movement) -> Arc<Cause> {
+    fn cause(&mut self, row: &Row<'_>, movement: Movement, frame: PositionFrame) -> Arc<Cause> {
         if self.version != Some(row.state.version) {
             self.version = Some(row.state.version);
             let axes = self.followed.iter();
@@ -391,11 +430,7 @@ impl TrajectoryPlanner {
             line: row.line,
             number: row.number,
             movement,
-            frame: if row.modal.transformed.is_empty() {
-                PositionFrame::Machine
-            } else {
-                PositionFrame::Programmed
-            },
+            frame,
             simplified: self.remarks.simplified(),
             friction: Arc::clone(&self.friction),
         })
@@ -408,7 +443,7 @@ impl TrajectoryPlanner {
             matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == PathForm::Rapid);
         self.left_out_feed += u64::from(!is_rapid);
         sink.left_out(&SkippedMotion {
-            time_s: self.path.look_ahead().time_s(),
+            time_s: self.path.rounding().look_ahead().time_s(),
             file: row.file,
             line: row.line,
             number: row.number,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use frictcomp::diagnostic::{Advice, Code, Diagnostic};
-use frictcomp::interpreter::Simplifications;
+use frictcomp::interpreter::{PositionFrame, Simplifications};
 use frictcomp::text::{Place, Span};
 use frictcomp::timeline::Row;
 
@@ -132,6 +132,53 @@ impl MotionRemarks {
             self.say_once(key, &RemarkPlace::of(row), remark);
         }
         self.simplified = holds;
+    }
+
+    /// FC904: what separates the path that is followed from that of the machine, once for each.
+    pub(super) fn say_frame(&mut self, row: &Row<'_>, frame: PositionFrame) {
+        let (subject, message, help) = match frame {
+            PositionFrame::Machine => return,
+            PositionFrame::Shifted => (
+                "origin",
+                "from here on the trace has the places of the program: only the machine knows the origin",
+                "paths and velocities are those of the machine",
+            ),
+            PositionFrame::Contour => (
+                "tool",
+                "from here on the trace is that of the programmed contour: the radius of the tool is not known",
+                "give it with `--tool-radius`, in mm: in a bore the tool runs on a smaller circle, and its axes reverse with a larger acceleration",
+            ),
+            PositionFrame::Programmed => (
+                "",
+                "from here on the trace is that of the program, not of the machine: a transformation is active",
+                "the axes of the machine move differently",
+            ),
+        };
+        let remark = MotionRemark {
+            code: Code::Fc904,
+            message,
+            help: help.into(),
+        };
+        self.say_once(
+            (remark.code, Arc::from(""), 0, subject),
+            &RemarkPlace::of(row),
+            remark,
+        );
+    }
+
+    /// FC907: the path of the tool beside a contour.
+    pub(super) fn say_tool(&mut self, row: &Row<'_>) {
+        let remark = MotionRemark {
+            code: Code::Fc907,
+            message: "the trace follows the tool beside the contour, and passes outer corners and the first block \
+                      in its own way (`G41`, `G42`)",
+            help: Advice::ReadPage(Code::Fc907),
+        };
+        self.say_once(
+            (remark.code, Arc::from(""), 0, "tool"),
+            &RemarkPlace::of(row),
+            remark,
+        );
     }
 
     /// FC903: a motion is left out.

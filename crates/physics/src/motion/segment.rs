@@ -1,5 +1,6 @@
 //! One piece of the path: the positions of the axes after a distance, their slopes and their bends.
 
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc as Shared;
 
 use super::curve::SplineSpan;
@@ -56,6 +57,19 @@ struct PlaneArc {
     start: f64,
     /// The angle that it runs through, positive against the clock.
     sweep: f64,
+}
+
+/// The line or the circle of a plane on which a segment lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Outline {
+    Line {
+        through: [f64; 2],
+        direction: [f64; 2],
+    },
+    Circle {
+        centre: [f64; 2],
+        radius: f64,
+    },
 }
 
 /// Ends of a segment, by axis, and the axes that the feed refers to.
@@ -145,6 +159,109 @@ impl PathSegment {
             end_velocity: block.end_velocity,
             ..self
         }
+    }
+
+    /// The block at a distance to the left of its direction in a plane, to the right if it is negative.
+    ///
+    /// # Errors
+    /// It has no such path.
+    pub(super) fn beside(&self, plane: [usize; 2], left: f64) -> Result<Self, &'static str> {
+        let mut beside = self.clone();
+        let mut aside = |place: fn(&mut Self) -> &mut Box<[f64]>, distance: f64| {
+            let [along, across] = self.direction(plane, distance);
+            place(&mut beside)[plane[0]] -= left * across;
+            place(&mut beside)[plane[1]] += left * along;
+        };
+        aside(|it| &mut it.from, 0.0);
+        aside(|it| &mut it.to, self.length);
+        match &mut beside.shape {
+            SegmentShape::Line => {}
+            SegmentShape::Arc(circle) if circle.axes == plane => {
+                let depth = (self.length.powi(2) - (circle.radius * circle.sweep).powi(2)).max(0.0);
+                circle.radius -= left * circle.sweep.signum();
+                if circle.radius < SAME_PLACE {
+                    return Err("the arc is not larger than the tool");
+                }
+                beside.length = (circle.radius * circle.sweep).hypot(depth.sqrt());
+            }
+            _ => return Err("the arc is not in the plane of the tool radius compensation"),
+        }
+        Ok(beside)
+    }
+
+    /// The arc from the end of this block to a place of the plane.
+    pub(super) fn around(&self, arc: &CircularArc, end: [f64; 2], main: &[bool]) -> Option<Self> {
+        let mut to = self.to.clone();
+        for (axis, end) in arc.axes.iter().zip(end) {
+            to[axis.get()] = end;
+        }
+        let ends = Ends {
+            from: self.to.clone(),
+            to,
+            main,
+        };
+        let mut around = Self::arc(ends, arc, Shared::clone(&self.cause)).ok()?;
+        (around.feed, around.slope) = (self.feed, self.slope);
+        Some(around)
+    }
+
+    /// The direction in a plane after a distance, as a unit; 0 if it does not move there.
+    pub(super) fn direction(&self, plane: [usize; 2], distance: f64) -> [f64; 2] {
+        let slope = plane.map(|axis| self.slope(axis, distance));
+        let length = slope[0].hypot(slope[1]);
+        slope.map(|slope| if length > 0.0 { slope / length } else { 0.0 })
+    }
+
+    /// The line or the circle of a plane on which it lies.
+    pub(super) fn outline(&self, plane: [usize; 2]) -> Outline {
+        match self.circle() {
+            Some(circle) => Outline::Circle {
+                centre: circle.centre,
+                radius: circle.radius,
+            },
+            None => Outline::Line {
+                through: plane.map(|axis| self.from[axis]),
+                direction: self.direction(plane, 0.0),
+            },
+        }
+    }
+
+    /// The part of its length at a place of a plane on its outline; below 0 before its start, above 1 beyond
+    /// its end.
+    pub(super) fn part_at(&self, axes: [usize; 2], place: [f64; 2]) -> f64 {
+        let Some(circle) = self.circle() else {
+            let way = axes.map(|axis| self.to[axis] - self.from[axis]);
+            let gone = [0, 1].map(|at| place[at] - self.from[axes[at]]);
+            return (gone[0] * way[0] + gone[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+        };
+        let angle = (place[1] - circle.centre[1]).atan2(place[0] - circle.centre[0]);
+        let middle = circle.start + circle.sweep / 2.0;
+        // The nearest turn to the middle of the arc.
+        let off = (angle - middle + PI).rem_euclid(TAU) - PI;
+        0.5 + off / circle.sweep
+    }
+
+    /// The part of the block between two parts of its length, with these ends in a plane.
+    pub(super) fn between(
+        &self,
+        parts: [f64; 2],
+        (axes, places): ([usize; 2], [[f64; 2]; 2]),
+    ) -> Self {
+        let mut cut = self.clone();
+        let share = parts[1] - parts[0];
+        let ends = [&mut cut.from, &mut cut.to];
+        for ((end, part), place) in ends.into_iter().zip(parts).zip(places) {
+            for axis in 0..self.from.len() {
+                end[axis] = self.from[axis] + (self.to[axis] - self.from[axis]) * part;
+            }
+            (end[axes[0]], end[axes[1]]) = (place[0], place[1]);
+        }
+        if let SegmentShape::Arc(circle) = &mut cut.shape {
+            circle.start += circle.sweep * parts[0];
+            circle.sweep *= share;
+        }
+        cut.length *= share;
+        cut
     }
 
     /// Whether it is straight.

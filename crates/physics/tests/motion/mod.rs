@@ -6,6 +6,7 @@ mod forms;
 mod limits;
 mod listed;
 mod start;
+mod tool;
 mod turns;
 mod unknown;
 

@@ -109,9 +109,9 @@ impl ContourPicture {
         let is_on = off.into_iter().all(|state| *state == State::Active);
         let stroke = match (point.cause.frame, point.counts, is_on) {
             (PositionFrame::Programmed, ..) => Stroke::LeftOut,
-            (PositionFrame::Machine, false, _) => Stroke::Unjudged,
-            (PositionFrame::Machine, true, true) => Stroke::Compensated,
-            (PositionFrame::Machine, true, false) => Stroke::Uncompensated,
+            (_, false, _) => Stroke::Unjudged,
+            (_, true, true) => Stroke::Compensated,
+            (_, true, false) => Stroke::Uncompensated,
         };
         let spot = MarkedSpot {
             file: Arc::clone(&point.cause.file),

@@ -21,11 +21,11 @@ use crate::simulation::DriveParameters;
 use frictcomp::lists::{FrictionList, Points};
 
 /// Rounds on half of the circles, and on all of them.
-const TRIAL: usize = 6;
+const TRIAL: usize = 3;
 const MOST: usize = 8;
 
-/// Rounds after circles were added.
-const AGAIN: usize = 3;
+/// Rounds after circles were added: more of them gain less than they cost.
+const AGAIN: usize = 1;
 
 /// Rounds of whole numbers.
 const WHOLE: usize = 4;

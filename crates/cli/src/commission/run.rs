@@ -414,7 +414,7 @@ fn switched(
     let off: Vec<&CompensationShown> = off.filter_map(RecordingOutcome::compensation).collect();
     let on = used_in(plan, results).filter_map(RecordingOutcome::compensation);
     let on: Vec<&CompensationShown> = on.collect();
-    let plant = fitted.verdicts.iter().find(|it| it.found.round == number);
+    let found = fitted.verdicts.iter().find(|it| it.found.round == number);
     let [mut against, mut not_shown] = [Vec::new(), Vec::new()];
     for used in &plan.lists {
         let stages = StagesOfAxis {
@@ -427,7 +427,7 @@ fn switched(
                 // All feeds are in one recording.
                 _ => 1,
             },
-            plant: plant.and_then(|it| it.found.axes.iter().find(|it| it.axis == used.axis)),
+            plant: found.and_then(|it| it.found.axes.iter().find(|it| it.axis == used.axis)),
         };
         for state in [stages.was_on(), stages.was_off()] {
             match state {

@@ -220,10 +220,6 @@ fn of_circles(of: fn(&'static str, &'static [&'static str]) -> Fault) -> Vec<Fau
             recorder: |it| it.every = 4,
             ..of("a row every 4 ms", &["a sample every"])
         },
-        Fault {
-            machine: |it| it.axes[0].backlash_um = 5.0,
-            ..of("backlash of 5 µm on X", &["a step of"])
-        },
     ]
 }
 

@@ -110,15 +110,16 @@ fn with_half_the_error(mut recorded: Recorded) -> Recorded {
     recorded
 }
 
+/// What makes of a recording that of another machine.
+type Change = fn(&mut Recorded);
+
 /// How the strokes of another machine differ, and the words that name it.
-const OF_ANOTHER_MACHINE: [(fn(&mut Recorded), &str); 2] = [
+const OF_ANOTHER_MACHINE: [(Change, &str); 2] = [
     (
         // Its loops answer 12 ms later.
         |it| {
-            let before = it.x.clone();
-            for at in 12..before.len() {
-                it.x[at] = before[at - 12];
-            }
+            let samples = it.x.len();
+            it.x.copy_within(..samples - 12, 12);
         },
         "they are of another machine",
     ),

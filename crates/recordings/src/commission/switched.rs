@@ -119,7 +119,7 @@ impl StagesOfAxis<'_> {
             )),
             None => SwitchedAs::NotShown(format!(
                 "neither torque nor positions show that the list of {axis} was on{}: record actual torque and commanded \
-                 position, or give `--plant`",
+                 position, or state a plant",
                 self.range_of(self.on)
             )),
         }
@@ -162,7 +162,7 @@ impl StagesOfAxis<'_> {
         }
         SwitchedAs::NotShown(format!(
             "nothing shows that no part of a list of {axis} was on in stage 1{}: record the actual torque and the \
-             commanded position, or the state of the compensation, or give `--plant`",
+             commanded position, or the state of the compensation, or state a plant",
             self.range_of(self.off)
         ))
     }
